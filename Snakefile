@@ -8,6 +8,7 @@
 # A rule names the function that makes its result (`call`), its parameters and its inputs. The recipe
 # of the result collects these (nucleation.pipeline.planning). It is one more input of the rule, and it
 # is newer than the output if and only if the output shows another result.
+import atexit
 import functools
 import gc
 import importlib.util
@@ -46,7 +47,7 @@ bytecode = runpy.run_path(str(Path(SOURCE, "nucleation", "pipeline", "bytecode.p
 bytecode["make_checked"](Path(SOURCE, "nucleation"))
 os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nucleation")))
 
-from nucleation.configuration.advice import advise
+from nucleation.configuration.advice import advise, summary_of_meshes, warned
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import completed, configure
 from nucleation.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
@@ -65,6 +66,7 @@ from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.entries import StoreError
+from nucleation.pipeline.job_lines import shorten
 from nucleation.pipeline.launch import options
 from nucleation.pipeline.messages import LOGGER
 from nucleation.pipeline.planning import Plan
@@ -73,6 +75,8 @@ from nucleation.pipeline.store import others
 gc.freeze()  # searching all loaded objects takes a third of a second in all
 
 PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
+if PLANS and Path(workflow.main_snakefile).parent == BASE:  # no module of another workflow
+    shorten(logger, workflow.output_settings.quiet)
 
 try:
     provenance.moment()
@@ -108,6 +112,10 @@ def no_more_timers():
     for thread in threading.enumerate():
         if isinstance(thread, threading.Timer):
             thread.cancel()
+
+
+onstart:
+    report_meshes()
 
 
 onsuccess:

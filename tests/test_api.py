@@ -11,13 +11,13 @@ import pint
 import pytest
 import xarray as xr
 from numpy.testing import assert_allclose
+from two_bodies import Body
 
 from nucleation import api
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import arrays, critical
-from nucleation.theory.transfer import Body
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "b": 0.015, "slip_distance": 5e-6}

@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
 from .configuration.installed import MissingExtra, require, require_own
+from .fault import Fault
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -46,7 +47,6 @@ from .theory.arrays import (
     spectrum,
     transfer_functions,
 )
-from .theory.fault import Fault
 
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings

@@ -11,8 +11,9 @@ from nucleation.analysis.convergence import COLUMNS, refinement_table, sequences
 
 def row(**values):
     usual = {
-        "id": "run", "height": 0.02, "evolution": "aging", "initial_state": 1.0, "kind": "normal_load",
-        "strength": 1e-5, "correlation_length": 0.0, "seed": 1, "n_x": 400, "n_y": 20,
+        "id": "run", "height": 0.02, "evolution": "aging", "initial_state": 1.0,
+        "kind": "normal_load", "strength": 1e-5, "correlation_length": 0.0, "seed": 1,
+        "n_x": 400, "n_y": 20,
         "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3, "fault": "f0.02",
         "critical_length": 0.5, "block_length": 2.0, "onset_time": 12.0, "steps": 100,
         "wall_seconds": 1.0,

@@ -32,7 +32,7 @@ def made_up(law="aging"):
         step_size=("step", np.diff(time, prepend=0.0)),
         state=0.03 + 0.0 * rate,
         shear_stress=stress,
-        normal_stress=normal,
+        sigma_yy=normal,
     )
 
 
@@ -55,8 +55,8 @@ def test_numbers_of_a_steady_front():
     assert found["regular_share"] == pytest.approx(1.0, abs=0.03)
     assert found["middle_stress"] == 0.0
     assert found["largest_normal_stress"] == pytest.approx(-0.8 * STRESS)
-    opened = run.assign(normal_stress=run["normal_stress"].copy(deep=True))
-    opened["normal_stress"][-1, 5] = -0.1 * STRESS  # in the rupture
+    opened = run.assign(sigma_yy=run["sigma_yy"].copy(deep=True))
+    opened["sigma_yy"][-1, 5] = -0.1 * STRESS  # in the rupture
     later = measure(Record(opened))
     assert later["largest_normal_stress"] == pytest.approx(-0.8 * STRESS)
     assert later["largest_normal_stress_ever"] == pytest.approx(-0.1 * STRESS)

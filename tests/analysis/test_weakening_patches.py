@@ -75,7 +75,7 @@ def test_outcomes():
         assert outcome(fastest) == name
 
 
-@pytest.mark.parametrize("change", [{"varies": "f", "change": 0.5}, {"shape": "bump"}])
+@pytest.mark.parametrize("change", [{"varies": "friction", "change": 0.5}, {"shape": "bump"}])
 def test_other_heterogeneity_is_refused(runs, change):
     named = {f"heterogeneity.{name}": value for name, value in change.items()}
     parameters = Parameters.from_dict(runs[0].to_dict()["parameters"]).replaced(named)

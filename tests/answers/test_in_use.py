@@ -8,6 +8,7 @@ import xarray as xr
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from two_bodies import Body, transfer_functions
 
 from nucleation.answers import formulas
 from nucleation.answers.in_use import LENGTHS, expanding_length, lengths_in_use
@@ -18,7 +19,6 @@ from nucleation.model.quantities import ParameterError
 from nucleation.theory import closed_forms
 from nucleation.theory.arrays import critical_length
 from nucleation.theory.fault import Fault
-from nucleation.theory.transfer import Body, transfer_functions
 
 ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
 LOAD = {"normal_stress": 1e6, "slip_distance": 5e-7}

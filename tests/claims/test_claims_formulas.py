@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 from reference_evidence import BY_ID, evidence
 from theory import layer_problem
+from two_bodies import RIGID, Body, critical_wavenumber
 
 from nucleation.claims.claim import Verdict
 from nucleation.claims.independent import marginal, printed
 from nucleation.claims.independent.elastic_layers import Layer, compliance
 from nucleation.claims.statements import finite_height
-from nucleation.theory.critical import critical_wavenumber
-from nucleation.theory.transfer import RIGID, Body
 
 
 @pytest.fixture(scope="module")

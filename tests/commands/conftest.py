@@ -20,6 +20,12 @@ class Ended(NamedTuple):
     err: str
 
 
+@pytest.fixture(autouse=True)
+def no_terminal(monkeypatch):
+    """Lines are not wrapped, whatever the terminal of the tests."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+
 @pytest.fixture
 def nucleation(capfd):
     """Run a command line, given word by word."""

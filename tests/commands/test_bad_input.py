@@ -13,8 +13,8 @@ from nucleation.datasets.variables import annotate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
-    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
-    "--b": "0.015", "--slip-distance": "5um",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
+    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um",
 }  # fmt: skip
 
 
@@ -72,8 +72,11 @@ SIMULATE = [
     (["new.nc", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
     (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
     (["new.nc", "--evolution", "ageing"], ["evolution = 'ageing'", "one of aging, slip"]),
-    (["new.nc", "--length", "1cm"], ["length = 0.01 m", "nucleation specimen --length 0.01m"]),
-    (["new.nc", "--zeta-over-a", "-0.5"], ["needs its length"]),
+    (
+        ["new.nc", "--length", "1cm"],
+        ["block_length = 0.01 m", "nucleation specimen --length 0.01m"],
+    ),
+    (["new.nc", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
     (["new.nc", "--seed", "3"], ["seed = 3", "none"]),
     (["new.nc", "--strength", "1e-5"], ["strength = ", "none"]),
     (["new.nc", "--second-body", "25GPa,0.25,inf"], ["second_body.height = inf m is not allowed"]),

@@ -1,6 +1,7 @@
 """``nucleation simulate``: small runs, from options, files and a configuration."""
 
 import json
+import re
 import shlex
 import subprocess
 from pathlib import Path
@@ -9,11 +10,13 @@ import numpy as np
 import pytest
 
 from nucleation.analysis.extraction import extract
+from nucleation.commands.simulate import command
 from nucleation.configuration.study_names import other_names, study_parameters
 from nucleation.datasets import netcdf
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
+from nucleation.model.units import parse
 from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 from nucleation.theory.estimates import growth_time
@@ -71,16 +74,16 @@ def test_a_failed_simulation_keeps_its_record(nucleation, tmp_path):
 
 
 def planned(ended):
-    """The parameters that a dry run prints."""
-    lines = (line.split() for line in ended.out.splitlines() if line.startswith("  "))
-    return {words[0]: words[1] for words in lines}
+    """The parameters that a dry run prints, with their units."""
+    rows = (re.split("  +", line) for line in ended.out.splitlines() if line.startswith("  "))
+    return {name: value for _, name, value, _ in rows}
 
 
 def test_dry_run_writes_nothing(nucleation, tmp_path):
     ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
     assert ended.code == 0 and "theory: critical length 0.238 m" in ended.out
     assert "memory: about" in ended.out and not list(tmp_path.iterdir())
-    assert planned(ended)["n_x"] == "16" and planned(ended)["height"] == "0.005"
+    assert planned(ended)["n_x"] == "16" and planned(ended)["height"] == "5 mm"
     assert ended.err.startswith("Warning: ")
     assert "mesh too coarse" in ended.err and "command" not in ended.err
 
@@ -88,7 +91,9 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
 def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
     six = nucleation("simulate", tmp_path / "run.nc", "--dry-run")
     four = nucleation("simulate", tmp_path / "run.nc", "--dry-run", "--length-over-critical", "4")
-    ratio = float(planned(four)["length"]) / float(planned(six)["length"])
+    entry = study_parameters()["length"]
+    lengths = [parse("length", planned(ended)["length"], entry) for ended in (four, six)]
+    ratio = lengths[0] / lengths[1]
     assert ratio == pytest.approx(4 / 6, rel=1e-3)
 
 
@@ -105,7 +110,8 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
     (tmp_path / name).write_text(text)
     words = ["simulate", tmp_path / "run.nc", "--dry-run", "--parameters", tmp_path / name]
     found = planned(nucleation(*words))
-    assert (found["height"], found["n_x"], found["initial_state"]) == ("0.02", "80", "1000")
+    assert found["height"] in ("20 mm", "2 cm") and found["n_x"] == "80"
+    assert found["initial_state"] == "1000 s"
     assert found["evolution"] == "slip"
     assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
 
@@ -119,7 +125,7 @@ def test_a_run_of_the_configuration(nucleation, tmp_path):
     assert found == planned(nucleation(*words, *run, "--config", CONFIG))
     beyond = planned(nucleation(*words, "--run", "convergence_quiet-aging-H0.005-phi1-n_x1600"))
     assert beyond["n_x"] == "1600"
-    assert found["time_after_event"] == "0"
+    assert found["time_after_event"] == "0 s"
 
 
 def test_constants_of_friction_set_the_law(nucleation, tmp_path):
@@ -138,7 +144,9 @@ def test_constants_of_friction_set_the_law(nucleation, tmp_path):
 
 
 def test_every_parameter_has_an_option(nucleation):
-    text = " ".join(nucleation("simulate", "--help").out.split())
+    help = nucleation("simulate", "--help").out
+    text = " ".join(help.split())
+    understood = {word for option in command.params for word in option.opts}
     for name, entry in study_parameters().items():
         assert f"--{name.replace('_', '-')} " in text
         assert entry.range_text().replace("one of ", "").split(", ")[0] in text
@@ -146,7 +154,7 @@ def test_every_parameter_has_an_option(nucleation):
         for field in declarations(type(getattr(PARAMETERS, group))):
             assert f"{group}.{field}" in other_names()
             if (group, field) != ("second_body", "kind"):  # which is --second-body's
-                assert f"--{group}.{field}, ".replace("_", "-") in text
+                assert f"--{group}.{field}".replace("_", "-") in understood
 
 
 STEPS = 10  # after which a run is stopped

@@ -7,8 +7,9 @@ import pytest
 from nucleation.api import Parameters, critical_length
 
 FAULT = {
-    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
-    "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
+    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
+    "--velocity": "10um/s",
     "--height": "2m", "--second-body": "20GPa,0.3,3m",
 }  # fmt: skip
 OTHER_WORDS = {
@@ -65,8 +66,9 @@ def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
 def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
     """With the law's own a and b along the patch; v0 = 1e-2 V made the patch of `drop` longer."""
     sandstone = words({
-        "--shear-modulus": "6GPa", "--poisson-ratio": "0.25", "--normal-stress": "5MPa", "--a": "0.010",
-        "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+        "--shear-modulus": "6GPa", "--poisson-ratio": "0.25", "--normal-stress": "5MPa",
+        "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
+        "--velocity": "10um/s",
         "--height": "20cm",
     })  # fmt: skip
     fault = (*sandstone, *more, "--json")
@@ -169,9 +171,9 @@ def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):
     fault = ("--height", "2cm")
     for command in (("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
         alike = nucleation(*command, *fault).out
-        assert "System: two identical bodies, each a layer 0.02 m" in alike
+        assert "System: two identical bodies, each a layer 2 cm" in alike
         rigid = nucleation(*command, *fault, "--second-body", "rigid").out
-        assert "a layer 0.02 m high with its far side free" in rigid and "on a rigid one" in rigid
+        assert "a layer 2 cm high with its far side free" in rigid and "on a rigid one" in rigid
         papers = "shear_modulus, poisson_ratio, normal_stress, velocity, slip_distance, friction."
         assert papers in nucleation(*command, *fault, "--a", "0.01", "--b", "0.02").out
     given = {k: v for k, v in FAULT.items() if k not in ("--height", "--second-body")}

@@ -7,7 +7,7 @@ import pytest
 import square_evolution
 from configurations import messages, papers, study
 
-from nucleation.configuration.advice import advise
+from nucleation.configuration.advice import advise, summary_of_meshes, warned
 from nucleation.configuration.load import configure
 from nucleation.configuration.mesh_advice import element_sizes
 from nucleation.fem.grid import Grid
@@ -201,10 +201,27 @@ def test_a_warning_about_very_many_runs_stays_readable():
     assert text.endswith(" and 49 more]") and text.count("s-aging-H") == 101
 
 
+def test_the_summary_counts_runs_and_has_the_worst_mesh():
+    runs = configure(study({"height": 0.005, "n_x": [60, 80]}, {"height": 1.0, "n_y": 10})).runs
+    warnings = warned(runs)
+    assert [warning.text for warning in warnings] == advise(runs)
+    meshes = [warning for warning in warnings if warning.is_of_meshes]
+    topics = {warning.topic for warning in meshes}
+    assert topics == {"mesh too coarse along x", "mesh too coarse along y"}
+    text = summary_of_meshes(meshes, "list.txt")
+    worst = min(runs, key=lambda run: run.parameters.mesh.n_x)
+    along = worst.parameters.geometry.length / worst.parameters.mesh.n_x
+    zone = process_zone(worst.parameters, growth_time(worst.parameters, worst.critical_length))
+    assert f"3 runs have a coarse mesh or long steps, with {zone / along:.2g} elements" in text
+    assert worst.id in text and text.endswith("list.txt lists them")
+    (short,) = warned(configure(study(GOOD | {"length": 0.4})).runs)
+    assert not short.is_of_meshes
+
+
 def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():
     """It was refused, length or not; and where it ran, a critical length stood beside."""
     strengthening = GOOD | {"zeta_over_a": -0.5}
-    assert "needs its length (m)" in messages(study(strengthening))
+    assert "needs its block_length (m)" in messages(study(strengthening))
     settings = configure(study(strengthening | {"length": 1.4}))
     assert math.isnan(settings.runs[0].critical_length)
     (warning,) = advise(settings.runs)

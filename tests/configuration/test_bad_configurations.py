@@ -12,6 +12,7 @@ from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
 
 RUN, LAST = "studies.s.runs[0]", "studies.paper.runs[6]"
+THOUSAND = {"start": 1, "stop": 9, "num": 1000}
 TALL = {"height": 0.1}
 
 BAD = {
@@ -88,7 +89,7 @@ BAD = {
         [f"{LAST}: n_x = 100000, n_y = 10000", "MB", "limits.memory = 2000 MB"],
     ),
     "too many runs": (
-        with_run(**{name: {"start": 1, "stop": 9, "num": 1000} for name in ("height", "initial_state")}),
+        with_run(height=THOUSAND, initial_state=THOUSAND),
         [f"{LAST} has 1000000 simulations, more than 10000"],
     ),
     "nothing to nucleate": (
@@ -133,7 +134,7 @@ BAD = {
             TALL | {"slip_distance": 5e-7, "regularisation_slip_rate": 1e-9,
                     "initial_stress": "uniform_shear", "initial_shear_stress": 1.0,
                     "rate_coefficient": 0.005, "aging_coefficient": 0.075, "slip_rate_scale": 1e-7,
-                    "time_after_event": 0.0}
+                    "time_after_event": 0.0, "shear_modulus": 3.2e9}
         ),
         [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
     ),
@@ -163,7 +164,7 @@ BAD = {
     ),
     "block shorter than its nucleation length": (
         study({**TALL, "length": 0.5}),
-        [f"{RUN}: length = 0.5 m", "critical nucleation length of the theory, 0.81 m"],
+        [f"{RUN}: block_length = 0.5 m", "critical nucleation length of the theory, 0.81 m"],
     ),
     "block longer than any": (
         study({**TALL, "shear_modulus": 9e12, "slip_distance": 900.0}),

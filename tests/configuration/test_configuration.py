@@ -17,7 +17,7 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.theory import arrays
-from nucleation.theory.critical import critical_length
+from nucleation.theory.critical import length_on_rigid_base as critical_length
 
 
 def test_default_configuration_is_the_papers():

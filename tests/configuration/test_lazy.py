@@ -52,7 +52,7 @@ def test_a_study_is_expanded_once_and_only_if_asked_for(expanded):
 
 def test_without_lazy_everything_is_checked():
     config = {"studies": {"good": GOOD, "bad": BAD}}
-    assert "studies.bad.runs[0]: length = 0.02 m is not allowed" in messages(config)
+    assert "studies.bad.runs[0]: block_length = 0.02 m is not allowed" in messages(config)
     settings = configure(config, lazy=True)
     assert len(settings.runs_of("good")) == 2
     for ask in (
@@ -64,7 +64,7 @@ def test_without_lazy_everything_is_checked():
     ):
         with pytest.raises(ParameterError) as caught:
             ask()
-        assert "studies.bad.runs[0]: length = 0.02 m is not allowed" in str(caught.value)
+        assert "studies.bad.runs[0]: block_length = 0.02 m is not allowed" in str(caught.value)
 
 
 DECLARED = {

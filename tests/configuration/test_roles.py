@@ -42,11 +42,13 @@ BAD = {
     ),
     "not the height of a figure": (
         study(TALL, role="paper"),
-        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, initial_state = 1 s",
+        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, "
+         "initial_state = 1 s",
          "figures.space_time_height"],
     ),
     "not its state": (
-        study({"height": 0.005, "initial_state": 3.0}, TALL, role="paper"), ["height = 0.005 m, evolution"],
+        study({"height": 0.005, "initial_state": 3.0}, TALL, role="paper"),
+        ["height = 0.005 m, evolution"],
     ),
     "two maps": (
         {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",

@@ -20,11 +20,11 @@ REFUSED = {
     ),
     "a rigid base on rollers": (
         study({"height": 0.1, "second_far_side": "roller"}),
-        f"{RUN}: second_body.bottom = 'roller' {RIGID}",
+        f"{RUN}: second_body.far_side = 'roller' {RIGID}",
     ),
     "in a section": (
-        changed("second_body.bottom", "clamped"),
-        f"second_body.bottom = 'clamped' {RIGID}",
+        changed("second_body.far_side", "clamped"),
+        f"second_body.far_side = 'clamped' {RIGID}",
     ),
     "under a study that fixes the rigid base": (
         study({"height": 0.1, "second_body.height": [0.1, 0.2]}, defaults={"second_body": "rigid"}),
@@ -46,7 +46,7 @@ def test_nonsense_is_refused(case):
 def test_what_is_left_out_is_as_of_the_first_body():
     below = configure(study({**PAIR, "second_shear_modulus": 6e9})).runs[0].parameters.below
     parameters = Parameters().replaced({"height": 0.02})
-    assert below.geometry.height == 0.02 and below.bottom == "free"
+    assert below.geometry.height == 0.02 and below.far_side == "free"
     assert below.mesh == parameters.mesh
     assert (below.material.shear_modulus, below.material.density) == (6e9, 1200.0)
     assert Parameters().below is None

@@ -40,6 +40,8 @@ TEXTS = {
     "fault",
     "ensemble",
     "outcome",
+    "runaway_status",
+    "stability_status",
     "plane",
     "loading",
     "name",

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from fem.assembled_pair import AssembledPair
+from two_bodies import Body, transfer_functions
 
 from nucleation.fem import pair
 from nucleation.fem.block import Block
@@ -14,7 +15,6 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import run
-from nucleation.theory.transfer import Body, transfer_functions
 
 UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
 LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)

@@ -30,7 +30,8 @@ def sequence(refined, values, height, **fixed):
     usual = {
         "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
         "strength": 1e-5, "seed": 1, "evolution": "aging", "initial_state": 1.0,
-        "fault": f"{height}{fixed.get('initial_state')}", "block_length": 6.0, "critical_length": 1.5,
+        "fault": f"{height}{fixed.get('initial_state')}", "block_length": 6.0,
+        "critical_length": 1.5,
     }  # fmt: skip
     for i, value in enumerate(values):
         error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0

@@ -117,7 +117,7 @@ def test_weakening_is_given_alone_or_over_the_direct_effect():
     assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["a"], 0.004))
     both = with_constants(Friction(), V, {"zeta": 0.004, "a": 0.008})
     assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
-    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weak"):
+    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with zeta"):
         with_constants(Friction(), V, {"zeta": 0.004, "zeta_over_a": 1.0})
     same = with_constants(Friction(), V, {"b": 0.012, "a": 0.008})
     assert constants(same, V) == pytest.approx(constants(both, V), rel=1e-12)

@@ -59,7 +59,7 @@ def table(histories):
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
     assert tuple(table.data_vars) == tuple(COLUMNS)
     assert list(table["id"].values) == ["a", "b", "c"]
-    np.testing.assert_allclose(table["stability_length"], START, rtol=2e-3)
+    np.testing.assert_allclose(table["front_length"], START, rtol=2e-3)
 
 
 def test_each_material_has_its_own_law():
@@ -69,7 +69,7 @@ def test_each_material_has_its_own_law():
     for order in (runs, runs[::-1]):
         found = gather_drops([drops(fault=faults, height=[0.02] * 4)], order)
         expected = START * np.array([1.0, 1.0, 1.5, 1.5])
-        np.testing.assert_allclose(found["stability_length"], expected, rtol=2e-3)
+        np.testing.assert_allclose(found["front_length"], expected, rtol=2e-3)
 
 
 def test_predictions_are_those_of_the_law(table):

@@ -14,8 +14,7 @@ from nucleation.model.parameters import Geometry, Loading, Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
 from nucleation.patch.expected_drop import NoDrop, expected_drop, feels_far_end
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 THEORY = 0.4509  # m
 FAULT = Parameters(
@@ -100,7 +99,7 @@ def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulate
         FAULT.replaced({"geometry.height": height}),
         friction=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio),
     )
-    critical = float(critical_lengths([(*bodies_of(fault), interface_state(fault))])[0])
+    critical = run_length(fault, interface_state(fault))
     fault = fault.replaced({"geometry.length": 6.0 * critical})
     found = expected_drop(fault)
     assert found.trusted and found.slips_slowly
@@ -117,7 +116,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
     fault = FAULT.replaced({"geometry.height": 0.01})
     fault = dataclasses.replace(fault, friction=law)
-    critical = float(critical_lengths([(*bodies_of(fault), interface_state(fault))])[0])
+    critical = run_length(fault, interface_state(fault))
     found = expected_drop(fault)
     start = found.closed_form.front_length
     assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start

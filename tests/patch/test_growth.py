@@ -25,8 +25,7 @@ from nucleation.patch.tables.stability import STABILITY, gather_stability
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 pytestmark = pytest.mark.slow
 
@@ -152,7 +151,7 @@ def test_table_compares_with_the_reference_study():
 
 
 LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
-WEAK = Heterogeneity(varies="f", change=-0.8, width=0.25)
+WEAK = Heterogeneity(varies="friction", change=-0.8, width=0.25)
 TWO = SecondBody(kind="deformable")
 LOADED = {
     "remote": Parameters(
@@ -164,7 +163,7 @@ LOADED = {
     ),
     "top": Parameters(
         loading=Loading(kind="top", initial_state=0.05), geometry=Geometry(0.1, 2.0),
-        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, bottom="clamped"),
+        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, far_side="clamped"),
     ),
 }  # fmt: skip
 
@@ -185,7 +184,7 @@ def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
         if instant.report.interface.slip_rate.max() > 30.0 * velocity:
             break
     found = follow_patch(recorder.dataset(), ExtractionSettings())
-    critical = float(critical_lengths([(*bodies_of(parameters), interface_state(parameters))])[0])
+    critical = run_length(parameters, interface_state(parameters))
     theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
     assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
     assert found["stability_length_error"] < 0.03 * theory.length

@@ -89,7 +89,7 @@ def test_lengths_are_those_of_the_library(web, bodies):
         found = np.nan if at["length"] is None else at["length"]
         assert found == pytest.approx(expected, rel=1e-8, nan_ok=True), fault
         listed = lengths_in_use(**fault)
-        for key in set(listed) - {"creeping_patch"}:
+        for key in set(listed) - {"stability_length"}:
             value = np.nan if in_use[key] is None else in_use[key]
             assert value == pytest.approx(float(listed[key]), rel=1e-9, nan_ok=True), (key, fault)
     assert lengths > 10

@@ -48,7 +48,7 @@ def test_tables_can_be_downloaded_with_units_and_all_values(html, content):
 
 def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(table):
     quiet = {"length": 0.156, "length_low": 0.138, "length_high": 0.162, "critical_length": 0.235,
-             "creep_length": 0.131}  # fmt: skip
+             "stability_length": 0.131}  # fmt: skip
     noisy = {"role": "converged", "kind": "normal_load", "strength": 1e-5, "length": 0.162}
 
     def run(**values):

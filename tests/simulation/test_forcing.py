@@ -74,7 +74,7 @@ def test_the_load_acts_as_declared(records):
     record = records["normal_load"]
     lengths = np.full(61, 0.015)
     lengths[[0, -1]] *= 0.5
-    carried = -record["normal_stress"].values @ lengths / 0.9
+    carried = -record["sigma_yy"].values @ lengths / 0.9
     at = np.searchsorted(record["step_time"].values, record["time"].values)
     applied = 1e6 * (1.0 + record["perturbation"].values[at])
     np.testing.assert_allclose(carried, applied, rtol=1e-9)

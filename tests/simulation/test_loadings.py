@@ -18,7 +18,7 @@ STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
 SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)
 TOP = Parameters(
     loading=Loading(kind="top"), geometry=Geometry(0.1, 1.5), mesh=Mesh(40, 4, 2.0),
-    second_body=SecondBody(kind="deformable", bottom="clamped"), stepping=STEPPING,
+    second_body=SecondBody(kind="deformable", far_side="clamped"), stepping=STEPPING,
 )  # fmt: skip
 REMOTE = Parameters(
     loading=Loading(kind="remote", stress_rate=2e5), geometry=Geometry(0.5, 3.0),
@@ -51,7 +51,7 @@ def test_a_fault_in_a_period_has_no_first_node():
 
 
 @pytest.mark.parametrize("law", ["product", "dieterich_ruina"])
-@pytest.mark.parametrize("varies", ["f", "a", "b", "zeta"])
+@pytest.mark.parametrize("varies", ["friction", "a", "b", "zeta"])
 def test_constants_along_x_are_those_declared(law, varies):
     friction, v = Friction(law=law), 1e-5
     own = Heterogeneity(varies=varies, shape="step", centre=0.5, width=0.2, change=0.05)
@@ -59,18 +59,18 @@ def test_constants_along_x_are_those_declared(law, varies):
     assert factor.tolist() == [1.0, 1.05, 1.0]
     varied = own.friction(friction, v, factor)
     f0, a, zeta = friction.expansion(v)
-    wanted = {"f": f0, "a": a, "b": a + zeta, "zeta": zeta}
+    wanted = {"friction": f0, "a": a, "b": a + zeta, "zeta": zeta}
     wanted[varies] *= 1.05
     state = friction.steady_state(v)
     by_rate, by_state = varied.derivatives(v, state)
-    assert varied.coefficient(v, state)[1] == pytest.approx(wanted["f"], rel=1e-9)
+    assert varied.coefficient(v, state)[1] == pytest.approx(wanted["friction"], rel=1e-9)
     assert v * by_rate[1] == pytest.approx(wanted["a"], rel=1e-9)
     b = wanted["b"] if varies != "zeta" else a + wanted["zeta"]
-    if varies == "f":
+    if varies == "friction":
         b = a + zeta
     slow = (v / friction.slip_speed(v)) ** 2
     steady = by_rate * v - by_state * state * slow
-    zeta_there = wanted["zeta"] if varies in ("f", "zeta") else b - wanted["a"]
+    zeta_there = wanted["zeta"] if varies in ("friction", "zeta") else b - wanted["a"]
     assert -steady[1] == pytest.approx(zeta_there, rel=1e-9)
     assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
 
@@ -111,7 +111,7 @@ def test_bad_values_are_refused(change, words):
     [
         (TOP, {"mesh.n_x": 41}, "n_x = 41 is not allowed with loading.kind = top: it must be even"),
         (REMOTE, {"mesh.n_x": 60}, "it must be odd"),
-        (TOP, {"second_body.bottom": "free"}, "it must be clamped"),
+        (TOP, {"second_body.far_side": "free"}, "it must be clamped"),
         (REMOTE, {"heterogeneity.centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
         (REMOTE, {"heterogeneity.width": 0.01}, r"width = 0.01 m is not allowed"),
     ],

@@ -60,9 +60,9 @@ def test_frames_are_dense_through_the_event(coarse_run):
 def test_interface_obeys_friction_in_every_frame(coarse_run):
     law = COARSE.friction
     f = law.coefficient(coarse_run["slip_rate"].values[1:], coarse_run["state"].values[1:])
-    ratio = -coarse_run["shear_stress"] / coarse_run["normal_stress"]
+    ratio = -coarse_run["shear_stress"] / coarse_run["sigma_yy"]
     np.testing.assert_allclose(ratio.values[1:], f, atol=1e-6)
-    assert (coarse_run["normal_stress"] < 0).all()
+    assert (coarse_run["sigma_yy"] < 0).all()
 
 
 def test_bulk_snapshots_meet_the_boundary_conditions(coarse_run):
@@ -84,7 +84,7 @@ def test_the_regularised_law_nucleates(evolution):
     assert record.attrs["rejected_steps"] < 0.5 * record.attrs["steps"]
     assert 0.4 < extract(record)["length"] / 0.45 < 1.0  # m, of the theory
     rate, state = record["slip_rate"].values[5:, 1:], record["state"].values[5:, 1:]
-    ratio = (record["shear_stress"] / record["normal_stress"]).values[5:, 1:]
+    ratio = (record["shear_stress"] / record["sigma_yy"]).values[5:, 1:]
     strength = parameters.friction.coefficient(rate, state)
     assert (np.abs(np.abs(ratio) - np.abs(strength)) < 1e-3).mean() > 0.99
     assert np.abs(rate).min() < 1e-30 < np.abs(rate).max()

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from two_bodies import Body
 
 from benchmarks.assembled import assemble
 from nucleation.api import (
@@ -32,7 +33,6 @@ from nucleation.model.linearised import interface_state
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.creep.thin import thin_limit
 from nucleation.theory.critical import run_length
-from nucleation.theory.transfer import Body
 
 BP1 = {
     "shear_modulus": 32.04e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,

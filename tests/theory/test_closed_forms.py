@@ -3,6 +3,7 @@ import dataclasses
 import numpy as np
 import pytest
 from layer_problem import reference_transfer
+from two_bodies import Body, critical_wavenumber
 
 from nucleation.answers.formulas import bimaterial
 from nucleation.model.linearised import InterfaceState
@@ -12,8 +13,7 @@ from nucleation.theory.closed_forms import (
     bimaterial_length_ratio,
     thin_limit_length,
 )
-from nucleation.theory.critical import NoInstability, critical_wavenumber
-from nucleation.theory.transfer import Body
+from nucleation.theory.critical import NoInstability
 
 SOFT, STIFF = Material(3.1e9, 1 / 3), Material(9.3e9, 0.2)
 INTERFACE = InterfaceState()

@@ -4,20 +4,22 @@ import re
 import numpy as np
 import pytest
 from scipy.optimize import brentq, fsolve
+from two_bodies import (
+    RIGID,
+    Body,
+    critical_length,
+    critical_lengths,
+    critical_wavenumber,
+    growth_rates,
+    system,
+)
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.critical import (
-    NoInstability,
-    critical_length,
-    critical_wavenumber,
-    critical_lengths,
-)
+from nucleation.theory.critical import NoInstability
 from nucleation.theory.crossings import certainly_stable, marginal_stiffness
-from nucleation.theory.spectrum import growth_rates, system
 from nucleation.theory.stiffness import FAR_SIDES
-from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.filterwarnings("error")
 MATERIAL = Material(3.1e9, 1 / 3)

@@ -6,6 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from two_bodies import (
+    RIGID,
+    Body,
+    critical_length,
+    critical_wavenumber,
+    growth_rates,
+    transfer_functions,
+)
 
 from nucleation.answers.formulas import bimaterial
 from nucleation.model.linearised import InterfaceState
@@ -14,10 +22,8 @@ from nucleation.theory.closed_forms import (
     bimaterial_length_ratio,
     thin_limit_length,
 )
-from nucleation.theory.critical import NoInstability, critical_length, critical_wavenumber
-from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.critical import NoInstability
 from nucleation.theory.stiffness import FAR_SIDES
-from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 
 def powers(low, high):

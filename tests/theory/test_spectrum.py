@@ -2,11 +2,10 @@ import warnings
 
 import numpy as np
 import pytest
+from two_bodies import RIGID, Body, growth_rates, transfer_functions
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.theory.spectrum import growth_rates
-from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 INTERFACE = InterfaceState(
     friction=0.6, a=0.0068, zeta=0.016, slip_length=5e-7, velocity=3e-5, normal_stress=2e6

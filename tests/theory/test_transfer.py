@@ -6,16 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from layer_problem import reference_stiffness, reference_transfer
+from two_bodies import RIGID, Body, transfer_functions
 
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.bounds import extremes, transfer_bounds
 from nucleation.theory.stiffness import FAR_SIDES, LayerPair
-from nucleation.theory.transfer import (
-    RIGID,
-    Body,
-    transfer_functions,
-)
 from nucleation.theory.waves import Waves
 
 LAYER_NUMBERS = (1e-8, 3e-3, 0.4, 1.3, 6.0, 24.0, 26.0, 100.0)

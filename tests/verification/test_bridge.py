@@ -10,6 +10,8 @@ import pandas as pd
 import pytest
 from fem.assembled_problem import AssembledBlock
 from scipy.sparse import csr_array
+from two_bodies import RIGID, transfer_functions
+from two_bodies import Body as Layer
 
 from nucleation.claims.independent import printed
 from nucleation.fem.block import Block, BlockOperator
@@ -18,10 +20,8 @@ from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model import linearised
 from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
-from nucleation.theory.critical import critical_wavenumber
-from nucleation.theory.spectrum import growth_rates
-from nucleation.theory.transfer import RIGID, bodies_of, transfer_functions
-from nucleation.theory.transfer import Body as Layer
+from nucleation.theory.critical import critical_point
+from nucleation.theory.of_runs import far_sides, systems_of
 from nucleation.verification import dispersion, pair_modes, single_mode
 from nucleation.verification.orders import orders
 from nucleation.verification.single_mode import sliding_period, sliding_state
@@ -124,9 +124,9 @@ def test_periodic_tangent_is_the_matrix_of_apply():
 
 def theory(parameters, ratio):
     """k (1/m) of a ratio to the critical one, and both rates by Eq. (5)."""
-    bodies, state = bodies_of(parameters), linearised.interface_state(parameters)
-    k = ratio * critical_wavenumber(*bodies, state).wavenumber
-    return k, growth_rates(k, *bodies, state)
+    own = systems_of([(parameters, linearised.interface_state(parameters))])
+    k = ratio * critical_point(own).wavenumber
+    return k, own.growth_rates(np.array([k]))[:, 0]
 
 
 SETTINGS = {
@@ -149,7 +149,7 @@ SETTINGS = {
 def test_modes_grow_as_the_theory_says(setting, ratio):
     """With the far side that `loading.kind` gives the theory and the period."""
     parameters = SETTINGS[setting]
-    assert bodies_of(parameters)[0].far_side == ("velocity" if setting == "top" else "free")
+    assert far_sides(parameters)[0] == ("velocity" if setting == "top" else "free")
     k, expected = theory(parameters, ratio)
     found = single_mode.measured_rates(parameters, parameters.geometry.height, k)
     found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))

@@ -177,7 +177,7 @@ def test_both_solvers_agree_on_a_pair(tmp_path, loading, bottom, rms):
     """
     end = {"edge": 1.0, "top": 0.5}[loading]
     parameters = PAIR.replaced(
-        {"second_body.bottom": bottom, "loading.kind": loading, "end_time": end}
+        {"second_body.far_side": bottom, "loading.kind": loading, "end_time": end}
     )
     own, theirs = simulate(parameters), solved_by_freefem(tmp_path, parameters)
     assert rms_of(difference_of_forces((own, theirs), np.linspace(0.2, end, 100))) < rms

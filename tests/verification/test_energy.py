@@ -41,7 +41,7 @@ class Body:
         i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))
         self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
         self.top = np.zeros(grid.n_x + 1)  # lengths over which a normal stress acts on the far side
-        if not below or second.bottom == "free":
+        if not below or second.far_side == "free":
             self.top[grid.own] = grid.nodal_lengths[grid.own]
 
     def vector(self, field, uniform):
@@ -240,7 +240,7 @@ def test_energy_balance_of_two_blocks_and_of_perturbed_loads(parameters):
 STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
 TOP = Parameters(
     loading=Loading(kind="top"), geometry=Geometry(0.1, 1.5), mesh=Mesh(40, 4, 2.0),
-    second_body=SecondBody(kind="deformable", bottom="clamped"), stepping=STEPPING,
+    second_body=SecondBody(kind="deformable", far_side="clamped"), stepping=STEPPING,
 )  # fmt: skip
 REMOTE = Parameters(
     loading=Loading(kind="remote", stress_rate=2e5),

@@ -79,7 +79,7 @@ class ManufacturedPair(Manufactured):
 def problem(name, law, rows):
     fields = FIELDS[name]
     parameters = Parameters(
-        friction=Friction(characteristic_slip_distance=2e-6, evolution=law),
+        friction=Friction(slip_distance=2e-6, evolution=law),
         loading=Loading(velocity=fields.velocity),
         geometry=Geometry(height=0.3, length=1.0),
         mesh=Mesh(n_x=2 * rows, n_y=rows, grading=3.0),

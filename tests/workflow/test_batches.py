@@ -241,5 +241,5 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     assert begun(quiet) == 1
     other = workflow.configured(configuration(3, study_name=READ_ONE_BY_ONE), "other.yaml")
     done = other("lengths")
-    assert done.returncode == 0 and "(Rule: simulate)" not in done.stdout, done.stdout
+    assert done.returncode == 0 and "(simulate)" not in done.stdout, done.stdout
     assert begun(quiet) == 1

@@ -128,13 +128,27 @@ def test_a_snakemake_without_the_libraries_says_how_to_get_them(workflow):
     assert "Traceback" not in done.stderr
 
 
-def test_warnings_of_a_study_come_once(workflow):
+def test_coarse_meshes_are_one_line_and_a_list(workflow):
     assert "Warning" not in workflow("table_s1", "--dry-run").stdout, "it needs no study"
-    done = workflow("lengths", "--dry-run")
+    done = workflow("studies", "--dry-run")
     assert done.returncode == 0, done.stdout
-    (warning,) = re.findall("Warning: studies.paper: mesh too coarse along x .*", done.stdout)
-    assert "2.3 to a process zone of 0.0526 m; recommended is n_x = 103 or more" in warning
-    assert done.stdout.index(warning) < done.stdout.index("Job stats")
+    (warning,) = re.findall("Warning: .*", done.stdout)
+    number, place = re.search(r"(\d+) runs have .*; (\S+) lists them", warning).groups()
+    assert "with 1.8 elements per process zone at worst (" in warning
+    texts = (workflow.directory / place).read_text().splitlines()
+    (text,) = (text for text in texts if text.startswith("studies.paper: "))
+    assert "2.3 to a process zone of 0.0526 m; recommended is n_x = 103 or more" in text
+    ids = {run for text in texts for run in re.findall(r"[a-z]\w+-(?:aging|slip)-[^ ,):\]]+", text)}
+    assert len(ids) == int(number) > 20
+
+
+def test_other_warnings_are_printed_in_full(workflow):
+    runs = [{"height": 0.01, "n_x": 400, "length": 0.4, "end_time": 100.0}]
+    study = {"interface": "main_text", "runs": runs}
+    done = workflow.configured({"studies": {"short": study}})("lengths", "--dry-run")
+    (warning,) = re.findall("Warning: .*", done.stdout)
+    assert "studies.short: block short (" in warning and "recommended are 4 to 6" in warning
+    assert not (workflow.directory / "results" / "logs" / "meshes.txt").exists()
 
 
 @pytest.mark.parametrize(
@@ -162,6 +176,10 @@ def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     name = "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step9e-8"
     assert record.name.startswith(f"{name}.") and record.name.endswith(".failed.nc")
     assert "failed: the step size fell below the shortest step allowed" in done.stdout
+    assert (
+        "Error in rule simulate:" in done.stdout
+        and f"Simulations of the batch {name}" in done.stdout
+    )
     assert not (workflow.directory / "results" / "lengths.nc").exists()
 
 

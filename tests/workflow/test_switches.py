@@ -104,9 +104,10 @@ def test_until_and_omit_from_know_the_rules(fresh):
 def test_threads_and_resources_of_a_rule_can_be_set(fresh):
     commands = printed(fresh, "lengths", "--dry-run", "-p", "--set-threads", "simulate=2")
     assert len(re.findall(r"nucleation\.pipeline\.job \S+ simulate 2 ", commands)) == 2
-    free = printed(fresh, "simulations")
+    free = printed(fresh, "simulations", "--quiet", "host")
     assert "Execute 2 jobs" in free
     bound = ("--resources", "licences=1", "--set-resources", "simulate:licences=1")
+    bound += ("--quiet", "host")
     assert printed(fresh, "simulations", "-F", *bound).count("Execute 1 jobs") >= 2
 
 

@@ -48,14 +48,39 @@ def or_refused(function, *arguments):
         raise WorkflowError(str(error)) from None
 
 
+OF_MESHES = []
+"""Warnings about meshes and steps of the planned runs."""
+
+
 @functools.cache
 def runs_of(study):
     """The runs of a study; warnings about them appear once."""
     runs = or_refused(settings.runs_of, study)
-    if PLANS:
-        for warning in advise(runs):
-            logger.warning(f"Warning: {warning}")
+    for warning in warned(runs) if PLANS else []:
+        if warning.is_of_meshes:
+            OF_MESHES.append(warning)
+        else:
+            logger.warning(f"Warning: {warning.text}")
+    if OF_MESHES:
+        place = Path(list_of_meshes())
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("".join(f"{warning.text}\n" for warning in OF_MESHES), "utf-8")
     return runs
+
+
+def list_of_meshes():
+    """The file with the warnings about meshes and steps."""
+    return f"{recipe.results}/logs/meshes.txt"
+
+
+@functools.cache
+def report_meshes():
+    """Print one line about coarse meshes and long steps, once."""
+    if OF_MESHES:
+        LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, list_of_meshes())}")
+
+
+atexit.register(report_meshes)  # of a dry run, or where there is nothing to be done
 
 
 REFUSED = []

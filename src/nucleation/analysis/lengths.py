@@ -1,6 +1,5 @@
 """The table of critical lengths: one row for each simulation, SI units."""
 
-import dataclasses
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -12,6 +11,7 @@ from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
+from ..theory.status import UNKNOWN, VALUE
 from ..types import Array
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
@@ -47,8 +47,9 @@ COLUMNS = {
     "initial_state": Variable("s", "initial state variable", "phi0"),
     **some(SHARED, "n_x", "n_y"),
     **MEASURED,
-    "critical_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
-    "creep_length": Variable("m", "patch length at which growth begins, by theory", "L_s"),
+    "critical_length": Variable("m", "critical nucleation length", "L_c"),
+    "stability_length": Variable("m", "patch length where growth begins", "L_s"),
+    "stability_status": Variable("", "value, or why there is none: stable, beyond or unknown"),
     **DIAGNOSTICS,
     "block_length": Variable("m", "length of the block", "L"),
     "grading": Variable("1", "largest over smallest element along y"),
@@ -63,8 +64,7 @@ COLUMNS = {
         "shear_modulus",
         "poisson_ratio",
     ),
-    "friction": Variable("1", "friction coefficient of the theory's interface", "f"),
-    **some(SHARED, "a", "zeta"),
+    **some(SHARED, "friction", "a", "zeta"),
     "friction_law": Variable("", "law of the friction coefficient"),
     "below": Variable("", "what the block slides on"),
     "initial_stress": Variable("", "static field at the start"),
@@ -137,35 +137,35 @@ def lengths_table(
         :data:`COLUMNS` on ``run``. If all runs are loaded at their edge and record the interface,
         also :data:`.MEASURES`.
     """
-    creep_lengths: dict[str, float] = {}  # by fault
+    by_theory: dict[str, Row] = {}  # by fault
     rows = []
     for run, simulation in zip(runs, simulations, strict=True):
         row = _row(run, simulation, settings)
         own_fault = row["fault"]
-        if own_fault not in creep_lengths:
-            creep_lengths[own_fault] = _creep_length(run)
-        row["creep_length"] = creep_lengths[own_fault]
-        rows.append(row)
+        if own_fault not in by_theory:
+            by_theory[own_fault] = _stability(run)
+        rows.append(row | by_theory[own_fault])
     measured = all(row.keys() >= MEASURES.keys() for row in rows)
     return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
 
 
-def _creep_length(run: dict[str, Any]) -> float:
-    """L_s of steady creep with constant a and b (docs/creeping_patch.md); NaN if there is none.
+def _stability(run: dict[str, Any]) -> Row:
+    """L_s (m) of the run's fault and its status (docs/creeping_patch.md).
 
-    Without an edge, also NaN where stress or parameters, not only f, vary along the interface.
+    Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
     """
     from ..theory.creep.lengths import NoPatch, Patches, stability_point  # with SciPy, takes long
 
     parameters = Parameters.from_dict(run["parameters"])
-    varies = parameters.heterogeneity.varies
-    if parameters.loading.kind != "edge" and varies not in ("none", "f"):
-        return float("nan")
-    try:
-        patches = dataclasses.replace(Patches.of(parameters), law=None)
-        return stability_point(patches, run["critical_length"]).length
-    except NoPatch:
-        return float("nan")
+    length, status = float("nan"), UNKNOWN
+    is_uniform = parameters.heterogeneity.varies in ("none", "friction")
+    if parameters.loading.kind == "edge" or is_uniform:
+        try:
+            length = stability_point(Patches.of(parameters), run["critical_length"]).length
+            status = VALUE
+        except NoPatch as none:
+            status = none.status
+    return {"stability_length": length, "stability_status": status}
 
 
 def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -239,7 +239,7 @@ def second_body(parameters: Parameters) -> Row:
             "second_poisson_ratio": np.nan,
         }
     return {
-        "far_side": below.bottom,
+        "far_side": below.far_side,
         "second_height": below.geometry.height,
         "second_shear_modulus": below.material.shear_modulus,
         "second_poisson_ratio": below.material.poisson_ratio,
@@ -251,7 +251,7 @@ def _row(
     simulation: xr.Dataset,
     settings: ExtractionSettings,
 ) -> Row:
-    """A row of the table, without the theory's creep length."""
+    """A row of the table, without the theory's L_s."""
     record = Record(simulation, settings)
     measured = extract(simulation, settings)
     reached = record.lengths[-1] if record.onset is None else measured["length"]

@@ -22,7 +22,7 @@ from ..answers.length import TWO_MATERIALS
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.parameters import Parameters
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from .rows import Row
 from .zones import DEFINITIONS, far_ahead, zone_length
 
@@ -38,7 +38,7 @@ OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 
 SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
 ELSEWHERE = {
-    "creeping_patch": "simulated with role patch_theory: patch_theory.csv",
+    "stability_length": "simulated with role patch_theory: patch_theory.csv",
     "homogeneous_sliding": "growth of single modes is simulated in dispersion.csv",
     "rice_ruina": SPRING_BLOCK,
     "dieterich_shortest": SPRING_BLOCK,
@@ -170,11 +170,11 @@ def _rows(
         yield row
 
 
-def _fault_of(parameters: Parameters) -> Fault:
+def _fault_of(parameters: Parameters) -> FaultParameters:
     """The fault of a run for the formulas, with the logarithmic law about steady sliding."""
     load = parameters.loading
     _, a, zeta = parameters.friction.expansion(load.velocity)
-    return Fault(
+    return FaultParameters(
         shear_modulus=parameters.material.shear_modulus,
         poisson_ratio=parameters.material.poisson_ratio,
         plane=parameters.material.plane,

@@ -70,7 +70,7 @@ def measure(record: Record) -> dict[str, float]:
         return {}
     fastest = record.simulation["maximal_slip_rate"].values
     sizes = record.simulation["step_size"].values[1:]
-    normal = record.simulation["normal_stress"].values
+    normal = record.simulation["sigma_yy"].values
     found = dict.fromkeys(MEASURES, math.nan)
     found |= {
         "rupture_time": float(sizes[fastest[1:] > RUPTURE].sum()),
@@ -129,7 +129,7 @@ def _patch(record: Record) -> dict[str, float]:
     rate = record.simulation["slip_rate"].values[until]
     state = record.simulation["state"].values[until]
     stress = record.simulation["shear_stress"].values[until]
-    normal = record.simulation["normal_stress"].values[until]
+    normal = record.simulation["sigma_yy"].values[until]
     inside = x <= length[until, None]
     medians = np.array([np.median(np.abs(rate[i, inside[i]])) for i in developed])
     first = developed[0]

@@ -15,10 +15,9 @@ from ..datasets.variables import Variable, some, table
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.critical import systems_of
 from ..theory.crossings import largest_crossings
 from ..theory.curves import CURVES
-from ..theory.transfer import bodies_of
+from ..theory.of_runs import systems_of
 from ..theory.weakening_patch import WeakeningPatch, smallest_width
 from .rows import Row
 
@@ -65,7 +64,7 @@ def patch_of(parameters: Parameters) -> WeakeningPatch:
             "allowed with role = weakening_patches: it must be zeta with a step"
         )
     interface = linearised(parameters.friction, parameters.loading)
-    outside = systems_of([(*bodies_of(parameters), interface)])
+    outside = systems_of([(parameters, interface)])
     inside = outside._replace(zeta=outside.zeta * (1.0 + own.change))
     return WeakeningPatch(inside, outside)
 

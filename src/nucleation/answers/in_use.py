@@ -14,7 +14,7 @@ import numpy as np
 
 from ..model.quantities import Quantity
 from ..theory.arrays import fault_of
-from ..theory.fault import Fault, takes_fault
+from ..theory.fault import FaultParameters, takes_fault
 from ..theory.values import Values, checked, labelled, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
@@ -28,10 +28,10 @@ _FALL = "rate of linear slip weakening of the shear strength"
 WEAKENING_RATE = Quantity(_FALL, unit="Pa/m", low=0.0, high=1e25, symbol="W")
 
 
-def _stability_length(fault: Fault) -> Any:
-    from ..theory.creep.lengths import stability_values  # with SciPy, which takes a while
+def _stability_length(fault: FaultParameters) -> Any:
+    from ..theory.creep.lengths import stability_answers  # with SciPy, which takes a while
 
-    return stability_values(fault)[0]
+    return stability_answers(fault)[0]
 
 
 def _crack(s: Setting) -> Any:
@@ -75,11 +75,11 @@ _GAP = (
 _STEADY = "velocity weakening, near steady sliding, either law"
 
 _OF_FAULT = Length(
-    key="creeping_patch",
-    title="creeping patch, pushed",
+    key="stability_length",
+    title="creeping patch L_s",
     formula="its own eigenproblem, docs/creeping_patch.md",
     source="this project",
-    validity="a patch that creeps as it is pushed at its edge, constant a and b, either law",
+    validity="a patch that creeps under the fault's loading, either law",
     system=THIS_FAULT,
     needs="zeta > 0 and L_s < 3 L_c",
     compute=_stability_length,
@@ -210,7 +210,7 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
         Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
         ``a/b < 0.1``.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`. The second body matters only to
+        The parameters of :class:`~nucleation.fault.Fault`. The second body matters only to
         the creeping patch and to the lengths of two materials, with keys that end with
         ``_two_materials``.
 
@@ -239,12 +239,12 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     return lengths_of(fault_of(fault), weakening_rate)
 
 
-def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset:
+def lengths_of(fault: FaultParameters, weakening_rate: Values | None = None) -> xr.Dataset:
     """All lengths of a fault, as :func:`lengths_in_use`.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, or arrays of faults.
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m).
@@ -276,7 +276,7 @@ def with_dimensions(found: dict[str, Any]) -> dict[str, xr.DataArray]:
 
 
 def values_of(
-    fault: Fault,
+    fault: FaultParameters,
     weakening_rate: Values | None = None,
     lengths: Iterable[Length] = LENGTHS,
 ) -> dict[str, Any]:
@@ -284,7 +284,7 @@ def values_of(
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, or arrays of faults.
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
@@ -312,7 +312,7 @@ def values_of(
 
 
 def expanding_length(
-    fault: Fault,
+    fault: FaultParameters,
     slip_rate: Values,
     far_slip_rate: Values,
     far_state_ratio: Values,
@@ -321,7 +321,7 @@ def expanding_length(
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         The material of its first body is that of both half-spaces.
     slip_rate : array_like
         Largest slip rate v (m/s).

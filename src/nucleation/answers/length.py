@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..model.material import ANTIPLANE
-from ..theory.fault import Fault, Values
+from ..theory.fault import FaultParameters, Values
 from . import formulas
 from .formulas import Setting, valid
 
@@ -29,19 +29,19 @@ class Length:
     source: str
     validity: str
     compute: Callable[[Any], Any]
-    """The length (m) from a Setting; from the Fault if the system is THIS_FAULT."""
+    """The length (m) from a Setting; from the FaultParameters if the system is THIS_FAULT."""
     needs: str = "zeta > 0"
     """The condition on the parameters without which the length is NaN."""
     beyond: str = ""
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
-    def evaluate(self, fault: Fault, weakening_rate: Values) -> Any:
+    def evaluate(self, fault: FaultParameters, weakening_rate: Values) -> Any:
         """The length of a fault.
 
         Parameters
         ----------
-        fault : Fault
+        fault : FaultParameters
             One fault, or arrays of faults.
         weakening_rate : array_like
             Slip weakening W (Pa/m).
@@ -67,7 +67,7 @@ class Length:
         length = self.compute(_setting(fault, own))
         return valid(coupling < formulas.NEGLIGIBLE, length)
 
-    def facts(self, fault: Fault) -> dict[str, Any]:
+    def facts(self, fault: FaultParameters) -> dict[str, Any]:
         """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
             known = {
@@ -104,7 +104,7 @@ _FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L":
 """The quantity in a condition, by a part of :attr:`Length.needs`."""
 
 
-def _setting(fault: Fault, own: dict[str, Any]) -> Setting:
+def _setting(fault: FaultParameters, own: dict[str, Any]) -> Setting:
     """The parameters of a fault, some of them replaced by `own` values."""
     values = {}
     for field in dataclasses.fields(Setting):
@@ -113,7 +113,7 @@ def _setting(fault: Fault, own: dict[str, Any]) -> Setting:
     return Setting(**values)
 
 
-def of_two_materials(fault: Fault) -> tuple[Any, Any]:
+def of_two_materials(fault: FaultParameters) -> tuple[Any, Any]:
     """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
     nu, second_nu = fault.in_plane_ratios
     if fault.plane == ANTIPLANE:

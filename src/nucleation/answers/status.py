@@ -10,7 +10,7 @@ from ..theory.arrays import fault_of
 from ..theory.creep.lengths import stability_answers
 from ..theory.critical import stability_reason
 from ..theory.crossings import largest_crossings
-from ..theory.fault import Fault, Values, labelled, takes_fault
+from ..theory.fault import FaultParameters, Values, labelled, takes_fault
 from ..theory.spectrum import Systems
 from ..theory.status import STABLE, UNKNOWN, VALUE
 from .in_use import LENGTHS, values_of, with_dimensions
@@ -43,7 +43,6 @@ class Answers(NamedTuple):
 def length_statuses(
     *,
     weakening_rate: Values | None = None,
-    loading: str = "edge",
     **fault: Values,
 ) -> xr.Dataset:
     """All nucleation lengths of a fault, and the reason for each NaN.
@@ -52,10 +51,8 @@ def length_statuses(
     ----------
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch of L_s begins.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`.
+        The parameters of :class:`~nucleation.fault.Fault`.
 
     Returns
     -------
@@ -80,7 +77,7 @@ def length_statuses(
     """
     import xarray as xr
 
-    answers = answers_of(fault_of(fault), weakening_rate, loading)
+    answers = answers_of(fault_of(fault), weakening_rate)
     found: dict[str, Any] = {}
     for position, name in enumerate(Answers._fields):
         arrays = with_dimensions({key: answer[position] for key, answer in answers.items()})
@@ -94,27 +91,24 @@ def length_statuses(
 
 
 def answers_of(
-    fault: Fault,
+    fault: FaultParameters,
     weakening_rate: Values | None = None,
-    loading: str = "edge",
 ) -> dict[str, Answers]:
     """L_c, L_s and the lengths of the literature, each with its status.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, or arrays of faults.
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch of L_s begins.
 
     Returns
     -------
     dict
         :class:`Answers` by key, as in :func:`length_statuses`.
     """
-    theory = answers_of_theory(fault, loading)
+    theory = answers_of_theory(fault)
     found = {f"{criterion}_length": answer for criterion, answer in theory.items()}
     values = values_of(fault, weakening_rate, LITERATURE)
     for one in LITERATURE:
@@ -122,32 +116,27 @@ def answers_of(
     return found
 
 
-def answers_of_theory(
-    fault: Fault,
-    loading: str = "edge",
-) -> dict[str, Answers]:
+def answers_of_theory(fault: FaultParameters) -> dict[str, Answers]:
     """The lengths of the theory, each with its status.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, or arrays of faults.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch of L_s begins.
 
     Returns
     -------
     dict
         L_c by the key ``critical``, L_s by ``stability``.
     """
-    length, _, _, status, reason = stability_answers(fault, None, loading)
+    length, _, _, status, reason = stability_answers(fault)
     return {
         "critical": _critical_answers(fault),
         "stability": Answers(length, status, reason),
     }
 
 
-def _critical_answers(fault: Fault) -> Answers:
+def _critical_answers(fault: FaultParameters) -> Answers:
     """L_c with its status."""
 
     def points(systems: Systems) -> Any:
@@ -168,7 +157,7 @@ def _critical_answers(fault: Fault) -> Answers:
 def _literature_answers(
     one: Length,
     length: Any,
-    fault: Fault,
+    fault: FaultParameters,
 ) -> Answers:
     """A length of the literature with its status.
 

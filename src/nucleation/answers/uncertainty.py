@@ -74,7 +74,6 @@ def _errors_of(values: Array) -> Array:
 def length_quantiles(
     *,
     weakening_rate: Values | None = None,
-    loading: str = "edge",
     draws: int = 1000,
     seed: int = 0,
     progress: Progress | None = None,
@@ -86,8 +85,6 @@ def length_quantiles(
     ----------
     weakening_rate : float, text or array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch of L_s begins.
     draws : int
         Number of faults; see :func:`~nucleation.answers.draws.draw`.
     seed : int
@@ -95,7 +92,7 @@ def length_quantiles(
     progress : callable, optional
         Called with the number of finished draws and the total number.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`. A text such as
+        The parameters of :class:`~nucleation.fault.Fault`. A text such as
         ``"0.5um (0.3 to 1)"`` is a :class:`~nucleation.answers.draws.Range`: median, 5 and 95 %
         quantiles. Arrays of shape (n,) are joint samples.
 
@@ -128,7 +125,7 @@ def length_quantiles(
     """
     parameters = without_aliases(fault) | {"weakening_rate": weakening_rate}
     drawn = draw(parameters, draws, seed)
-    answers = _answers_of_draws(drawn, loading, progress)
+    answers = _answers_of_draws(drawn, progress)
     lengths = np.array([answer.length for answer in answers.values()])
     statuses = np.array([answer.status for answer in answers.values()])
     counted = {
@@ -149,7 +146,6 @@ def length_quantiles(
 
 def _answers_of_draws(
     drawn: Draws,
-    loading: str,
     progress: Progress | None,
 ) -> dict[str, Answers]:
     """The lengths of all draws, computed in parts."""
@@ -158,7 +154,7 @@ def _answers_of_draws(
         stop = min(start + _AT_ONCE, drawn.size)
         values = drawn.at(slice(start, stop))
         rate = values.pop("weakening_rate", None)
-        found = answers_of(fault_of(values), rate, loading)
+        found = answers_of(fault_of(values), rate)
         for key, answer in found.items():
             columns = [np.broadcast_to(column, (stop - start,)) for column in answer]
             parts.setdefault(key, []).append(columns)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..theory.fault import Fault, Values
+from ..theory.fault import FaultParameters, Values
 from ..theory.spectrum import Systems
 from ..theory.weakening_patch import weakening_patch_values
 from ..types import Array
@@ -42,7 +42,7 @@ class PatchAnswer(NamedTuple):
 
 
 def patch_answer(
-    fault: Fault,
+    fault: FaultParameters,
     outside_zeta: Values,
     outside_a: Values | None = None,
     width: float | None = None,
@@ -51,7 +51,7 @@ def patch_answer(
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, with the friction of the patch.
     outside_zeta, outside_a : float
         zeta and a of the surroundings; a is that of the patch by default.
@@ -85,7 +85,7 @@ def outcome(width_ratio: float) -> str:
     return "it nucleates"
 
 
-def process_zone(fault: Fault) -> float:
+def process_zone(fault: FaultParameters) -> float:
     """Length (m) over which friction weakens at the front of fast slip, of one fault.
 
     The wavelength over 2 pi at which the stiffness of the bodies is ``b sigma0/D``: ``L_b/2``

@@ -65,7 +65,7 @@ def render(
         return [row for row in faults if row["role"] == role]
 
     def by_theory(role: str) -> str:
-        ratios = [row["creep_length"] / row["critical_length"] for row in runs(role)]
+        ratios = [row["stability_length"] / row["critical_length"] for row in runs(role)]
         return f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else "not computed"
 
     def ours(id: str) -> str:

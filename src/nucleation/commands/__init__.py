@@ -16,7 +16,6 @@ from click.shell_completion import CompletionItem
 
 from .. import __version__
 from ..configuration.installed import MissingExtra
-from .pages import with_addresses
 
 DONE = 0
 FAILED = 1
@@ -122,7 +121,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
             error = _with_suggestion(error)
         shown = io.StringIO()
         error.show(shown)
-        click.echo(with_addresses(shown.getvalue()), err=True, nl=False)
+        _print_error(*shown.getvalue().splitlines())
         return error.exit_code
     except click.Abort:
         click.echo("Interrupted", err=True)
@@ -135,5 +134,11 @@ def run(arguments: Sequence[str] | None = None) -> int:
         message = place + (error.strerror or str(error))
     except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
         message = str(error) or "not enough memory"
-    click.echo(f"Error: {with_addresses(message)}", err=True)
+    _print_error(f"Error: {message}")
     return REFUSED
+
+
+def _print_error(*lines: str) -> None:
+    from .text import wrapped  # imported here, so that the help is quick
+
+    click.echo("\n".join(wrapped(*lines, err=True)), err=True)

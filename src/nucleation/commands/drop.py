@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..configuration.advice import changing_friction
+from ..configuration.single_run import merged, merged_parameters, single_run
 from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
@@ -17,15 +19,16 @@ from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
 from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
+from ..theory.of_runs import fault_of_run
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .options import parameter_options, source_options
-from .pages import with_addresses
-from .sources import merged, merged_parameters, planned, sourced
-from .system_text import fault_in, plane_in_words, system_of_run
-from .text import to_json
+from .sources import sourced
+from .system_text import plane_in_words, system_of_run
+from .text import table, to_json, wrapped
 from .uncertain_drop import print_drop_quantiles, uncertain_of
 from .uncertainty import draws_option, samples_option
+from .unit_text import in_unit
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
@@ -40,12 +43,12 @@ and covers all realisations."""
 
 _COMPARED = (
     "Against simulations of the paper's fault at strengths up to 1e-4 the median has an error of "
-    "0.8 %\n(rms), 2 % at most; see docs/drop.md for others."
+    "0.8 % (rms), 2 % at most; see docs/drop.md for others."
 )
 
 _COMPARED_SLOW = (
     "Friction weakens little here: the patch slips slowly in a limit cycle until there is none, "
-    "for any\nweak perturbation. In thin blocks simulated drops came from 1 % below to 10 % above "
+    "for any weak perturbation. In thin blocks simulated drops came from 1 % below to 10 % above "
     "L_run; see docs/drop.md."
 )
 
@@ -100,15 +103,15 @@ def command(
     if uncertain:
         return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
     parameters = merged_parameters(None, values)
-    fault = fault_in(parameters)
+    fault = fault_of_run(parameters)
     critical = float(critical_length(**fault))
     found = None
     code, status, reason = DONE, status_words.VALUE, ""
     if math.isnan(critical):
         code, status = STABLE, status_words.STABLE
-        reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
+        reason = reason_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
-        run = planned(values, {}, results="results")  # not used
+        run = single_run(values, results="results")  # not used
         critical = run.critical_length
         # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
@@ -118,7 +121,7 @@ def command(
         except NoDrop as error:
             code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
-            click.echo(f"Warning: {topic}: {with_addresses(text)}", err=True)
+            click.echo("\n".join(wrapped(f"Warning: {topic}: {text}", err=True)), err=True)
     system = system_of_run(parameters, base, given)
     if as_json:
         known = {
@@ -131,8 +134,8 @@ def command(
         answer = _described(found) if found else {}
         click.echo(to_json(known | answer))
     else:
-        lines = [*system, *_lines(parameters, critical, found, reason)]
-        click.echo(with_addresses("\n".join(lines)))
+        lines = [*wrapped(*system, ""), *_lines(parameters, critical, found, reason)]
+        click.echo("\n".join(lines))
     return code
 
 
@@ -142,7 +145,8 @@ def _cure(parameters: Parameters) -> str:
     v0 = parameters.friction.regularisation_slip_rate
     if velocity > 10.0 * v0:
         return ""
-    return f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V = {velocity:g} m/s"
+    shown_v0, shown_velocity = (in_unit(rate, "m/s") for rate in (v0, velocity))
+    return f"; v0 = {shown_v0}, regularisation_slip_rate, must be far below V = {shown_velocity}"
 
 
 def _described(found: ExpectedDrop) -> dict[str, Any]:
@@ -168,29 +172,28 @@ def _lines(
 ) -> list[str]:
     """The lengths of the theory and of the drop, one line each."""
     if math.isnan(critical):
-        return [f"No critical length: {reason}."]
-    value = f"{critical:.4g} m"
-    lines = [
+        return wrapped(f"No critical length: {reason}.")
+    rows: list[Sequence[str] | str] = [
         f"Theory of homogeneous sliding, in {plane_in_words(parameters.material.plane)}:",
-        f"  L_c    {value:<26} critical nucleation length",
+        ("L_c", f"{critical:.4g} m", "", "critical nucleation length"),
         "The creeping patch:",
     ]
     if found is None:
-        return [*lines, f"  The law of the drop is not applicable to this fault: {reason}."]
+        rows.append(f"  The law of the drop is not applicable to this fault: {reason}.")
+        return table(rows)
     for name, length, meaning in _rows(found):
-        value = f"{length:.4g} m"
         ratio = f"{length / critical:.3g} L_c"
-        lines.append(f"  {name:<6} {value:<11} {ratio:<14} {meaning}")
+        rows.append((name, f"{length:.4g} m", ratio, meaning))
     if not found.slips_slowly:
         drop = found.drop
-        time = f"{drop.time:.4g} s"
-        lines.append(f"  t_d    {time:<26} {drop.time_low:.4g} to {drop.time_high:.4g} s")
-    lines.append(f"perturbed: {_perturbed(parameters.perturbation)}")
+        span = f"{drop.time_low:.4g} to {drop.time_high:.4g} s"
+        rows.append(("t_d", f"{drop.time:.4g} s", "", span))
+    rows.append(f"perturbed: {_perturbed(parameters.perturbation)}")
     if found.doubt:
-        lines.append(f"DO NOT RELY ON IT: {found.doubt}.")
+        rows.append(f"DO NOT RELY ON IT: {found.doubt}.")
     else:
-        lines.append(_COMPARED_SLOW if found.slips_slowly else _COMPARED)
-    return lines
+        rows.append(_COMPARED_SLOW if found.slips_slowly else _COMPARED)
+    return table(rows)
 
 
 def _rows(found: ExpectedDrop) -> list[tuple[str, float, str]]:
@@ -212,7 +215,7 @@ def _rows(found: ExpectedDrop) -> list[tuple[str, float, str]]:
 def _perturbed(declared: Perturbation) -> str:
     """The perturbation in words."""
     time = f"{declared.correlation_time:g} D/V"
-    length = f"{declared.correlation_length:g} m"
+    length = in_unit(declared.correlation_length, "m")
     scales = {"strength": length, "state": f"{time} and {length}"}
     return (
         f"{declared.kind}, relative strength {declared.strength:g}, "

@@ -9,12 +9,14 @@ from typing import Any, NamedTuple
 import click
 
 from ..answers.draws import Range, parse_range
+from ..configuration.single_run import merged_parameters
 from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, law_declarations
 from ..model.parameters import names
 from ..model.quantities import ParameterError
-from ..theory.fault import QUANTITIES, REQUIRED
+from ..theory.fault import QUANTITIES, required
+from ..theory.of_runs import fault_of_run
 from .options import (
     Decorator,
     option,
@@ -24,8 +26,8 @@ from .options import (
     together,
     words,
 )
-from .sources import given_of, merged_parameters, sourced
-from .system_text import fault_in, papers_lines
+from .sources import given_of, sourced
+from .system_text import papers_lines
 
 _NOTES = {
     "b": "this, --zeta or --zeta-over-a",
@@ -59,9 +61,7 @@ class GivenFault(NamedTuple):
     """A fault as options and files define it."""
 
     values: dict[str, Any]
-    """The parameters of :class:`~nucleation.theory.fault.Fault`."""
-    law: Friction | None
-    """The friction law of `simulate` and `drop`; None without f or V, or where no law fits."""
+    """The parameters of :class:`~nucleation.fault.Fault`, with the law of `simulate` and `drop`."""
     papers: list[str]
     """The parameters that are not given and therefore the paper's, in a line."""
 
@@ -79,7 +79,7 @@ def _options_of_quantities() -> list[Decorator]:
 fault_options = together(
     *_options_of_quantities(),
     option("--zeta-over-a", key="zeta_over_a", entry=names()["zeta_over_a"]),
-    parameter_options(("evolution", "friction_law", *_SCALES)),
+    parameter_options(("friction_law", *_SCALES)),
     second_body_option,
     click.option(
         "--per-decade",
@@ -136,25 +136,25 @@ def fault_values(
             by_study[IN_STUDIES.get(name, name)] = value
     base, given = sourced(file, run_id, config, paper, by_study, ranges)
 
-    law: Friction | None
     if base or paper or _sets_law(given):
         parameters = merged_parameters(base, given)
-        values = fault_in(parameters)
-        law = parameters.friction
-        papers = [] if base else papers_lines(law, given)
+        values = fault_of_run(parameters)
+        papers = [] if base else papers_lines(parameters.friction, given)
     else:
         values = _of_study(given)
         law = _law_of(values, given)
+        if law is not None and values.get("loading", "edge") == "edge":
+            values["friction_law"] = law
         papers = []
     values |= far_sides
 
-    for name in REQUIRED:
+    for name in required(values.get("plane", "strain")):
         if name not in values and name != optional:
             raise ParameterError(
                 f"{name} is missing: give {words(name)[-1]} or --parameters FILE, or take all "
                 "other parameters from the paper by --paper"
             )
-    return GivenFault(values, law, papers)
+    return GivenFault(values, papers)
 
 
 def _sets_law(given: Mapping[str, Any]) -> bool:

@@ -1,7 +1,7 @@
 """``nucleation length``: the critical length of a fault, and other lengths in use."""
 
 import math
-import textwrap
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,32 +10,29 @@ import click
 from ..answers import formulas
 from ..answers.draws import parse_range
 from ..answers.in_use import LENGTHS, WEAKENING_RATE
-from ..answers.length import HALF_SPACES, THIS_FAULT, TWO_MATERIALS, Length, of_two_materials
+from ..answers.length import HALF_SPACES, TWO_MATERIALS, Length, of_two_materials
 from ..answers.status import Answers, answers_of
-from ..model.friction.law import Friction
-from ..model.loading import LOADINGS
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
 from ..theory.arrays import critical_mode
-from ..theory.creep.lengths import stability_answers, stability_values
-from ..theory.fault import Fault
+from ..theory.creep.lengths import stability_answers
+from ..theory.fault import FaultParameters
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
 from .fault_options import fault_options, fault_values
 from .options import option
-from .pages import with_addresses
 from .system_text import (
     BEGINS,
     is_of_one_material,
     parameters_of,
     plane_in_words,
     printed_warnings,
-    scales_line,
+    scales_text,
     system_of_fault,
     systems_of_lengths,
 )
-from .text import as_plain, to_json, wrapped
+from .text import as_plain, table, to_json, wrapped
 from .uncertainty import (
     draws_option,
     print_quantiles,
@@ -43,6 +40,7 @@ from .uncertainty import (
     samples_option,
     take_uncertain,
 )
+from .unit_text import in_unit
 from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
 
 _NOTEWORTHY = 0.03
@@ -73,21 +71,12 @@ _DENSITY = declarations(Material)["density"]
     note="of Uenishi and Rice's length; b sigma0/D if left out",
     read=parse_range,
 )
-@click.option(
-    "--loading",
-    type=click.Choice(LOADINGS),
-    default="edge",
-    show_default=True,
-    help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
-    "or interior; a top that moves has --far-side velocity",
-)
 @patch_options
 @samples_option
 @draws_option(1000)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
     density: float | None,
-    loading: str,
     as_json: bool,
     samples: Path | None,
     draws: int,
@@ -108,26 +97,22 @@ def command(
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
     of_patch = {name: options.pop(name) for name in OPTIONS}
-    given, law, papers = fault_values(**options, ranges=True)
+    given, papers = fault_values(**options, ranges=True)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         for name, value in {"density": density, **of_patch}.items():
             if value is not None:
                 raise ParameterError(f"{name} is not allowed beside ranges and samples")
-        usual = {"weakening_rate": weakening_rate, "loading": loading, "draws": draws}
-        return print_quantiles(given, uncertain, options | usual, as_json)
+        usual = {"weakening_rate": weakening_rate, "draws": draws}
+        return print_quantiles(given, uncertain, options | usual, papers, as_json)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with printed_warnings():
-        fault = Fault(**given)
+        fault = FaultParameters(**given)
         found = answers_of(fault, weakening_rate)
-        theory = _theory(given, fault, density, loading, law, found["critical_length"])
+        theory = _theory(fault, density, found)
         patch = patch_of(fault, of_patch)
-    answers = {}
-    for length in LENGTHS:
-        key = "stability_length" if length.system == THIS_FAULT else length.key
-        answers[length.key] = found[key]
-    system = system_of_fault(fault, given, loading) + papers
+    system = system_of_fault(fault, given, papers)
     if as_json:
         everything = {
             "system": system,
@@ -135,7 +120,7 @@ def command(
             "theory": theory,
             "weakening_patch": patch and patch._asdict(),
             "lengths": [
-                {"key": length.key, **as_plain(answers[length.key]), **length.words()}
+                {"key": length.key, **as_plain(found[length.key]), **length.words()}
                 for length in LENGTHS
             ],
         }
@@ -144,32 +129,29 @@ def command(
         of_patch_lines = []
         if patch:
             of_patch_lines = patch_lines(patch, of_patch["width"], theory["critical_length"])
-        text = _as_text(system, fault, theory, answers, law, of_patch_lines)
-        click.echo(with_addresses(text))
+        click.echo(_as_text(system, fault, theory, found, of_patch_lines))
     return DONE if math.isfinite(theory["critical_length"]) else CODE_OF_STABLE
 
 
 def _theory(
-    given: dict[str, Any],
-    fault: Fault,
+    fault: FaultParameters,
     density: float | None,
-    loading: str,
-    law: Friction | None,
-    critical: Answers,
+    answers: Mapping[str, Answers],
 ) -> dict[str, Any]:
     """The theory's numbers for JSON, in SI units; NaN where there is none, with status."""
     velocity = fault.velocity or fault.slip_distance  # without V a rate V/D of one per second
-    mode = critical_mode(**{**given, "velocity": velocity})
+    mode = critical_mode(**{**fault, "velocity": velocity})
     length, wavenumber, frequency = map(float, mode)
     ratio = None
     if density is not None:
         shear_wave = Material(float(fault.shear_modulus), density=density).shear_wave_speed
         ratio = abs(frequency) / wavenumber / shear_wave
-    if loading != "edge":
-        law = None
-    *numbers, status, reason = stability_answers(fault, law, loading)
-    stability_length, own_frequency, error = map(float, numbers)
-    constant = float(stability_values(fault, None, loading)[0]) if law else stability_length
+    stability_length, own_frequency, error = map(float, stability_answers(fault)[:3])
+    constant = stability_length
+    if fault.friction_law is not None:
+        without_law = FaultParameters(**{**fault, "friction_law": None})
+        constant = float(stability_answers(without_law)[0])
+    critical, stability = answers["critical_length"], answers["stability_length"]
     return {
         "critical_length": length,
         "critical_length_status": str(critical.status),
@@ -178,10 +160,10 @@ def _theory(
         "critical_frequency": fault.velocity and frequency,
         "critical_frequency_over_rate": frequency / float(velocity / fault.slip_distance),
         "speed_over_shear_wave": ratio,
-        "loading": loading,
+        "loading": fault.loading,
         "stability_length": stability_length,
-        "stability_length_status": str(status),
-        "stability_length_reason": str(reason),
+        "stability_length_status": str(stability.status),
+        "stability_length_reason": str(stability.reason),
         "stability_frequency_over_rate": own_frequency,
         "stability_length_error": error,
         "stability_length_of_constant_a_and_b": constant,
@@ -190,40 +172,35 @@ def _theory(
 
 def _as_text(
     system: list[str],
-    fault: Fault,
+    fault: FaultParameters,
     theory: dict[str, Any],
     answers: dict[str, Answers],
-    law: Friction | None,
     patch: list[str],
 ) -> str:
-    lines = [
-        *wrapped(*system),
-        "",
-        "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):",
-    ]
+    head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
+    lines = wrapped(*system, "", head)
     if math.isfinite(theory["critical_length"]):
-        lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault, law)]
+        lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault)]
     else:
-        reason = textwrap.wrap(theory["critical_length_reason"], 90)
-        lines += ["  no critical length:", *(f"  {line}" for line in reason)]
+        lines += wrapped(f"  no critical length: {theory['critical_length_reason']}")
     if patch:
         lines += ["", *patch]
+    critical = theory["critical_length"]
     for of_lengths in systems_of_lengths(fault):
-        lines += ["", f"Lengths in use, for {of_lengths}:"]
+        lines += ["", *wrapped(f"Lengths in use, for {of_lengths}:")]
+        rows: list[Sequence[str] | str] = []
         for length in LENGTHS:
             if length.system == of_lengths:
-                critical = theory["critical_length"]
-                lines += _length_lines(length, answers[length.key], fault, critical)
-    lines += [
-        "",
+                rows += _length_rows(length, answers[length.key], fault, critical)
+        lines += table(rows)
+    remark = (
         f"in {plane_in_words(fault.plane)}, with {_moduli(fault)}, b = a + zeta, natural "
-        "logarithms;",
-        "all are full lengths",
-    ]
-    return "\n".join(lines)
+        "logarithms; all are full lengths"
+    )
+    return "\n".join([*lines, "", *wrapped(remark)])
 
 
-def _moduli(fault: Fault) -> str:
+def _moduli(fault: FaultParameters) -> str:
     """The moduli in the formulas: mu*, and M of two materials."""
     star = {
         "strain": "mu/(1 - nu)",
@@ -234,7 +211,7 @@ def _moduli(fault: Fault) -> str:
     if is_of_one_material(fault):
         return text
     modulus, _ = of_two_materials(fault)
-    return f"{text}, M = {float(modulus):.4g} Pa"
+    return f"{text}, M = {in_unit(modulus, 'Pa', digits=4)}"
 
 
 def _mode_lines(theory: dict[str, Any]) -> list[str]:
@@ -250,38 +227,44 @@ def _mode_lines(theory: dict[str, Any]) -> list[str]:
     }
     lines = []
     for name, (key, unit, meaning) in rows.items():
-        value = f"{theory[key]:.4g} {unit}"
-        lines.append(f"  {name:<6} {value:<16} {meaning}")
+        lines.append((name, f"{theory[key]:.4g} {unit}", meaning))
     ratio = theory["speed_over_shear_wave"]
     if ratio is not None:
         verdict = "inertia does not matter" if ratio < 0.1 else "INERTIA MATTERS: beyond the theory"
-        lines.append(f"  c/c_s  {ratio:<16.4g} its speed over that of shear waves: {verdict}")
-    return lines
+        lines.append(
+            ("c/c_s", f"{ratio:.4g}", f"its speed over that of shear waves: {verdict}"),
+        )
+    return table(lines)
 
 
-def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> list[str]:
+def _patch_lines(theory: dict[str, Any], fault: FaultParameters) -> list[str]:
     """L_s with its meaning, and the effect of the friction law's scales on it."""
-    loading = theory["loading"]
+    loading, law = fault.loading, fault.friction_law
     length = theory["stability_length"]
     head = f"The creeping patch itself, {BEGINS[loading]} (docs/creeping_patch.md):"
     if not math.isfinite(length):
-        return [head, f"  no L_s: {theory['stability_length_reason']}"]
+        return wrapped(head, f"  no L_s: {theory['stability_length_reason']}")
     value = f"{length:.4g} m"
     ratio = f"{length / theory['critical_length']:.3g} L_c"
     page = ", docs/drop.md" if loading == "edge" else ""
     meaning = f"it turns unstable; an event follows later{page}"
-    lines = [head, f"  L_s    {value:<11} {ratio:<10} {meaning}"]
+    lines = [*wrapped(head), *table([("L_s", value, ratio, meaning)])]
     constant = theory["stability_length_of_constant_a_and_b"]
     if law and not abs(constant / length - 1.0) < _NOTEWORTHY:
         other = "none up to 3 L_c" if math.isnan(constant) else f"{constant:.4g} m"
-        lines += [
-            f"         with a and b that vary along the patch by the {law.law} law:",
-            f"         {scales_line(law, float(fault.velocity))}; with constant a and b {other}",
-        ]
+        lines += wrapped(
+            f"    a and b vary along the patch by the {law.law} law, {scales_text(law)}, "
+            f"V = {in_unit(fault.velocity, 'm/s')}; with constant a and b {other}"
+        )
     return lines
 
 
-def _length_lines(length: Length, answer: Answers, fault: Fault, critical: float) -> list[str]:
+def _length_rows(
+    length: Length,
+    answer: Answers,
+    fault: FaultParameters,
+    critical: float,
+) -> list[Sequence[str] | str]:
     """One length: value and formula, source, validity."""
     value = float(answer.length)
     text = f"{value:.4g} m"
@@ -290,21 +273,15 @@ def _length_lines(length: Length, answer: Answers, fault: Fault, critical: float
     is_of_half_spaces = length.system in (HALF_SPACES, TWO_MATERIALS)
     validity = f"valid: {length.validity}"
     if is_of_half_spaces and math.isfinite(lowest):
-        validity = f"for half-spaces (here H = {lowest:g} m), {length.validity}"
+        validity = f"for half-spaces (here H = {in_unit(lowest, 'm')}), {length.validity}"
     if not math.isfinite(value):
         text, ratio = "-", ""
         validity = f"{_NO_LENGTH.get(str(answer.status), '')}{answer.reason}"
-    lines = [
-        f"  {length.title:<28} {text:<11} {ratio:<10} {length.formula}",
+    rows: list[Sequence[str] | str] = [
+        (length.title, text, ratio, length.formula),
         f"      {length.source}",
         f"      {validity}",
     ]
     if length.beyond and formulas.between_localised_and_crack(fault.a, fault.b):
-        indent = 6 * " "
-        lines += textwrap.wrap(
-            length.beyond,
-            width=94,
-            initial_indent=indent,
-            subsequent_indent=indent,
-        )
-    return lines
+        rows.append(f"      {length.beyond}")
+    return rows

@@ -1,5 +1,6 @@
 """Options of the command line for parameters, with units, ranges and help from declarations."""
 
+import copy
 import math
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
@@ -9,13 +10,14 @@ import click
 from click.shell_completion import CompletionItem
 
 from ..answers.draws import parse_range
+from ..configuration.single_run import flat
 from ..configuration.study_names import study_parameters
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from .text import with_unit
+from .unit_text import note_typed, with_unit
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -24,6 +26,15 @@ Decorator = Callable[[_Function], _Function]
 
 _Read = Callable[[str, str, Quantity], Any]
 """A function that reads a text, from the name of a parameter, the text and the declaration."""
+
+
+class _Option(click.Option):
+    """An option with its standard name alone in the help; its other names are understood too."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        shown = copy.copy(self)
+        shown.opts = self.opts[-1:]
+        return click.Option.get_help_record(shown, ctx)
 
 
 def option(
@@ -59,10 +70,13 @@ def option(
 
     def value_of(text: str) -> Any:
         try:
-            return read(key, text, entry)
+            value = read(key, text, entry)
         except ParameterError as error:
             remark = remark_on_half_space(key, text, entry)
             raise click.BadParameter(f"{error}{remark}") from None
+        if isinstance(value, float):
+            note_typed(value, text, entry.unit)
+        return value
 
     def completed(
         context: click.Context,
@@ -74,6 +88,7 @@ def option(
     return click.option(
         *names,
         key,
+        cls=_Option,
         type=value_of,
         metavar=_metavar(entry),
         help=_help(entry, note),
@@ -180,16 +195,6 @@ source_options = together(
 """Options for the source of parameters that are not given as options."""
 
 
-def flat(parameters: Parameters) -> dict[str, Any]:
-    """Parameters by their names in studies, without those that are None."""
-    known = names()
-    found = {}
-    for full, value in parameters.named().items():
-        if value is not None:
-            found[known.short(full)] = value
-    return found
-
-
 def parameter_options(
     chosen: Collection[str],
     changed: Mapping[str, Any] = {},
@@ -235,5 +240,5 @@ def _notes_on_defaults(changed: Mapping[str, Any]) -> dict[str, str]:
     notes = {}
     for name, value in usual.items():
         notes[name] = f"default {with_unit(value, known[known.full(name)])}"
-    notes["length"] = "6 critical lengths if left out"
+    notes["block_length"] = "6 critical lengths if left out"
     return notes

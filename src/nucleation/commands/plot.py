@@ -13,6 +13,7 @@ import numpy as np
 from ..answers.draws import Draws, with_default_unit
 from ..answers.specimen import SPECIMEN
 from ..configuration.installed import require
+from ..configuration.single_run import merged_parameters
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity
@@ -24,7 +25,7 @@ from . import DONE, EXIT_CODES, STABLE
 from .drop import COUNTING, USUAL
 from .options import option, parameter_options, source_options
 from .progress import Progress
-from .sources import merged_parameters, name_in_studies, sourced
+from .sources import name_in_studies, sourced
 from .system_text import system_of_run
 from .text import require_writable, to_json, wrapped
 from .uncertain_drop import case_of, cases_of, completed, draw_in_studies, uncertain_of
@@ -150,7 +151,7 @@ def command(
         return STABLE
     _save(found, specimen, _band(drawn, lengths), output)
     if not as_json:
-        click.echo("\n".join([*system, *_missing(found, refusals), f"plot: {output}"]))
+        click.echo("\n".join([*wrapped(*system), *_missing(found, refusals), f"plot: {output}"]))
     return DONE
 
 
@@ -246,7 +247,7 @@ def _system_lines(
     own = completed(given, base is not None or paper)
     defaults = USUAL if base is None else {}
     parameters = merged_parameters(base, {**defaults, **own})
-    lines = wrapped(*system_of_run(parameters, base, own))
+    lines = system_of_run(parameters, base, own)
     for axis in axes:
         units = "" if axis.units == "1" else f" {axis.units}"
         low, high = axis.values[0], axis.values[-1]

@@ -53,7 +53,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         click.echo(text.to_json({"file": str(file), **_as_json(dataset, kind)}))
     else:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
-        click.echo("\n".join(lines))
+        click.echo("\n".join(text.wrapped(*lines)))
     if plot:
         _save(dataset, kind, plot)
         click.echo(f"plot: {plot}", err=as_json)
@@ -165,15 +165,14 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
 
 def _length_rows(dataset: xr.Dataset) -> list[str]:
     """The table of lengths, one line for each run."""
-    lines = [f"{'id':<44} {'H (m)':>8} {'onset (s)':>10} {'L_c (m)':>9} {'theory':>8}  /theory"]
+    rows = [("id", "H (m)", "onset (s)", "L_c (m)", "theory", "/theory")]
     number = dataset.sizes["run"]
     for row in rows_of(dataset, range(min(number, _SHOWN_ROWS))):
         length = row["length"]
         theory = row["critical_length"]
-        lines.append(
-            f"{row['id']:<44} {row['height']:>8.4g} {row['onset_time']:>10.4g} {length:>9.4g} "
-            f"{theory:>8.4g}  {length / theory:.3f}"
-        )
+        numbers = [f"{value:.4g}" for value in (row["height"], row["onset_time"], length, theory)]
+        rows.append((row["id"], *numbers, f"{length / theory:.3f}"))
+    lines = text.table(rows, right=range(1, 6))
     if number > _SHOWN_ROWS:
         lines.append(f"and {number - _SHOWN_ROWS} more")
     return lines
@@ -181,15 +180,15 @@ def _length_rows(dataset: xr.Dataset) -> list[str]:
 
 def _variable_lines(dataset: xr.Dataset) -> list[str]:
     """Every variable with its meaning, unit, shape and range."""
-    lines = []
+    rows = []
     for name, variable in dataset.variables.items():
         sizes = " x ".join(f"{n} {dimension}" for dimension, n in variable.sizes.items())
         parts = [sizes or "one value"]
         span = _span(variable)
         if span:
             parts.append(span)
-        lines.append(f"  {name!s:<28} {variable.attrs['long_name']}: {'; '.join(parts)}")
-    return lines
+        rows.append((str(name), f"{variable.attrs['long_name']}: {'; '.join(parts)}"))
+    return text.table(rows)
 
 
 def _span(variable: xr.Variable) -> str:

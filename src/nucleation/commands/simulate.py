@@ -12,17 +12,18 @@ from ..configuration.advice import advise
 from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
+from ..configuration.single_run import STUDY, flat, merged, single_run
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .options import flat, option, parameter_options, source_options
-from .pages import with_addresses
-from .sources import STUDY, given_of, merged, planned, sourced
+from .options import option, parameter_options, source_options
+from .sources import given_of, sourced
 from .system_text import system_of_run
-from .text import event_lines, outcome, parameter_lines, require_writable, to_json
+from .text import event_lines, outcome, parameter_lines, require_writable, to_json, wrapped
+from .unit_text import in_unit
 
 _RATIO = declarations(StudySettings)["length_over_critical"]
 _MEMORY = declarations(Limits)["memory"]
@@ -79,7 +80,7 @@ def command(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
             f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
         )
-    run = planned(
+    run = single_run(
         values,
         study=given_of({"length_over_critical": length_over_critical}),
         limits=given_of({"memory": memory}),
@@ -88,14 +89,14 @@ def command(
     lines = system_of_run(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
-        click.echo(f"Warning: {with_addresses(text)}", err=True)
+        click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
     lines += _plan_lines(run)
     if dry_run:
-        text = "\n".join([*parameter_lines(run.parameters), *lines])
+        text = "\n".join([*parameter_lines(run.parameters), *wrapped(*lines)])
         click.echo(to_json(_described(run)) if as_json else text)
         return DONE
     require("solver")
-    click.echo("\n".join(lines), err=as_json)
+    click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
     return _simulate(run, output, as_json)
 
 
@@ -107,7 +108,7 @@ def _plan_lines(run: Run) -> list[str]:
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
         theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
-    lines = [f"theory: {theory} elements of {element:.4g} m"]
+    lines = [f"theory: {theory} elements of {in_unit(element, 'm', digits=4)}"]
     patch = stability_length_of(run.parameters, critical)
     if not math.isnan(patch):
         lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
@@ -124,7 +125,7 @@ def _command(output: Path, run: Run) -> str:
     usual = flat(Parameters())
     words = []
     for name, value in flat(run.parameters).items():
-        if name == "length" or value != usual.get(name):
+        if name == "block_length" or value != usual.get(name):
             words.append(f"--{name.replace('_', '-')}={value}")
     return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 

@@ -1,6 +1,5 @@
 """The parameters of a command: from options, a file, a dataset, a configuration or the paper."""
 
-import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,33 +8,17 @@ import click
 
 from ..answers.draws import Range, parse_range
 from ..configuration.installed import require
-from ..configuration.load import configure, load
-from ..configuration.runs import Run
+from ..configuration.load import load
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
-from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check
 from ..model.synonyms import hint
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
-from .options import flat, remark_on_half_space
-
-STUDY = "command"
-"""Name of the study with one run that corresponds to a command line."""
-
-_IN_COMMANDS = {
-    "the configuration has one problem:\n  - ": "",
-    "the configuration has": "the parameters have",
-    f"studies.{STUDY}.runs[0]: ": "",
-    f"studies.{STUDY}.runs[0].": "",
-    f"studies.{STUDY}.defaults: ": "",
-    f"studies.{STUDY}.defaults.": "",
-    "limits.memory": "--memory",
-    "results = ": "OUTPUT's directory = ",
-}
-"""Places in a configuration, and their names in messages of commands."""
+from .options import remark_on_half_space
+from .unit_text import note_typed
 
 _SECOND_BODY = ("second_shear_modulus", "second_poisson_ratio", "second_height")
 """The parameters in ``--second-body``, in their order."""
@@ -211,7 +194,10 @@ def _value_in_file(key: str, value: Any) -> Any:
     entry = study_parameters()[key]
     try:
         if isinstance(value, str):
-            return parse_range(key, value, entry)
+            found = parse_range(key, value, entry)
+            if isinstance(found, float):
+                note_typed(found, value, entry.unit)
+            return found
         check(key, value, entry)
     except ParameterError as error:
         remark = remark_on_half_space(key, str(value), entry)
@@ -239,92 +225,10 @@ def _with_second_body(given: dict[str, Any]) -> dict[str, Any]:
     try:
         for key, part in zip(_SECOND_BODY, parts, strict=False):
             own[key] = parse(key, part, QUANTITIES[key])  # of the theory: a height may be infinite
+            note_typed(own[key], part, QUANTITIES[key].unit)
     except ParameterError as error:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: commas separate its values, which have a "
             f"decimal point; {error}"
         ) from None
     return given | own
-
-
-def merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
-    """All values of a run by their names in studies.
-
-    Parameters
-    ----------
-    base : Parameters or None
-        The parameters of a run or a dataset; the defaults if None. Without a base, the block's
-        length and the end time are omitted unless they are given: they follow from the theory.
-    given : dict
-        Values that replace those of the base, in SI units.
-
-    Returns
-    -------
-    dict
-        In SI units.
-    """
-    values = flat(merged_parameters(base, given))
-    if base is None:
-        for name in {"length", "end_time", "time_after_event"} - given.keys():
-            del values[name]
-    return values
-
-
-def merged_parameters(base: Parameters | None, given: Mapping[str, Any]) -> Parameters:
-    """The parameters of a run.
-
-    Parameters
-    ----------
-    base : Parameters or None
-        The parameters of a run or a dataset; the defaults if None.
-    given : mapping
-        Values that replace those of the base, by their names in studies, in SI units; constants of
-        friction set the parameters of the friction law.
-
-    Returns
-    -------
-    Parameters
-    """
-    plain = {name: value for name, value in given.items() if name not in CONSTANTS}
-    parameters = (base or Parameters()).replaced(plain)
-    velocity = parameters.loading.velocity
-    friction = with_constants(parameters.friction, velocity, given)
-    return dataclasses.replace(parameters, friction=friction)
-
-
-def planned(
-    values: Mapping[str, Any],
-    study: Mapping[str, Any],
-    **config: Any,
-) -> Run:
-    """The run of a command, checked as a run of a configuration.
-
-    Parameters
-    ----------
-    values : mapping
-        All values by their names in studies, in SI units.
-    study : mapping
-        Settings of the study of the run.
-    **config
-        Other sections of the configuration.
-
-    Returns
-    -------
-    Run
-
-    Raises
-    ------
-    ParameterError
-        With all problems of the run.
-    """
-    defaults = dict(values)
-    runs = [{"height": defaults.pop("height")}]
-    own_study = {**study, "defaults": defaults, "runs": runs}
-    try:
-        settings = configure({"studies": {STUDY: own_study}, **config})
-    except ParameterError as error:
-        text = str(error)
-        for place, own in _IN_COMMANDS.items():
-            text = text.replace(place, own)
-        raise ParameterError(text) from None
-    return settings.runs[0]

@@ -17,14 +17,14 @@ from ..answers.specimen import (
 )
 from ..answers.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
 from ..answers.status import Answers, answers_of_theory
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import fault_options, fault_values
 from .options import option
 from .progress import Progress
 from .system_text import plane_in_words, printed_warnings, system_of_fault
-from .text import as_plain, to_json
+from .text import as_plain, to_json, wrapped
 from .uncertainty import (
     as_sure,
     draws_option,
@@ -33,6 +33,7 @@ from .uncertainty import (
     take_uncertain,
     varying,
 )
+from .unit_text import engineering_unit, in_unit
 
 
 @click.command("specimen", epilog=EXIT_CODES)
@@ -78,19 +79,19 @@ def command(
           --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
     """
     options, uncertain = take_uncertain(options, samples)
-    given, _, papers = fault_values(**options, optional=unknown, ranges=True)
+    given, papers = fault_values(**options, optional=unknown, ranges=True)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         known = varying(given, uncertain, options)
-        return _print_quantiles(known, given, length, unknown, criterion, draws, as_json)
+        return _print_quantiles(known, given, length, unknown, criterion, draws, papers, as_json)
     own = given.pop(unknown, None)
     with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
         value = fit.searched[0] if own is None else own
-        fault = Fault(**given, **{unknown: value})
+        fault = FaultParameters(**given, **{unknown: value})
         judged = None if own is None else answers_of_theory(fault)[criterion]
-    is_sought = own is None and unknown == "shear_modulus"
-    system = system_of_fault(fault, given, known=not is_sought) + papers
+    sought = unknown if own is None else ""
+    system = system_of_fault(fault, given, papers, sought)
     if as_json:
         verdict = None if judged is None else {"value": own, **as_plain(judged)}
         found = {
@@ -103,11 +104,11 @@ def command(
         }
         click.echo(to_json(found))
         return DONE if fit.exists else STABLE
-    lines = list(system)
+    lines = [*system, ""]
     if judged is not None:
         lines += _judged_lines(length, criterion, fit, own, judged)
     lines += _fit_lines(length, criterion, fit, fault.plane)
-    click.echo("\n".join(lines))
+    click.echo("\n".join(wrapped(*lines)))
     return DONE if fit.exists else STABLE
 
 
@@ -118,6 +119,7 @@ def _print_quantiles(
     unknown: str,
     criterion: str,
     draws: int,
+    papers: list[str],
     as_json: bool,
 ) -> int:
     """Print the values at which shares of all draws fit, and return the exit code."""
@@ -131,9 +133,9 @@ def _print_quantiles(
             **known,
         )
         value = given.get(unknown, found.searched[0])
-        middle = Fault(**given | {unknown: value})
-    is_sought = unknown == "shear_modulus" and unknown not in given
-    system = system_of_fault(middle, given, known=not is_sought)
+        middle = FaultParameters(**given | {unknown: value})
+    sought = "" if unknown in given else unknown
+    system = system_of_fault(middle, given, papers, sought)
     if as_json:
         everything = {
             "system": system,
@@ -147,7 +149,7 @@ def _print_quantiles(
         click.echo(to_json(everything))
     else:
         lines = _quantile_lines(found, length, criterion, middle.plane)
-        click.echo("\n".join([*system, *lines]))
+        click.echo("\n".join(wrapped(*system, "", *lines)))
     return DONE if any(found.intervals.values()) else STABLE
 
 
@@ -169,7 +171,9 @@ def _quantile_lines(
             f"At the given {found.unknown} {found.share:.0%} (+- {error:.0%}) of the draws "
             "can nucleate."
         )
-    lines.append(f"{NAMES[criterion]} fits into {length:.4g} m, in {plane_in_words(plane)},")
+    lines.append(
+        f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane_in_words(plane)},"
+    )
     for share, intervals in found.intervals.items():
         texts = []
         for ends, errors in zip(intervals, found.errors[share], strict=True):
@@ -181,7 +185,8 @@ def _quantile_lines(
 
 def _searched_line(unknown: str, searched: Interval, unit: str) -> str:
     low, high = searched
-    return f"searched: {QUANTITIES[unknown].description}, {low:g} to {high:g} {unit}"
+    span = f"{in_unit(low, unit)} to {in_unit(high, unit)}"
+    return f"searched: {QUANTITIES[unknown].description}, {span}"
 
 
 def _interval(
@@ -192,12 +197,18 @@ def _interval(
     errors: Interval,
 ) -> str:
     """An interval of values, with the digits that the errors of its ends leave."""
-    first, last = (as_sure(value, error) for value, error in zip(ends, errors, strict=True))
+    first, last = (_end(value, error, unit) for value, error in zip(ends, errors, strict=True))
     if ends[1] == searched[1] and ends[0] > searched[0]:
-        return f"{unknown} > {first} {unit}"
+        return f"{unknown} > {first}"
     if ends[0] == searched[0] and ends[1] < searched[1]:
-        return f"{unknown} < {last} {unit}"
-    return f"{first} {unit} < {unknown} < {last} {unit}"
+        return f"{unknown} < {last}"
+    return f"{first} < {unknown} < {last}"
+
+
+def _end(value: float, error: float, unit: str) -> str:
+    """The end of an interval in an engineering unit, with the digits that its error leaves."""
+    name, size = engineering_unit(value, unit)
+    return f"{as_sure(value / size, error / size)} {name}"
 
 
 def _judged_lines(
@@ -209,7 +220,7 @@ def _judged_lines(
 ) -> list[str]:
     """Whether the specimen nucleates at the given value."""
     name = NAMES[criterion]
-    place = f"At {fit.unknown} = {own:.4g} {fit.unit}"
+    place = f"At {fit.unknown} = {in_unit(own, fit.unit)}"
     now = float(judged.length)
     ratio = now / length
     if now <= length:
@@ -230,7 +241,7 @@ def _fit_lines(
     plane: str,
 ) -> list[str]:
     """The values at which the length fits."""
-    lines = [f"{NAMES[criterion]} fits into {length:.4g} m, in {plane_in_words(plane)}, if"]
+    lines = [f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane_in_words(plane)}, if"]
     for ends in fit.intervals:
         interval = _interval(fit.unknown, fit.unit, ends, fit.searched, (0.0, 0.0))
         lines.append(f"  {interval}")

@@ -3,7 +3,7 @@
 import contextlib
 import math
 import warnings
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import click
@@ -13,8 +13,10 @@ from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
-from ..theory.fault import QUANTITIES, Fault
-from ..theory.transfer import RigidBody, bodies_of
+from ..theory.fault import QUANTITIES, FaultParameters
+from ..theory.of_runs import fault_of_run
+from .text import wrapped
+from .unit_text import in_unit
 
 BEGINS = {
     "edge": "pushed at its edge",
@@ -22,6 +24,8 @@ BEGINS = {
     "remote": "begun in the interior",
 }
 """Where the creeping patch begins, by ``--loading``."""
+
+_SOUGHT = "to find"
 
 _FAR_SIDES = {"traction": "free", "velocity": "moved"}
 """Boundary conditions of a far side, in words."""
@@ -45,13 +49,13 @@ def plane_in_words(plane: str) -> str:
     return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
-def _system_line(fault: Fault, loading: str, known: bool) -> str:
-    """Bodies, far sides, loading and plane; `known` is whether the shear modulus is given."""
+def _system_line(fault: FaultParameters, sought: str) -> str:
+    """Bodies, far sides, loading and plane."""
     names = ("shear_modulus", "poisson_ratio", "height", "far_side")
     first = [getattr(fault, name) for name in names]
     second = [getattr(fault, f"second_{name}") for name in names]
     alike = first == second
-    if not known:
+    if sought == "shear_modulus":
         first[0] = math.nan
     if math.isinf(float(fault.second_shear_modulus)):
         bodies = f"{_body(*first)} on a rigid one"
@@ -59,7 +63,7 @@ def _system_line(fault: Fault, loading: str, known: bool) -> str:
         bodies = f"two identical bodies, each {_body(*first)}"
     else:
         bodies = f"{_body(*first)} on {_body(*second)}"
-    return f"System: {bodies}; {BEGINS[loading]}; {plane_in_words(fault.plane)}."
+    return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
 
 
 def _body(
@@ -69,26 +73,48 @@ def _body(
     far_side: str,
 ) -> str:
     """One body in words; a shear modulus of NaN is the one to find."""
-    value = "looked for" if math.isnan(float(modulus)) else f"= {float(modulus):.4g} Pa"
-    material = f"(mu {value}, nu = {float(ratio):.4g})"
+    value = _SOUGHT if math.isnan(float(modulus)) else in_unit(modulus, "Pa")
+    material = f"(mu = {value}, nu = {float(ratio):.4g})"
     if math.isinf(float(height)):
         return f"a half-space {material}"
     side = _FAR_SIDES.get(far_side, far_side)
-    return f"a layer {float(height):.4g} m high with its far side {side} {material}"
+    return f"a layer {in_unit(height, 'm')} high with its far side {side} {material}"
 
 
-def is_of_one_material(fault: Fault) -> bool:
+def _friction_line(fault: FaultParameters, sought: str) -> str:
+    """Coefficients at V, normal stress, slip distance and the friction law."""
+    constants = {"f": fault.friction, "a": fault.a, "b": fault.b}
+    coefficients = [
+        f"{name} = {float(value):.4g}" for name, value in constants.items() if value is not None
+    ]
+    if fault.velocity is not None:
+        coefficients[-1] += f" at V = {in_unit(fault.velocity, 'm/s')}"
+    scales = {
+        "sigma0": ("normal_stress", "Pa"),
+        "D": ("slip_distance", "m"),
+    }
+    parts = [", ".join(coefficients)]
+    for symbol, (name, unit) in scales.items():
+        value = _SOUGHT if name == sought else in_unit(getattr(fault, name), unit)
+        parts.append(f"{symbol} = {value}")
+    law = fault.friction_law
+    if law is not None:
+        parts.append(f"{law.law} law, {law.evolution}, {scales_text(law)}")
+    return f"Friction: {'; '.join(parts)}."
+
+
+def is_of_one_material(fault: FaultParameters) -> bool:
     """Whether both bodies have the same material."""
     second = (fault.second_shear_modulus, fault.second_poisson_ratio)
     return (fault.shear_modulus, fault.poisson_ratio) == second
 
 
-def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[str]:
+def systems_of_lengths(fault: FaultParameters, uncertain: Collection[str] = ()) -> list[str]:
     """The systems of the lengths in use, in the order of their listing.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     uncertain : collection of str
         Names of its uncertain parameters.
@@ -106,63 +132,22 @@ def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[st
     return [*systems, HALF_SPACES, RIGID_BASE]
 
 
-def parameters_of(fault: Fault) -> dict[str, Any]:
+def parameters_of(fault: FaultParameters) -> dict[str, Any]:
     """All parameters of a fault that are not None, by name."""
     values = {name: getattr(fault, name) for name in QUANTITIES}
     return {name: value for name, value in values.items() if value is not None}
 
 
-def fault_in(parameters: Parameters) -> dict[str, Any]:
-    """The fault of a simulation, with its friction law expanded at V, as keywords of Fault."""
-    material = parameters.material
-    loading = parameters.loading
-    friction, a, zeta = parameters.friction.expansion(loading.velocity)
-    upper, lower = bodies_of(parameters)
-    found: dict[str, Any] = {
-        "shear_modulus": material.shear_modulus,
-        "poisson_ratio": material.poisson_ratio,
-        "plane": material.plane,
-        "height": upper.height,
-        "far_side": upper.far_side,
-        "normal_stress": loading.normal_stress,
-        "velocity": loading.velocity,
-        "slip_distance": parameters.friction.slip_distance,
-        "friction": friction,
-        "a": a,
-        "zeta": zeta,
-    }
-    if isinstance(lower, RigidBody):
-        return found | {"second_shear_modulus": math.inf}
-    return found | {
-        "second_shear_modulus": lower.material.shear_modulus,
-        "second_poisson_ratio": lower.material.poisson_ratio,
-        "second_height": lower.height,
-        "second_far_side": lower.far_side,
-    }
-
-
-def scales_line(law: Friction, velocity: float) -> str:
-    """The slip rates (m/s) of a friction law and V, in words.
-
-    Parameters
-    ----------
-    law : Friction
-        The friction law.
-    velocity : float
-        V (m/s).
-
-    Returns
-    -------
-    str
-    """
+def scales_text(law: Friction) -> str:
+    """The slip rates v* and v0 of a friction law, in words."""
     reference = getattr(law, "reference_slip_rate", None)
     rates = {
         "v*": getattr(law, "slip_rate_scale", reference),
         "v0": law.regularisation_slip_rate,
-        "V": velocity,
     }
-    texts = [f"{name} = {rate:.3g}" for name, rate in rates.items() if rate is not None]
-    return f"{', '.join(texts)} m/s"
+    return ", ".join(
+        f"{name} = {in_unit(rate, 'm/s')}" for name, rate in rates.items() if rate is not None
+    )
 
 
 def system_of_run(
@@ -185,23 +170,10 @@ def system_of_run(
     -------
     list of str
     """
-    law = parameters.friction
-    velocity = parameters.loading.velocity
-    friction, a, zeta = law.expansion(velocity)
-    fault = Fault(**fault_in(parameters))
-    lines = [
-        _system_line(fault, parameters.loading.kind, known=True),
-        f"Friction: {law.law} law, {law.evolution}; at V: f = {friction:.4g}, a = {a:.4g}, "
-        f"b = {a + zeta:.4g}; D = {law.slip_distance:.4g} m; "
-        f"{scales_line(law, velocity)}.",
-    ]
+    fault = FaultParameters(**fault_of_run(parameters))
     if base is not None:
-        return lines
-    lines += papers_lines(law, given)
-    assumed = _assumed_of_bodies(given.keys(), parameters.second_body.deformable)
-    if assumed:
-        lines.append(f"Assumed: {', '.join(assumed)}.")
-    return lines
+        return system_of_fault(fault, parameters_of(fault))
+    return system_of_fault(fault, given, papers_lines(parameters.friction, given))
 
 
 def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
@@ -228,49 +200,53 @@ def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
     return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []
 
 
-def _assumed_of_bodies(given: Collection[str], deformable: bool) -> list[str]:
-    """The assumptions on the second body, in words."""
-    if not deformable:
-        return []
-    if "second_shear_modulus" not in given:
-        return ["the second body is like the first"]
-    if "second_height" not in given:
-        return ["the second body is as high as the first"]
-    return []
+def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
+    """The assumptions about bodies, far sides and plane, in words."""
+    assumed = []
+    if math.isfinite(float(fault.second_shear_modulus)):
+        if "second_shear_modulus" not in given:
+            assumed.append("the second body is like the first")
+        elif "second_height" not in given:
+            assumed.append("the second body is as high as the first")
+    if math.isfinite(float(fault.height)):
+        if "far_side" not in given and fault.loading != "top":
+            assumed.append("far sides free of changes of stress")
+    elif "height" not in given:
+        assumed.append("half-spaces")
+    if "plane" not in given:
+        assumed.append("plane strain")
+    return assumed
 
 
 def system_of_fault(
-    fault: Fault,
+    fault: FaultParameters,
     given: Mapping[str, Any],
-    loading: str = "edge",
-    known: bool = True,
+    papers: Sequence[str] = (),
+    sought: str = "",
 ) -> list[str]:
-    """The system of a fault of the theory and the assumptions, one line each.
+    """The system that a command computes, its friction and the assumptions, one line each.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     given : mapping
         Its given parameters, by name.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch begins.
-    known : bool
-        Whether the shear modulus of the first body is known, rather than the parameter to find.
+    papers : sequence of str
+        The line about parameters that are the paper's, if there is one.
+    sought : str
+        Name of the parameter to find, of which the fault has any value; empty without one.
 
     Returns
     -------
     list of str
     """
-    deformable = math.isfinite(given.get("second_shear_modulus", 1.0))
-    assumed = _assumed_of_bodies(given.keys(), deformable)
-    if "height" not in given:
-        assumed.append("half-spaces")
-    elif "far_side" not in given:
-        assumed.append("far sides free of changes of stress")
-    if "plane" not in given:
-        assumed.append("plane strain")
-    lines = [_system_line(fault, loading, known)]
+    lines = [
+        _system_line(fault, sought),
+        _friction_line(fault, sought),
+        *papers,
+    ]
+    assumed = _assumed(fault, given.keys())
     if assumed:
         lines.append(f"Assumed: {', '.join(assumed)}.")
     return lines
@@ -283,4 +259,4 @@ def printed_warnings() -> Iterator[None]:
         warnings.simplefilter("always", ImplausibleWarning)
         yield
     for text in dict.fromkeys(str(warning.message) for warning in caught):
-        click.echo(f"warning: {text}", err=True)
+        click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)

@@ -1,62 +1,151 @@
-"""Output that several commands share: parameters with units, events, JSON."""
+"""Output that several commands share: lines that fit the terminal, events, JSON."""
 
 import json
 import math
 import os
 import re
 import shlex
+import shutil
+import sys
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import zip_longest
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..answers.status import Answers
 from ..model.parameters import GROUPS, Parameters
-from ..model.quantities import ParameterError, Quantity, declarations
+from ..model.quantities import ParameterError, declarations
+from .pages import with_addresses
+from .unit_text import with_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_GAP = 2
+"""Blanks between the columns of a table, and before each of its rows."""
+
+_INSEPARABLE = re.compile(r"(?<=[=<>]) | (?=[=<>] )|(?<=\d) (?=(?:[numckMG]?(?:Pa|m|s)|%|L_c)\b)")
+"""Blanks beside relations, and between a number and its unit."""
+
+_LEAST_COLUMN = 10
+_LEAST_TERMINAL = 40
+
+
+def _terminal_width(err: bool = False) -> int | None:
+    """Columns of the terminal, or of COLUMNS; None if the output is a file or a pipe."""
+    stream = sys.stderr if err else sys.stdout
+    if not (stream.isatty() or os.environ.get("COLUMNS")):
+        return None
+    return max(shutil.get_terminal_size().columns, _LEAST_TERMINAL)
+
+
+def wrapped(*texts: str, err: bool = False) -> list[str]:
+    """Texts wrapped to the terminal; the further lines of each are indented by two blanks more.
+
+    Parameters
+    ----------
+    *texts : str
+        Pages that they cite get addresses at which the user finds them.
+    err : bool
+        Whether they are for the standard error.
+
+    Returns
+    -------
+    list of str
+    """
+    width = _terminal_width(err)
+    lines: list[str] = []
+    for text in map(with_addresses, texts):
+        if width is None or len(text) <= width:
+            lines.append(text)
+            continue
+        indent = len(text) - len(text.lstrip())
+        joined = _INSEPARABLE.sub("\N{NO-BREAK SPACE}", text)
+        parts = textwrap.wrap(
+            joined,
+            width,
+            subsequent_indent=" " * (indent + 2),
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        lines += [part.replace("\N{NO-BREAK SPACE}", " ") for part in parts]
+    return lines
+
+
+def table(
+    rows: Sequence[Sequence[str] | str],
+    right: Collection[int] = (),
+) -> list[str]:
+    """Rows of cells in columns; on a narrow terminal the widest columns are narrowed.
+
+    Parameters
+    ----------
+    rows : sequence of sequences of str, or of str
+        Cells, the same number in each row; a text is a line between the rows.
+    right : collection of int
+        Numbers of the columns that are aligned to the right.
+
+    Returns
+    -------
+    list of str
+    """
+    cells = [row for row in rows if not isinstance(row, str)]
+    widths = _column_widths(cells)
+    lines = []
+    for row in rows:
+        if isinstance(row, str):
+            lines += wrapped(row)
+            continue
+        parts = [
+            textwrap.wrap(cell, width, break_on_hyphens=False) or [""]
+            for cell, width in zip(row, widths, strict=True)
+        ]
+        for line in zip_longest(*parts, fillvalue=""):
+            lines.append(_table_line(line, widths, right))
+    return lines
+
+
+def _column_widths(rows: Sequence[Sequence[str]]) -> list[int]:
+    """Widths of columns; while they exceed the terminal, the widest one that can be narrowed is.
+
+    Words are broken only where no column can be narrowed otherwise.
+    """
+    columns = list(zip(*rows, strict=True))
+    widths = [max(1, *map(len, column)) for column in columns]
+    longest_words = [max(map(len, " ".join(column).split()), default=1) for column in columns]
+    terminal = _terminal_width()
+    if terminal is None:
+        return widths
+    for least in (longest_words, [_LEAST_COLUMN] * len(widths)):
+        for column in sorted(range(len(widths)), key=lambda column: -widths[column]):
+            excess = sum(widths) + _GAP * len(widths) - terminal
+            room = widths[column] - least[column]
+            widths[column] -= max(0, min(excess, room))
+    return widths
+
+
+def _table_line(parts: Iterable[str], widths: Sequence[int], right: Collection[int]) -> str:
+    line = ""
+    for column, (part, width) in enumerate(zip(parts, widths, strict=True)):
+        aligned = part.rjust(width) if column in right else part.ljust(width)
+        line += " " * _GAP + aligned
+    return line.rstrip()
 
 
 def parameter_lines(parameters: Parameters) -> list[str]:
     """The parameters of a simulation, one in a line, with unit and meaning."""
-    lines = []
+    rows: list[Sequence[str] | str] = []
     for group in GROUPS:
         own = getattr(parameters, group)
-        lines.append(f"{group}:")
+        rows.append(f"{group}:")
         for name, entry in declarations(type(own)).items():
             if getattr(own, name) is None:
                 continue  # a rigid base lacks it, or a second block has that of the first
             value = with_unit(getattr(own, name), entry)
             meaning = re.split("[;:,]", entry.description)[0]
-            lines.append(f"  {name:<28} {value:<16} {meaning}")
-    return lines
-
-
-def wrapped(*texts: str) -> list[str]:
-    """Texts wrapped into lines; all but the first line of each text are indented."""
-    lines: list[str] = []
-    for text in texts:
-        lines += textwrap.wrap(text, 95, subsequent_indent="  ")
-    return lines
-
-
-def with_unit(
-    value: Any,
-    entry: Quantity,
-) -> str:
-    """A value as text with its unit.
-
-    Parameters
-    ----------
-    value : float, int or str
-        In SI units.
-    entry : Quantity
-        Declaration of the parameter.
-
-    Returns
-    -------
-    str
-    """
-    number = f"{value:.6g}" if isinstance(value, float) else str(value)
-    return number if entry.unit == "1" else f"{number} {entry.unit}"
+            rows.append((name, value, meaning))
+    return table(rows)
 
 
 def event_lines(
@@ -94,7 +183,7 @@ def _with_spread(
     return f"{found[name]:.4g} ({low:.4g} to {high:.4g})"
 
 
-def outcome(dataset: Any) -> dict[str, Any]:
+def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
     """The status and the event of a simulation, for JSON, in SI units."""
     from ..analysis.extraction import extract  # imported here, since the libraries take a second
 

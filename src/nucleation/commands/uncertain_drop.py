@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,18 +12,25 @@ import numpy as np
 
 from ..answers.draws import Draws, draw
 from ..configuration.samples import read_samples
+from ..configuration.single_run import merged, merged_parameters, single_run
 from ..configuration.study_names import study_parameters
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length
+from ..theory.of_runs import fault_of_run
 from . import DONE, STABLE
 from .fault_options import IN_STUDIES
 from .progress import Progress
-from .sources import merged, merged_parameters, planned
-from .system_text import fault_in, system_of_run
-from .text import to_json, wrapped
-from .uncertainty import by_quantile, head_of_quantiles, ranges_among, row_of_quantiles
+from .system_text import system_of_run
+from .text import table, to_json, wrapped
+from .uncertainty import (
+    QUANTILE_COLUMNS,
+    QUANTILE_HEAD,
+    by_quantile,
+    ranges_among,
+    row_of_quantiles,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -236,10 +243,10 @@ def case_of(
     defaults = usual if base is None else {}
     values = merged(base, {**defaults, **own})
     parameters = merged_parameters(None, values)
-    critical = float(critical_length(**fault_in(parameters)))
+    critical = float(critical_length(**fault_of_run(parameters)))
     if math.isnan(critical):
         return parameters  # for a stable fault the theory has no length of the block
-    return planned(values, {}, results="results").parameters
+    return single_run(values, results="results").parameters
 
 
 def _described(
@@ -287,20 +294,20 @@ def _lines(
         f"{count['draws'] + invalid} draws of {', '.join(uncertain)}: {invalid} left out, "
         f"{stable} of the others stable, without L_c"
     )
-    lines = [*wrapped(*system), "", *wrapped(draws), "", head_of_quantiles()]
+    rows: list[Sequence[str] | str] = [QUANTILE_HEAD]
     for key in found["key"].values:
         one = found.sel(key=key)
         share = float(one["share"])
         title = one["title"].item()
-        lines.append(row_of_quantiles(title, one["value"].values, one["error"].values, share))
+        rows.append(row_of_quantiles(title, one["value"].values, one["error"].values, share))
         if share < 1.0:
-            lines += wrapped(f"      in the other draws: {one['why_not'].item()}")
+            rows.append(f"      in the other draws: {one['why_not'].item()}")
+    lines = [*wrapped(*system, "", draws, ""), *table(rows, QUANTILE_COLUMNS)]
     if count["doubtful"]:
         doubtful = f"DO NOT RELY ON {count['doubtful']} of the draws: {count['doubts']}"
-        lines += ["", *wrapped(doubtful)]
-    return [
-        *lines,
-        "",
-        "stable: no patch nucleates in the range of the search; digits by the number of draws. The",
-        "length at the drop varies also with the realisation of the perturbation.",
-    ]
+        lines += wrapped("", doubtful)
+    remark = (
+        "stable: no patch nucleates in the range of the search; digits by the number of draws. The "
+        "length at the drop varies also with the realisation of the perturbation."
+    )
+    return [*lines, *wrapped("", remark)]

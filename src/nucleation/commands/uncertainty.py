@@ -1,8 +1,7 @@
 """Uncertain parameters of a fault, and the quantiles of its lengths, for ``nucleation length``."""
 
 import math
-import textwrap
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,7 @@ from ..answers.length import THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from . import DONE, STABLE
 from .options import Decorator, option
 from .progress import Progress
@@ -25,13 +24,17 @@ from .system_text import (
     system_of_fault,
     systems_of_lengths,
 )
-from .text import to_json, wrapped
+from .text import table, to_json, wrapped
 
 samples_option = click.option(
     "--samples",
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
 )
+
+QUANTILE_HEAD = ("quantiles (m)", *(f"{share:.0%}" for share in QUANTILES), "share")
+QUANTILE_COLUMNS = range(1, len(QUANTILE_HEAD))
+"""Columns of numbers in a table of quantiles."""
 
 _Row = tuple[str, str, list[float], list[float], float]
 """Key, title, quantiles (m), their standard errors (m) and share of a length."""
@@ -141,6 +144,7 @@ def print_quantiles(
     given: Mapping[str, Any],
     uncertain: Mapping[str, Any],
     options: Mapping[str, Any],
+    papers: Sequence[str],
     as_json: bool,
 ) -> int:
     """Print the quantiles of all lengths of an uncertain fault.
@@ -153,6 +157,8 @@ def print_quantiles(
         Its ranges and samples.
     options : mapping
         The options of the command.
+    papers : sequence of str
+        The line about parameters that are the paper's, if there is one.
     as_json : bool
         Whether to print JSON.
 
@@ -162,14 +168,14 @@ def print_quantiles(
         The exit code.
     """
     known = varying(given, uncertain, options)
-    for name in ("weakening_rate", "loading", "draws"):
+    for name in ("weakening_rate", "draws"):
         known[name] = options[name]
     if "weakening_rate" in uncertain:
         known["weakening_rate"] = uncertain["weakening_rate"]
     with printed_warnings():
-        middle = Fault(**given)
+        middle = FaultParameters(**given)
         found = length_quantiles(progress=Progress("draws"), **known)
-    system = system_of_fault(middle, given, options["loading"])
+    system = system_of_fault(middle, given, papers)
     show = _as_json if as_json else _as_text
     click.echo(show(system, found, middle, list(uncertain)))
     return DONE if found["share"][0] > 0.0 else STABLE
@@ -178,7 +184,7 @@ def print_quantiles(
 def _as_json(
     system: list[str],
     found: Any,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
     words = {length.key: length.words() for length in LENGTHS}
@@ -209,39 +215,33 @@ def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
 def _as_text(
     system: list[str],
     found: Any,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
-    lines = [
-        *wrapped(*system),
-        "",
-        *wrapped(_counts(found.attrs, uncertain)),
-        "",
-        head_of_quantiles(),
-    ]
+    rows: list[Sequence[str] | str] = [QUANTILE_HEAD]
     system_by_key = {length.key: length.system for length in LENGTHS}
     nowhere = []
     for of_lengths in systems_of_lengths(middle, uncertain):
-        table = []
+        of_system = []
         for key, title, values, errors, share in _rows(found):
             if system_by_key.get(key, THIS_FAULT) != of_lengths:
                 continue
             if share > 0.0:
-                table.append(row_of_quantiles(title, values, errors, share))
+                of_system.append(row_of_quantiles(title, values, errors, share))
             else:
                 note = " (two materials)" if of_lengths == TWO_MATERIALS else ""
                 nowhere.append(f"{title}{note}")
-        if table:
-            lines += [f"for {of_lengths}:", *table]
+        if of_system:
+            rows += [f"for {of_lengths}:", *of_system]
+    lines = wrapped(*system, "", _counts(found.attrs, uncertain), "")
+    lines += table(rows, QUANTILE_COLUMNS)
     if nowhere:
-        text = f"without a value in any draw: {'; '.join(nowhere)}"
-        lines += ["", *textwrap.wrap(text, 95)]
-    lines += [
-        "",
-        "stable: no patch nucleates in the range of the search, which counts as an infinite",
-        "length; digits by the number of draws. share: of the draws with this length; full lengths",
-    ]
-    return "\n".join(lines)
+        lines += wrapped("", f"without a value in any draw: {'; '.join(nowhere)}")
+    remark = (
+        "stable: no patch nucleates in the range of the search, which counts as an infinite "
+        "length; digits by the number of draws. share: of the draws with this length; full lengths"
+    )
+    return "\n".join([*lines, *wrapped("", remark)])
 
 
 def _counts(count: Mapping[str, Any], uncertain: list[str]) -> str:
@@ -255,19 +255,13 @@ def _counts(count: Mapping[str, Any], uncertain: list[str]) -> str:
     return text
 
 
-def head_of_quantiles() -> str:
-    """The head of a table of quantiles."""
-    columns = "".join(f"{share:>10.0%}" for share in QUANTILES)
-    return f"{'quantiles (m)':<32}{columns}   share"
-
-
 def row_of_quantiles(
     title: str,
     values: Iterable[float],
     errors: Iterable[float],
     share: float,
-) -> str:
-    """One row of a table of quantiles.
+) -> Sequence[str]:
+    """The cells of one row of a table of quantiles.
 
     Parameters
     ----------
@@ -280,11 +274,11 @@ def row_of_quantiles(
 
     Returns
     -------
-    str
+    sequence of str
     """
     pairs = zip(values, errors, strict=True)
-    columns = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
-    return f"  {title:<30}{columns}{share:>8.1%}"
+    numbers = [as_sure(value, error) for value, error in pairs]
+    return [title, *numbers, f"{share:.1%}"]
 
 
 def as_sure(value: float, error: float) -> str:

@@ -2,13 +2,16 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from ..answers.weakening_patch import PatchAnswer, patch_answer
 from ..model.heterogeneity import Heterogeneity
 from ..model.quantities import ParameterError, declarations
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from .options import option, together
+from .text import table, wrapped
+from .unit_text import in_unit
 
 OPTIONS = ("width", "outside_zeta", "outside_a")
 
@@ -35,12 +38,12 @@ patch_options = together(
 """The options for a patch, the arguments of :func:`patch_of`."""
 
 
-def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
+def patch_of(fault: FaultParameters, options: dict[str, Any]) -> PatchAnswer | None:
     """The behaviour of the patch that :data:`patch_options` define.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, with the friction of the patch.
     options : dict
         Values of the options, in SI units; None if not given.
@@ -84,18 +87,17 @@ def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> lis
     """
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch.smallest_width
+    rows: list[Sequence[str] | str] = []
     if math.isnan(smallest):
-        lines = [head, "  no W_c: the patch is stable, or its surroundings are not"]
+        rows.append("  no W_c: the patch is stable, or its surroundings are not")
     else:
         ratio = f"{smallest / critical:.3g} L_c"
         meaning = "smallest width that nucleates; a narrower patch creeps"
-        value = f"{smallest:.4g} m"
-        lines = [head, f"  W_c    {value:<11} {ratio:<10} {meaning}"]
+        rows.append(("W_c", f"{smallest:.4g} m", ratio, meaning))
         if width is not None:
             own = f"{patch.width_ratio:.3g} W_c"
-            value = f"{width:.4g} m"
-            lines.append(f"  W      {value:<11} {own:<10} {patch.outcome}")
+            rows.append(("W", in_unit(width, "m"), own, patch.outcome))
     if not math.isnan(patch.cell_size):
         cell = f"{patch.cell_size:.3g} m"
-        lines.append(f"  cells  {cell:<22} or less: three in a process zone (Day et al., 2005)")
-    return lines
+        rows.append(("cells", cell, "", "or less: three in a process zone (Day et al., 2005)"))
+    return [*wrapped(head), *table(rows)]

@@ -5,11 +5,20 @@ the linear theory and the thin block's statics; docs/studies.md gives their accu
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from ..model.linearised import InterfaceState, interface_state
 from ..theory.estimates import growth_time
-from .mesh_advice import UNSTABLE, Advice, noise, resolution, roughness
+from .mesh_advice import (
+    TOPICS,
+    UNSTABLE,
+    Advice,
+    elements_per_zone,
+    noise,
+    resolution,
+    roughness,
+)
 from .roles import REFINEMENTS
 from .runs import Run
 
@@ -30,29 +39,69 @@ _MOST_NAMED = 100
 """Most runs that a warning names beside the worst; maps have thousands."""
 
 
-_Case = tuple[float, str, str]
-"""Badness and text of a warning, and the run's identifier."""
+_Case = tuple[float, str, Run]
+"""Badness and text of a warning, and the run."""
+
+
+class Warned(NamedTuple):
+    """A warning about the runs of a study."""
+
+    topic: str
+    text: str
+    """Study, topic, the worst run and its numbers, the other runs."""
+    runs: list[Run]
+    """The runs, the worst first."""
+
+    @property
+    def is_of_meshes(self) -> bool:
+        """Whether it is about meshes and steps that do not resolve the front."""
+        return self.topic in TOPICS
+
+
+def warned(runs: Iterable[Run]) -> list[Warned]:
+    """The warnings about some runs: one for each study and topic, with the numbers of the worst."""
+    found: dict[tuple[str, str], list[_Case]] = {}
+    for run in runs:
+        for topic, badness, text in _about(run):
+            found.setdefault((run.study, topic), []).append((badness, text, run))
+    warnings = []
+    for (study, topic), cases in found.items():
+        cases.sort(key=lambda case: case[0], reverse=True)
+        _, text, _ = cases[0]
+        concerned = {run.id: run for _, _, run in cases}  # a run of two blocks may be repeated
+        ids = list(concerned)
+        full_text = f"studies.{study}: {topic} ({_worst(ids)}): {text}{_others(ids)}"
+        warnings.append(Warned(topic, full_text, list(concerned.values())))
+    return warnings
 
 
 def advise(runs: Iterable[Run]) -> list[str]:
-    """The warnings about some runs: one for each study and topic, with the runs, the worst first.
+    """The texts of the warnings about some runs."""
+    return [warning.text for warning in warned(runs)]
 
-    The numbers are those of the worst.
+
+def summary_of_meshes(warnings: Sequence[Warned], place: str) -> str:
+    """One sentence for all warnings about meshes and steps.
+
+    Parameters
+    ----------
+    warnings : sequence of Warned
+        One or more.
+    place : str
+        Where the warnings are in full.
+
+    Returns
+    -------
+    str
+        The number of runs, and the fewest elements per process zone among them.
     """
-    found: dict[str, list[_Case]] = {}
-    for run in runs:
-        for topic, badness, text in _about(run):
-            heading = f"studies.{run.study}: {topic}"
-            found.setdefault(heading, [])
-            found[heading].append((badness, text, run.id))
-    texts = []
-    for heading, cases in found.items():
-        cases.sort(key=lambda case: case[0], reverse=True)
-        _, text, _ = cases[0]
-        ids = [identifier for _, _, identifier in cases]
-        ids = list(dict.fromkeys(ids))  # a run of two blocks may be repeated
-        texts.append(f"{heading} ({_worst(ids)}): {text}{_others(ids)}")
-    return texts
+    runs = {run.id: run for warning in warnings for run in warning.runs}
+    worst = min(runs.values(), key=elements_per_zone)
+    number = f"{len(runs)} runs have" if len(runs) > 1 else "1 run has"
+    return (
+        f"{number} a coarse mesh or long steps, with {elements_per_zone(worst):.2g} elements per "
+        f"process zone at worst ({worst.id}); {place} lists them"
+    )
 
 
 def _worst(ids: list[str]) -> str:

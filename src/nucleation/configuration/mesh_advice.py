@@ -11,6 +11,14 @@ from .runs import Run
 Advice = tuple[str, float, str]
 """A warning about a run: its topic, its badness (larger is worse), its text."""
 
+COARSE_X = "mesh too coarse along x"
+COARSE_Y = "mesh too coarse along y"
+ROUGHNESS = "roughness not resolved"
+NOISE_OF_MESH = "perturbation lost in the mesh's noise"
+NOISE_OF_STEPS = "perturbation lost in the steps' noise"
+TOPICS = (COARSE_X, COARSE_Y, ROUGHNESS, NOISE_OF_MESH, NOISE_OF_STEPS)
+"""Topics of the warnings in this module."""
+
 UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
 
@@ -76,6 +84,12 @@ def _zone(run: Run) -> float:
     return process_zone(run.parameters, rest)
 
 
+def elements_per_zone(run: Run) -> float:
+    """Number of elements along x in a process zone."""
+    along, _ = element_sizes(run.parameters.mesh, run.parameters.geometry)
+    return _zone(run) / along
+
+
 def resolution(run: Run) -> Iterator[Advice]:
     """Meshes that do not resolve the process zone at the front."""
     parameters = run.parameters
@@ -86,7 +100,7 @@ def resolution(run: Run) -> Iterator[Advice]:
         least = math.ceil(mesh.n_x * along / zone * _ELEMENTS_PER_ZONE)
         best = math.ceil(mesh.n_x * along / zone * _QUIET_ELEMENTS)
         yield (
-            "mesh too coarse along x",
+            COARSE_X,
             along / zone,
             f"n_x = {mesh.n_x} makes elements of {along:.3g} m, {zone / along:.2g} to a process "
             f"zone of {zone:.3g} m; recommended is n_x = {least} or more, and about {best} for "
@@ -100,7 +114,7 @@ def resolution(run: Run) -> Iterator[Advice]:
         _, across = element_sizes(own, geometry)
         if across > zone / _ELEMENTS_PER_ZONE:
             yield (
-                "mesh too coarse along y",
+                COARSE_Y,
                 across / zone,
                 f"{prefix}n_y = {own.n_y} and {prefix}grading = {own.grading:g} make elements of "
                 f"{across:.3g} m at the interface, {zone / across:.2g} to a process zone of "
@@ -118,7 +132,7 @@ def roughness(run: Run) -> Iterator[Advice]:
     if rough and scale < ELEMENTS_PER_CORRELATION * along:
         least = math.ceil(mesh.n_x * ELEMENTS_PER_CORRELATION * along / scale)
         yield (
-            "roughness not resolved",
+            ROUGHNESS,
             along / scale,
             f"correlation_length = {scale:g} m has {scale / along:.2g} elements of {along:.3g} m, "
             f"which represent another roughness; recommended is n_x = {least} or more",
@@ -144,7 +158,7 @@ def _noise_of_mesh(run: Run) -> Iterator[Advice]:
     if strength < lost and zone < _QUIET_ELEMENTS * along:
         best = math.ceil(mesh.n_x * along / zone * _QUIET_ELEMENTS)
         yield (
-            "perturbation lost in the mesh's noise",
+            NOISE_OF_MESH,
             along / zone,
             f"strength = {strength:g} with {zone / along:.2g} elements to a process zone: "
             "the front's hops from node to node perturb the patch, and change onset times by 1 % "
@@ -160,7 +174,7 @@ def _noise_of_steps(run: Run) -> Iterator[Advice]:
     if passed > _ELEMENT_PART and strength <= _STEP_NOISE:
         shorter = parameters.stepping.longest_step * _ELEMENT_PART / passed
         yield (
-            "perturbation lost in the steps' noise",
+            NOISE_OF_STEPS,
             passed,
             f"strength = {strength:g} while the front passes {100 * passed:.2g} % of an "
             "element in the longest step, which perturbs the patch as much; recommended is "

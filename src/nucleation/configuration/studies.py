@@ -11,9 +11,8 @@ from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, run_length, critical_lengths
+from ..theory.critical import NoInstability, critical_lengths, run_length
 from ..theory.estimates import growth_time
-from ..theory.transfer import bodies_of
 from .runs import Run
 from .settings import StudySettings
 from .study_names import by_study_name, expand, identifier
@@ -204,11 +203,7 @@ def lengths_of(
     faults: Iterable[tuple[Parameters, InterfaceState]],
 ) -> list[float]:
     """The theory's lengths (m) of all faults in one call, NaN where sliding is stable."""
-    cases = []
-    for parameters, interface in faults:
-        upper, lower = bodies_of(parameters)
-        cases.append((upper, lower, interface))
-    return critical_lengths(cases).tolist() if cases else []
+    return critical_lengths(faults).tolist()
 
 
 def _run(
@@ -221,17 +216,17 @@ def _run(
 ) -> Run:
     """One run; its length, unless given, is a multiple of the theory's critical length (m)."""
     values = prepared.values
-    if math.isnan(critical) and "length" not in values:
+    if math.isnan(critical) and "block_length" not in values:
         reason = _reason_of_stability(prepared)
         raise ParameterError(
-            f"{reason}; a control run, in which nothing is to nucleate, needs its length (m)"
+            f"{reason}; a control run, in which nothing is to nucleate, needs its block_length (m)"
         )
     usual = float(f"{settings.length_over_critical * critical:.4g}")
-    length = values.get("length", usual)
+    length = values.get("block_length", usual)
     if length <= critical:
         raise ParameterError(
-            f"length = {length:g} m is not allowed: the block must be longer than the critical "
-            f"nucleation length of the theory, {critical:.3g} m, better 6 times as long; "
+            f"block_length = {length:g} m is not allowed: the block must be longer than the "
+            f"critical nucleation length of the theory, {critical:.3g} m, better 6 times as long; "
             f"`nucleation specimen --length {length:g}m` computes the stress at which it would "
             "nucleate"
         )

@@ -43,7 +43,7 @@ def _pushed_block(parameters: Parameters) -> Block | BlockPair:
     if below is None:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
-    lower = Block(grid, below.material, below.bottom)
+    lower = Block(grid, below.material, below.far_side)
     return BlockPair(upper, lower)
 
 
@@ -63,7 +63,7 @@ def _half_block(parameters: Parameters, kind: type[Block]) -> Block | BlockPair:
     if below is None:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
-    lower = kind(_half(grid), below.material, below.bottom)
+    lower = kind(_half(grid), below.material, below.far_side)
     return BlockPair(upper, lower)
 
 
@@ -94,7 +94,7 @@ def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
     if below is None:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
-    lower = PeriodicBlock(grid, below.material, below.bottom)
+    lower = PeriodicBlock(grid, below.material, below.far_side)
     return PeriodicPair(upper, lower)
 
 

@@ -40,7 +40,7 @@ class Heterogeneity(Checked):
 
     varies: str = quantity(
         "property of the interface that varies along x; a changes at fixed b, and b at fixed a",
-        choices=("none", "normal_stress", "f", "a", "b", "zeta", "slip_distance"),
+        choices=("none", "normal_stress", "friction", "a", "b", "zeta", "slip_distance"),
         default="none",
     )
     shape: str = quantity(
@@ -153,12 +153,12 @@ class Heterogeneity(Checked):
         if factor == 1.0:
             return law
         f, a, zeta = law.expansion(velocity)
-        own = {"f": f, "a": a, "b": a + zeta, "zeta": zeta}
+        own = {"friction": f, "a": a, "b": a + zeta, "zeta": zeta}
         own[self.varies] *= factor
         if self.varies in ("a", "b"):
             own["zeta"] = own["b"] - own["a"]
         try:
-            return law.with_expansion(velocity, own["f"], own["a"], own["zeta"])
+            return law.with_expansion(velocity, own["friction"], own["a"], own["zeta"])
         except ParameterError as error:
             raise ParameterError(
                 f"heterogeneity.change = {self.change:g} is not allowed: {self.varies} = "

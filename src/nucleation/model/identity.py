@@ -90,7 +90,7 @@ def _completed(parameters: Parameters) -> dict[str, Any]:
     below = parameters.below
     if below is None:
         return values
-    own: dict[str, Any] = {"bottom": below.bottom}
+    own: dict[str, Any] = {"far_side": below.far_side}
     for part in (below.material, below.geometry, below.mesh):
         own |= dataclasses.asdict(part)
     for name in values:

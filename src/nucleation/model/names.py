@@ -30,7 +30,7 @@ class Names(dict[str, Quantity]):
         self._full_names = {}
         for full in entries:
             last = _last_part(full)
-            if occurrences[last] == 1:
+            if occurrences[last] == 1 and f"second_{last}" not in aliases:
                 self._full_names[last] = full
         self._full_names |= aliases
 

@@ -92,7 +92,7 @@ class _SecondBlock(NamedTuple):
     material: Material
     geometry: Geometry
     mesh: Mesh
-    bottom: str
+    far_side: str
 
 
 @dataclasses.dataclass(frozen=True)
@@ -129,9 +129,9 @@ class Parameters:
         self._require_parity()
         self._require_place_of_heterogeneity()
         below = self.below
-        if self.loading.kind == "top" and below is not None and below.bottom != "clamped":
+        if self.loading.kind == "top" and below is not None and below.far_side != "clamped":
             raise ParameterError(
-                f"second_body.bottom = {below.bottom} is not allowed with loading.kind = top, "
+                f"second_body.far_side = {below.far_side} is not allowed with loading.kind = top, "
                 "where nothing else holds the second block: it must be clamped"
             )
 
@@ -205,13 +205,13 @@ class Parameters:
             like_the_first(self.material),
             like_the_first(self.geometry),
             like_the_first(self.mesh),
-            second.bottom or "free",
+            second.far_side or "free",
         )
 
     @property
     def memory_time(self) -> float:
         """Time ``D/V`` (s) over which friction forgets at the imposed velocity."""
-        return self.friction.characteristic_slip_distance / self.loading.velocity
+        return self.friction.slip_distance / self.loading.velocity
 
     @property
     def longest_step(self) -> float:
@@ -282,26 +282,27 @@ GROUPS: dict[str, type] = get_type_hints(Parameters)
 ALIASES = {
     "evolution": "friction.evolution",
     "friction_law": "friction.law",
-    "f": "friction_coefficient",
-    "friction": "friction_coefficient",
-    "friction_coefficient": "friction_coefficient",
-    "a": "direct_effect",
-    "direct_effect": "direct_effect",
-    "b": "evolution_effect",
-    "evolution_effect": "evolution_effect",
-    "zeta": "velocity_weakening",
-    "velocity_weakening": "velocity_weakening",
+    "f": "friction",
+    "friction_coefficient": "friction",
+    "friction": "friction",
+    "direct_effect": "a",
+    "a": "a",
+    "evolution_effect": "b",
+    "b": "b",
+    "velocity_weakening": "zeta",
+    "zeta": "zeta",
     "phi0": "loading.initial_state",
+    "initial_state": "loading.initial_state",
     "loading": "loading.kind",
     "heterogeneity": "heterogeneity.varies",
     "kind": "perturbation.kind",
     "perturbation": "perturbation.kind",
-    "slip_distance": "friction.characteristic_slip_distance",
-    "characteristic_slip_distance": "friction.characteristic_slip_distance",
+    "characteristic_slip_distance": "friction.slip_distance",
+    "slip_distance": "friction.slip_distance",
     "applied_stress": "loading.normal_stress",
     "normal_stress": "loading.normal_stress",
-    "block_length": "geometry.length",
     "length": "geometry.length",
+    "block_length": "geometry.length",
     "shear_modulus": "material.shear_modulus",
     "poisson": "material.poisson_ratio",
     "poisson_ratio": "material.poisson_ratio",
@@ -309,8 +310,9 @@ ALIASES = {
     "height": "geometry.height",
     "n_y": "mesh.n_y",
     "grading": "mesh.grading",
-    "second_far_side": "second_body.bottom",
     **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
+    "second_bottom": "second_body.far_side",
+    "second_far_side": "second_body.far_side",
     "second_body": "second_body.kind",
 }
 """Short names; of several for one parameter the last is the standard one.

@@ -33,7 +33,8 @@ def warn_of_implausible(name: str, value: ArrayLike, entry: Quantity) -> None:
     Parameters
     ----------
     name : str
-        Name of the parameter; ``second_shear_modulus`` has the range of ``shear_modulus``.
+        Name of the parameter; ``second_shear_modulus`` and ``zone_shear_modulus`` have the
+        range of ``shear_modulus``.
     value : float or array_like
         Values in SI units, of any shape; infinite ones are ignored.
     entry : Quantity
@@ -44,7 +45,7 @@ def warn_of_implausible(name: str, value: ArrayLike, entry: Quantity) -> None:
     ImplausibleWarning
         With the first implausible value.
     """
-    known = RANGES.get(name.removeprefix("second_"))
+    known = RANGES.get(name.removeprefix("second_").removeprefix("zone_"))
     if known is None:
         return
     low, high = known

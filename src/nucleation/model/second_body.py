@@ -28,7 +28,7 @@ class SecondBody(Checked):
         choices=("rigid", "deformable"),
         default="rigid",
     )
-    bottom: str | None = quantity(
+    far_side: str | None = quantity(
         "far side of the second block: free under the normal stress, clamped, or on rollers that "
         "hold it along y; free if left out",
         choices=BOTTOMS,

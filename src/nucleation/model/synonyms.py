@@ -15,10 +15,11 @@ class _Synonym(NamedTuple):
 
 _SYNONYMS = (
     _Synonym(
-        names=("slip_distance", "characteristic_slip_distance"),
+        names=("slip_distance",),
         elsewhere=(
             *("d", "dc", "drs", "l", "lc", "ell"),
-            *("criticalslipdistance", "stateevolutiondistance"),
+            *("criticalslipdistance", "characteristicslipdistance"),
+            "stateevolutiondistance",
         ),
     ),
     _Synonym(
@@ -42,12 +43,12 @@ _SYNONYMS = (
         elsewhere=("nu", "poisson", "poissonsratio"),
     ),
     _Synonym(
-        names=("zeta", "velocity_weakening"),
+        names=("zeta",),
         elsewhere=("ab", "aminusb", "ba", "bminusa", "weakening", "ratedependence"),
         conversion="zeta = b - a, which is positive where friction weakens",
     ),
     _Synonym(
-        names=("a", "direct_effect"),
+        names=("a",),
         elsewhere=("a", "directeffect"),
     ),
     _Synonym(
@@ -55,7 +56,7 @@ _SYNONYMS = (
         elsewhere=("b", "evolutioneffect", "agingcoefficient"),
     ),
     _Synonym(
-        names=("friction", "friction_coefficient"),
+        names=("friction",),
         elsewhere=(
             *("f", "f0", "mu0", "mus"),
             *("coefficientoffriction", "frictioncoefficient"),

@@ -173,7 +173,7 @@ class Frames(Freezer):
 
     def __init__(self, record: Record) -> None:
         super().__init__(record.parameters, record.threshold)
-        names = ("slip_rate", "state", "normal_stress")
+        names = ("slip_rate", "state", "sigma_yy")
         self._fields = [record.simulation[name].values[record.creep] for name in names]
         self.time = record.time[record.creep]
         self.length = record.lengths[record.creep]

@@ -46,7 +46,7 @@ def lengths_over(
         Called with the indices of a point; returns the runs of that point, one, or one for each
         draw of uncertain parameters, or none where the fault is not valid.
     lengths : collection of str
-        Keys of the lengths to compute: ``critical_length``, ``stability_length``, ``expected_length``.
+        Keys of the lengths: ``critical_length``, ``stability_length``, ``expected_length``.
     progress : callable, optional
         Called with the number of points that are done and that of all.
 

@@ -96,7 +96,7 @@ def shown(given: Mapping[str, Any] | None = None) -> dict[str, Any]:
     Parameters
     ----------
     given : mapping, optional
-        The first fault on a rigid base, parameters as of :class:`~nucleation.theory.fault.Fault`.
+        The first fault on a rigid base, parameters as of :class:`~nucleation.fault.Fault`.
         Without it the page reads the fault from its address, and writes it there.
 
     Returns

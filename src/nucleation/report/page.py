@@ -29,7 +29,7 @@ class Picture(NamedTuple):
 class Content(NamedTuple):
     """Everything that the page shows."""
 
-    fault: dict[str, Any]  # the calculator's first one, parameters of theory.fault.Fault
+    fault: dict[str, Any]  # the calculator's first one, parameters of a Fault
     friction: Friction
     config: dict[str, Any]  # the complete configuration
     provenance: dict[str, str]  # from nucleation.datasets.provenance.attributes

@@ -56,7 +56,7 @@ def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
         "thickest": f"{max(row['height'] for row in paper):g}",
         "declared": _numbers(declared[0]) if declared else None,
         "ratios": ratios,
-        "creep": _over_theory(paper, "creep_length"),
+        "creep": _over_theory(paper, "stability_length"),
     }
 
 
@@ -73,7 +73,7 @@ def _numbers(row: Row) -> dict[str, str]:
         "low": f"{row['length_low']:.3g}",
         "high": f"{row['length_high']:.3g}",
         "theory": f"{row['critical_length']:.3g}",
-        "stability": f"{row['creep_length']:.3g}",
+        "stability": f"{row['stability_length']:.3g}",
     }
 
 
@@ -118,7 +118,7 @@ def _answer(rows: list[Row]) -> dict[str, str] | None:
     return {
         "length": _range((row["length"] for row in rows), ".3g"),
         "critical": _range((row["critical_length"] for row in rows), ".3g"),
-        "stability": _range((row["creep_length"] for row in rows), ".3g"),
+        "stability": _range((row["stability_length"] for row in rows), ".3g"),
         "ratio": _over_theory(rows, "length"),
     }
 

@@ -58,10 +58,10 @@ class Progress:
         x = Grid.of(parameters.geometry, parameters.mesh).x
         self._patch = Extent(x, SLIPPING * loading.velocity, loading.kind)
         self._end = parameters.stepping.end_time
-        self._expected_length = math.inf  # if sliding is stable by the theory
+        self._critical_length = math.inf  # if sliding is stable by the theory
         with contextlib.suppress(NoInstability):
             interface = linearised(parameters.friction, loading)
-            self._expected_length = run_length(parameters, interface)
+            self._critical_length = run_length(parameters, interface)
         self._stream = stream
         self._start_of_line = f"{name}: " if name else ""
         self._bar = None
@@ -121,7 +121,7 @@ class Progress:
         float
             Between 0 and 1.
         """
-        by_length = min(length / self._expected_length, NEARLY)
+        by_length = min(length / self._critical_length, NEARLY)
         by_time = simulated / self._end
         self._part = min(max(self._part, by_time, by_length), 1.0)
         return self._part

@@ -10,7 +10,7 @@ RECORDED = {
     "slip": Variable("m", "slip", "epsilon"),
     "state": Variable("s", "state variable (age) of the interface", "phi"),
     "shear_stress": Variable("Pa", "shear stress at the interface", "tau"),
-    "normal_stress": Variable(
+    "sigma_yy": Variable(
         "Pa", "normal stress at the interface, negative in compression", "sigma_yy"
     ),
     "step_time": Variable("s", "time at the end of the step", "t"),

@@ -20,7 +20,7 @@ LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
 FRAME_STEPS = 40  # largest number of steps between frames
 
-FOR_LENGTHS = ("slip_rate", "state", "normal_stress")
+FOR_LENGTHS = ("slip_rate", "state", "sigma_yy")
 """Fields from which patch, edge and the frozen patch's stability are computed."""
 
 INTERFACE = (*FOR_LENGTHS, "slip", "shear_stress")
@@ -175,7 +175,7 @@ class Recorder:
         values = {
             "slip_rate": interface.slip_rate,
             "state": np.exp(interface.log_state),
-            "normal_stress": -interface.normal / lengths,
+            "sigma_yy": -interface.normal / lengths,
             "slip": displacement + self._body.on_all_nodes(interface.w, 0.0),
             "shear_stress": -interface.tangential / lengths,
         }

@@ -7,15 +7,13 @@ import numpy as np
 
 from ..model.parameters import names
 from ..model.quantities import ParameterError, Quantity
-from ..model.synonyms import hint
 from ..model.units import magnitude
 from ..types import Array, ComplexArray
 from .critical import stability_reason
 from .crossings import largest_crossings, marginal_frequencies
-from .fault import Fault, takes_fault
-from .spectrum import Systems
-from .transfer import as_wavenumber
-from .values import QUANTITIES, Values, labelled
+from .fault import FaultParameters, takes_fault
+from .spectrum import Systems, as_wavenumber
+from .values import OF_THEORY, QUANTITIES, Values, labelled
 
 WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 
@@ -48,7 +46,7 @@ def critical_length(**fault: Values) -> Any:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`.
+        The parameters of :class:`~nucleation.fault.Fault`.
 
     Returns
     -------
@@ -85,7 +83,7 @@ def critical_mode(**fault: Values) -> CriticalMode:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`, with the `velocity`.
+        The parameters of :class:`~nucleation.fault.Fault`, with the `velocity`.
 
     Returns
     -------
@@ -119,7 +117,7 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`, with the `velocity`.
+        The parameters of :class:`~nucleation.fault.Fault`, with the `velocity`.
 
     Returns
     -------
@@ -168,7 +166,7 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; those of friction have no effect
+        The parameters of :class:`~nucleation.fault.Fault`; those of friction have no effect
         and are optional.
 
     Returns
@@ -208,7 +206,7 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     )
 
 
-def _critical(fault: Fault) -> CriticalMode:
+def _critical(fault: FaultParameters) -> CriticalMode:
     def points(systems: Systems) -> tuple[Array, Array, Array]:
         k = largest_crossings(systems)
         return 2.0 * np.pi / k, k, marginal_frequencies(systems, k)
@@ -225,7 +223,7 @@ def _critical(fault: Fault) -> CriticalMode:
     )
 
 
-def reason_of_stability(fault: Fault) -> str:
+def reason_of_stability(fault: FaultParameters) -> str:
     """Why homogeneous sliding of one stable fault is stable at every wavelength.
 
     Raises
@@ -248,10 +246,10 @@ def reason_of_stability(fault: Fault) -> str:
 
 @cache
 def aliases() -> dict[str, str]:
-    """The parameters of :class:`Fault` by the other names that simulations and studies use."""
+    """The parameters of a fault by the other names that simulations and studies use."""
     known = names()
     found: dict[str, str] = {}
-    for name in QUANTITIES.keys() - {"far_side"}:
+    for name in QUANTITIES.keys() - set(OF_THEORY):
         full = known.full(name)
         others = {full, known.short(full), *known.others(full)}
         for alias in others - {name}:
@@ -260,7 +258,7 @@ def aliases() -> dict[str, str]:
 
 
 def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Keywords with the names of :class:`Fault` in place of :func:`aliases`."""
+    """Keywords with the names of a fault in place of :func:`aliases`."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = aliases().get(key, key)
@@ -270,22 +268,12 @@ def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def fault_of(parameters: dict[str, Any]) -> Fault:
+def fault_of(parameters: dict[str, Any]) -> FaultParameters:
     """The fault with the given keywords; some of them may be :func:`aliases`."""
-    known = without_aliases(parameters)
-    for name in known:
-        if name not in QUANTITIES:
-            suggestion = hint(name, QUANTITIES) or f"known: {', '.join(QUANTITIES)}"
-            raise ParameterError(
-                f"the fault got an unexpected keyword argument {name!r}; {suggestion}"
-            )
-    try:
-        return Fault(**known)
-    except TypeError as error:  # a keyword that is missing
-        raise ParameterError(str(error).replace("Fault.__init__()", "the fault")) from None
+    return FaultParameters(**without_aliases(parameters))
 
 
-def _with_velocity(fault: Fault) -> Fault:
+def _with_velocity(fault: FaultParameters) -> FaultParameters:
     if fault.velocity is None:
         raise ParameterError("velocity (m/s) is missing: rates and frequencies depend on it")
     return fault
@@ -296,7 +284,7 @@ def named(
     name: str,
     units: str,
     long_name: str,
-    fault: Fault,
+    fault: FaultParameters,
 ) -> Any:
     """A result in the form of the fault's parameters.
 
@@ -306,7 +294,7 @@ def named(
         Plain numbers in SI units.
     name, units, long_name : str
         Of the result; only a DataArray has the names.
-    fault : Fault
+    fault : FaultParameters
         The fault; if one of its parameters was a pint quantity, so is the result.
 
     Returns

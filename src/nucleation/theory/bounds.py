@@ -3,9 +3,10 @@
 Every entry of a layer's stiffness is ``N(q)/D(q)`` with N and D sums of positive functions of
 ``q = |k| H`` (:mod:`.stiffness`). Each function is monotonic, with or without a factor
 ``exp(-2q)``. So its extremes are at the ends of the interval, and ``min N/max D <= N/D <= max N/min
-D``. Only ``A_xy`` may be a difference of two such N. The stiffness of a pair combines the entries
-by sums, products and one quotient, in interval arithmetic. The bounds converge linearly with the
-length of the interval; where layers are thick they are close for any length.
+D``. Only ``A_xy`` may be a difference of two such N. The stiffness of a pair, and of a body with a
+zone (:mod:`.zone`), combines the entries by sums, products and one quotient of intervals.
+The bounds converge linearly with the length of the interval; where layers are thick they are close
+for any length. With a zone they are NaN over intervals that are too long for any bound.
 """
 
 from typing import NamedTuple, TypeAlias, cast
@@ -14,6 +15,7 @@ import numpy as np
 
 from .stiffness import Array, LayerPair, Layers, Stiffness
 from .waves import Waves
+from .zone import Factor, Zone
 
 _Interval: TypeAlias = tuple[Array, Array]
 """Lower and upper bounds."""
@@ -130,9 +132,11 @@ def transfer_bounds(
 def _stiffness_bounds(
     k_low: Array,
     k_high: Array,
-    layers: Layers,
+    layers: Layers | Zone,
 ) -> tuple[Stiffness, Stiffness]:
     """Lower and upper bounds of the dimensionless stiffness of layers over ``[k_low, k_high]``."""
+    if isinstance(layers, Zone):
+        return _zone_bounds(k_low, k_high, layers)
     at_low = Waves(layers.layer_number(k_low))
     at_high = Waves(layers.layer_number(k_high))
     least = layers.terms(extremes(at_low, at_high, greatest=False))
@@ -154,6 +158,35 @@ def _stiffness_bounds(
         det=greatest.det / below,
     )
     return low, high
+
+
+def _zone_bounds(
+    k_low: Array,
+    k_high: Array,
+    zone: Zone,
+) -> tuple[Stiffness, Stiffness]:
+    """The same of bodies with a zone; NaN over intervals too long for positive bounds."""
+    at_low = Waves(zone.layer.layer_number(k_low))
+    at_high = Waves(zone.layer.layer_number(k_high))
+    least = extremes(at_low, at_high, greatest=False)
+    greatest = extremes(at_low, at_high, greatest=True)
+    behind = _stiffness_bounds(k_low, k_high, zone.body)
+    shares = zip(*map(zone.shares, behind), strict=True)
+    factors = zip(zone.factors(least, greatest), zone.factors(greatest, least), strict=True)
+    low = high = np.zeros(1)
+    for share, (factor, factor_high) in zip(shares, factors, strict=True):
+        terms = np.stack(factor), np.stack(factor_high)
+        term, term_high = _product_of_any_sign(share, terms)
+        low = low + term
+        high = high + term_high
+    positive = np.ones((len(Factor._fields), 1), dtype=bool)
+    positive[Factor._fields.index("xy")] = False
+    low = np.where(positive & (low <= 0.0), np.nan, low)
+    below, *above_low = low
+    below_high, *above_high = high
+    lows = [value / np.where(value > 0.0, below_high, below) for value in above_low]
+    highs = [value / np.where(value > 0.0, below, below_high) for value in above_high]
+    return zone.normalised(Stiffness(*lows)), zone.normalised(Stiffness(*highs))
 
 
 def _product(

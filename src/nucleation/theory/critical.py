@@ -6,8 +6,9 @@ finds it, for one system or for thousands.
 
 import dataclasses
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,13 +17,13 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Parameters
 from .crossings import largest_crossings, marginal_frequencies
-from .spectrum import Systems, system
+from .of_runs import Case, block_on_rigid_base, far_sides, systems_of
+from .spectrum import Systems
 from .status import STABLE
-from .stiffness import Array, LayerPair, Layers
-from .transfer import RIGID, Body, RigidBody, bodies_of
+from .stiffness import Array
 
-_Case = tuple[Body | RigidBody, Body | RigidBody, InterfaceState]
-"""A system of the theory: the upper body, the lower body and their interface."""
+_Distinct = tuple[Any, ...]
+"""All parameters on which the system of a run depends."""
 
 
 class NoInstability(ValueError):
@@ -48,19 +49,13 @@ class CriticalPoint:
         return 2.0 * math.pi / self.wavenumber
 
 
-def critical_wavenumber(
-    upper: Body | RigidBody,
-    lower: Body | RigidBody,
-    interface: InterfaceState,
-) -> CriticalPoint:
+def critical_point(one: Systems) -> CriticalPoint:
     """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
 
     Parameters
     ----------
-    upper, lower : Body or RigidBody
-        The two bodies, at most one of them rigid.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
+    one : Systems
+        One system, with fields of shape (1,).
 
     Returns
     -------
@@ -72,7 +67,6 @@ def critical_wavenumber(
     NoInstability
         If sliding is stable at every wavenumber.
     """
-    one = systems_of([(upper, lower, interface)])
     k = largest_crossings(one)
     if np.isnan(k[0]):
         raise NoInstability(stability_reason(one))
@@ -80,52 +74,32 @@ def critical_wavenumber(
     return CriticalPoint(float(k[0]), float(omega[0]))
 
 
-def systems_of(cases: Sequence[_Case]) -> Systems:
-    """Systems as arrays; their bodies have the same far sides, and the same one is rigid."""
-    single = [system(*case) for case in cases]
-    pair = LayerPair(
-        _stacked(one.pair.upper for one in single),
-        _stacked(one.pair.lower for one in single),
-    )
-    fields = np.array([one[1:] for one in single], dtype=float).T
-    return Systems(pair, *fields)
+def critical_lengths(cases: Iterable[Case]) -> Array:
+    """The linear theory's critical lengths (m) of many runs, in few vectorised calls.
 
-
-def _stacked(bodies: Iterable[Layers | None]) -> Layers | None:
-    """Many layers as one with arrays; None if they are rigid."""
-    present = [body for body in bodies if body is not None]
-    if not present:
-        return None
-    first = present[0]
-    fields = np.array([body[:3] for body in present], dtype=float)
-    modulus, ratio, height = fields.T
-    return Layers(modulus, ratio, height, first.far_side, first.antiplane)
-
-
-def critical_lengths(cases: Iterable[_Case]) -> Array:
-    """The linear theory's critical lengths (m) of many systems, in few vectorised calls.
-
-    The systems may differ in far sides and rigid bodies; equal ones are computed once. NaN where
-    sliding is stable (:func:`critical_wavenumber` gives the reason).
+    The runs may differ in far sides and planes; equal ones are computed once. NaN where sliding is
+    stable (:func:`run_length` gives the reason).
     """
     cases = list(cases)
-    groups: dict[tuple[str, str], dict[_Case, None]] = {}
-    for case in cases:
-        kinds = _kind(case[0]), _kind(case[1])
-        groups.setdefault(kinds, {})[case] = None
-    lengths: dict[_Case, float] = {}
+    groups: dict[tuple[str, ...], dict[_Distinct, Case]] = {}
+    for run, interface in cases:
+        kind = (*far_sides(run), run.material.plane)
+        groups.setdefault(kind, {}).setdefault(_distinct(run, interface), (run, interface))
+    lengths: dict[_Distinct, float] = {}
     for group in groups.values():
-        k = largest_crossings(systems_of(list(group)))
+        k = largest_crossings(systems_of(list(group.values())))
         found = 2.0 * math.pi / k
         lengths |= zip(group, found.tolist(), strict=True)
-    return np.array([lengths[case] for case in cases], dtype=float)
+    return np.array([lengths[_distinct(*case)] for case in cases], dtype=float)
 
 
-def _kind(body: Body | RigidBody) -> str:
-    """The properties that bodies in one vectorised call have in common."""
-    if isinstance(body, RigidBody):
-        return "rigid"
-    return f"{body.far_side}, {body.material.plane}"
+def _distinct(
+    run: Parameters,
+    interface: InterfaceState,
+) -> _Distinct:
+    below = run.below
+    second = None if below is None else (below.material, below.geometry.height)
+    return far_sides(run), run.material, run.geometry.height, second, interface
 
 
 def stability_reason(one: Systems) -> str:
@@ -154,7 +128,7 @@ def _number(value: Array) -> float:
     return float(np.ravel(value)[0])
 
 
-def critical_length(
+def length_on_rigid_base(
     height: ArrayLike,
     material: Material,
     interface: InterfaceState,
@@ -181,14 +155,10 @@ def critical_length(
         If sliding is stable at one of the heights.
     """
     height = np.asarray(height, dtype=float)
-    bodies = [Body(material, h, "traction") for h in height.ravel().tolist()]
-    cases: list[_Case] = [(body, RIGID, interface) for body in bodies]
-    lengths = critical_lengths(cases)
-    stable = np.isnan(lengths)
-    if stable.any():
-        first = cases[int(np.argmax(stable))]
-        raise NoInstability(stability_reason(system(*first)))
-    return lengths.reshape(height.shape)
+    lengths = []
+    for one in height.ravel().tolist():
+        lengths.append(critical_point(block_on_rigid_base(material, one, interface)).length)
+    return np.array(lengths).reshape(height.shape)
 
 
 @cache
@@ -215,34 +185,4 @@ def run_length(
     NoInstability
         If sliding is stable at every wavenumber.
     """
-    return critical_wavenumber(*bodies_of(parameters), interface).length
-
-
-@cache
-def critical_length(
-    height: float,
-    material: Material,
-    interface: InterfaceState,
-) -> float:
-    """L_c of a block on a rigid base.
-
-    Parameters
-    ----------
-    height : float
-        Height H (m) of the block.
-    material : Material
-        Of the block.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    float
-        L_c (m).
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable at every wavenumber.
-    """
-    return float(critical_length(height, material, interface))
+    return critical_point(systems_of([(parameters, interface)])).length

@@ -23,7 +23,7 @@ The largest crossing is not missed:
   (:mod:`.bounds`) prove it stable. The others are divided until an unstable point and a stable
   one right above it are closer than :data:`RESOLUTION`, which is thus the narrowest unstable
   band that is certainly found.
-- Where all ``Hk < 1e-3``, G1 and G2 are powers of k.
+- Where all ``Hk < 1e-3``, times the contrast of a zone with its body, G1 and G2 are powers of k.
 """
 
 from typing import NamedTuple
@@ -130,7 +130,7 @@ def certainly_stable(
     minus, plus = marginal_stiffness(rho, systems.a, zeta)
     high_enough = systems.softness * k_low * bounds.g1_low > plus
     low_enough = systems.softness * k_high * bounds.g1_high < minus
-    without_roots = np.isnan(plus)
+    without_roots = np.isnan(plus) & np.isfinite(rho)
     return high_enough | ((zeta < 0.0) & (without_roots | low_enough))
 
 
@@ -140,7 +140,7 @@ def largest_crossings(systems: Systems) -> Array:
     NaN where sliding is stable at every k.
     """
     k = _half_space_crossings(systems)
-    has_layers = np.isfinite(np.minimum.reduce(_heights(systems)))
+    has_layers = np.isfinite(np.minimum.reduce(systems.pair.thicknesses))
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
     for start in range(0, layered.size, TOGETHER):
         chosen = layered[start : start + TOGETHER]
@@ -184,10 +184,6 @@ def marginal_frequencies(
     return np.where(misfit(large) <= misfit(small), large, small) * systems.rate
 
 
-def _heights(systems: Systems) -> list[Array]:
-    return [body.height for body in systems.pair.deformable]
-
-
 def _half_space_crossings(systems: Systems) -> Array:
     """The largest crossings of half-spaces of the same materials: their g is proportional to k."""
     one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
@@ -200,9 +196,9 @@ def _half_space_crossings(systems: Systems) -> Array:
 
 def _ends(systems: Systems) -> tuple[Array, Array]:
     """Wavenumbers (1/m) below which all layers are thin, and above which sliding is stable."""
-    heights = _heights(systems)
+    heights = systems.pair.thicknesses
     finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
-    bottom = LONG_WAVES / np.fmax.reduce(finite)
+    bottom = LONG_WAVES * systems.pair.contrast / np.fmax.reduce(finite)
     high = SATURATION / np.fmin.reduce(finite)
     g, _ = systems.load_and_coupling(high)
     top = np.maximum(high, high * systems.b / g)

@@ -10,9 +10,9 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..types import Array
 from .closed_forms import bimaterial_length_ratio, thin_limit_length
-from .critical import critical_wavenumber
+from .critical import critical_point
+from .of_runs import block_on_rigid_base
 from .settings import Curves
-from .transfer import RIGID, Body
 
 CURVES = {
     "height": SHARED["height"],
@@ -86,8 +86,9 @@ def length_curve(
     Dataset
         On the dimension ``height``.
     """
-    blocks = [Body(material, h, "traction") for h in height]
-    points = [critical_wavenumber(block, RIGID, interface) for block in blocks]
+    points = []
+    for one in height.tolist():
+        points.append(critical_point(block_on_rigid_base(material, one, interface)))
     values = {
         "critical_length": [point.length for point in points],
         "critical_wavenumber": [point.wavenumber for point in points],

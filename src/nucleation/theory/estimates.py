@@ -9,8 +9,8 @@ from ..model.friction.law import Friction
 from ..model.linearised import linearised
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
-from .stiffness import SATURATION, LayerPair
-from .transfer import bodies_of
+from .of_runs import pair_of
+from .stiffness import SATURATION
 
 THIN = 1e-3  # layer number k H at which a body is thin
 
@@ -39,8 +39,7 @@ def stiffness_of(parameters: Parameters) -> _SlipStiffness:
         thick = material.shear_modulus / (1.0 - material.in_plane_ratio)
         sides = 1.0 if material.plane == ANTIPLANE else 2.0
         return _SlipStiffness(thick, sides * parameters.geometry.height * thick)
-    upper, lower = bodies_of(parameters)
-    pair = LayerPair(upper.layers, lower.layers)
+    pair = pair_of([parameters])
     heights = parameters.geometry.height, parameters.below.geometry.height
     short = SATURATION / min(heights)
     long = THIN / max(heights)

@@ -7,10 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..model.linearised import InterfaceState
 from ..types import ComplexArray
 from .stiffness import Array, LayerPair
-from .transfer import Body, RigidBody, as_wavenumber
 
 
 class Systems(NamedTuple):
@@ -68,61 +66,9 @@ class Systems(NamedTuple):
         return np.asarray(ordered * self.rate, dtype=complex)
 
 
-def system(
-    upper: Body | RigidBody,
-    lower: Body | RigidBody,
-    interface: InterfaceState,
-) -> Systems:
-    """One system of two bodies and their interface; its fields are single numbers.
-
-    Parameters
-    ----------
-    upper, lower : Body or RigidBody
-        The two bodies, at most one of them rigid.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    Systems
-        The one system.
-    """
-    pair = LayerPair(upper.layers, lower.layers)
-    return Systems(
-        pair=pair,
-        friction=np.asarray(interface.friction),
-        a=np.asarray(interface.a),
-        zeta=np.asarray(interface.zeta),
-        softness=pair.modulus * interface.slip_length / interface.normal_stress,
-        rate=np.asarray(interface.velocity / interface.slip_length),
-    )
-
-
-def growth_rates(
-    wavenumber: ArrayLike,
-    upper: Body | RigidBody,
-    lower: Body | RigidBody,
-    interface: InterfaceState,
-) -> ComplexArray:
-    """Both roots Lambda of Eq. (5) of one system.
-
-    Parameters
-    ----------
-    wavenumber : array_like
-        k (1/m), of either sign and not zero.
-    upper, lower : Body or RigidBody
-        The two bodies, at most one of them rigid.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    ndarray
-        Lambda (1/s), complex, shape ``(2,) + k.shape``; the root that grows faster comes first.
-
-    Raises
-    ------
-    ValueError
-        If the wavenumber is zero or not finite, or both bodies are rigid.
-    """
-    return system(upper, lower, interface).growth_rates(as_wavenumber(wavenumber))
+def as_wavenumber(wavenumber: ArrayLike) -> Array:
+    """The wavenumber as a float array; raises ValueError unless it is finite and not zero."""
+    k = np.asarray(wavenumber, dtype=float)
+    if not np.all(np.isfinite(k) & (k != 0.0)):
+        raise ValueError("the wavenumber k (1/m) must be finite and different from zero")
+    return k

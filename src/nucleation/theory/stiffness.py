@@ -18,13 +18,14 @@ far side is free of traction, ``coth q`` if it is held. The normal stress does n
 Every entry is a quotient of sums of terms that increase with ``q = |k| H``. So it is accurate for
 ``q -> 0``, for incompressible layers and where ``cosh(2q)`` overflows (a factor ``exp(-2q)`` is
 taken out). Only ``A_xy`` of clamped and roller layers is a difference, and changes sign: in a thin
-layer that cannot expand sideways, compression by slip exceeds the half-space's uplift.
+layer that cannot expand sideways, compression by slip exceeds the half-space's uplift. A body with
+a layer of another material beside the interface is in :mod:`.zone`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,6 +33,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..model.material import ANTIPLANE
 from ..model.quantities import ParameterError
 from .waves import Array, Waves
+
+if TYPE_CHECKING:
+    from .zone import Zone
 
 BOTH_RIGID = "at least one of the two bodies must be deformable"
 
@@ -235,6 +239,20 @@ class Layers(NamedTuple):
             height=self.height[index],
         )
 
+    @property
+    def thicknesses(self) -> list[Array]:
+        """The height (m) alone, as there is no zone beside the interface."""
+        return [self.height]
+
+    @property
+    def contrast(self) -> float:
+        """1, as there is no other material."""
+        return 1.0
+
+    def with_heights(self, heights: Callable[[Array], Array]) -> Layers:
+        """The layers with other heights (m), a function of the present ones."""
+        return self._replace(height=heights(self.height))
+
     def layer_number(self, wavenumber: ArrayLike) -> Array:
         """``q = |k| H``, cut at :data:`SATURATION`, above which no function of q changes."""
         k = np.abs(np.asarray(wavenumber, dtype=float))
@@ -260,11 +278,11 @@ class Layers(NamedTuple):
 class LayerPair(NamedTuple):
     """The bodies above and below the interface, one pair or many; None is a rigid body."""
 
-    upper: Layers | None
-    lower: Layers | None
+    upper: Layers | Zone | None
+    lower: Layers | Zone | None
 
     @property
-    def deformable(self) -> list[Layers]:
+    def deformable(self) -> list[Layers | Zone]:
         """The bodies that are not rigid.
 
         Raises
@@ -283,6 +301,17 @@ class LayerPair(NamedTuple):
         return self.deformable[0].shear_modulus
 
     @property
+    def thicknesses(self) -> list[Array]:
+        """Heights (m) of the bodies that are not rigid, and thicknesses of their zones."""
+        return [thickness for body in self.deformable for thickness in body.thicknesses]
+
+    @property
+    def contrast(self) -> Array | float:
+        """The greatest contrast of a zone with its body, the softer over the stiffer modulus."""
+        contrasts = [body.contrast for body in self.deformable]
+        return np.minimum.reduce(contrasts)
+
+    @property
     def ratio(self) -> Array | float:
         """``mu2/mu1``; 1 if a body is rigid."""
         if self.upper is None or self.lower is None:
@@ -294,8 +323,8 @@ class LayerPair(NamedTuple):
         return LayerPair(*(body and body.at(index) for body in self))
 
     def with_heights(self, heights: Callable[[Array], Array]) -> LayerPair:
-        """The pair with other heights (m), a function of the present ones."""
-        return LayerPair(*(body and body._replace(height=heights(body.height)) for body in self))
+        """The pair with other heights and thicknesses (m), a function of the present ones."""
+        return LayerPair(*(body and body.with_heights(heights) for body in self))
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Stiffness of the pair in series, over :attr:`modulus`, at a wavenumber (1/m)."""

@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
+from ..model.loading import Loading
 from ..model.material import Material
 from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
 from ..model.units import magnitude
 from ..types import Array
-from .transfer import Body
+from .stiffness import FAR_SIDES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +33,8 @@ FLOORS = {
     "slip_distance": 1e-15,
     "height": 1e-12,
     "second_height": 1e-12,
+    "zone_thickness": 1e-12,
+    "zone_shear_modulus": 1e-9,
     "velocity": 1e-30,
 }
 """Lower bounds (SI units) of the positive parameters: far below any known value, and computable."""
@@ -41,12 +44,40 @@ def _declared() -> dict[str, Quantity]:
     """Unit, range and meaning of each parameter, from its declaration in the model."""
     material = declarations(Material)
     interface = declarations(InterfaceState)
-    body = declarations(Body)
+    height = Quantity(
+        "height of the body (inf: half-space)",
+        unit="m",
+        low=0.0,
+        high=math.inf,
+        closed="high",
+        symbol="H",
+    )
+    far_side = Quantity(
+        "condition on the side away from the interface: velocity (u_x and sigma_yy imposed), "
+        "traction or free (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "
+        "roller (u_y and sigma_xy imposed)",
+        choices=tuple(FAR_SIDES),
+    )
     second_modulus = dataclasses.replace(
         material["shear_modulus"],
         closed="high",
         high=math.inf,
         description="shear modulus of the second body (inf: rigid)",
+    )
+    zone_thickness = dataclasses.replace(
+        height,
+        symbol="h",
+        description="thickness of a zone of other stiffness on each side of the fault",
+    )
+    zone_modulus = dataclasses.replace(
+        material["shear_modulus"],
+        symbol="mu_z",
+        description="shear modulus of the zone beside the fault",
+    )
+    zone_ratio = dataclasses.replace(
+        material["poisson_ratio"],
+        symbol="nu_z",
+        description="Poisson's ratio of the zone beside the fault",
     )
     b = dataclasses.replace(
         interface["a"],
@@ -56,7 +87,7 @@ def _declared() -> dict[str, Quantity]:
     found = {
         "shear_modulus": material["shear_modulus"],
         "poisson_ratio": material["poisson_ratio"],
-        "height": body["height"],
+        "height": height,
         "normal_stress": interface["normal_stress"],
         "a": interface["a"],
         "zeta": interface["zeta"],
@@ -66,10 +97,19 @@ def _declared() -> dict[str, Quantity]:
         "slip_distance": declarations(Friction)["slip_distance"],
         "second_shear_modulus": second_modulus,
         "second_poisson_ratio": material["poisson_ratio"],
-        "second_height": body["height"],
-        "far_side": body["far_side"],
-        "second_far_side": body["far_side"],
+        "second_height": height,
+        "far_side": far_side,
+        "second_far_side": far_side,
+        "zone_thickness": zone_thickness,
+        "zone_shear_modulus": zone_modulus,
+        "zone_poisson_ratio": zone_ratio,
         "plane": material["plane"],
+        "loading": dataclasses.replace(
+            declarations(Loading)["kind"],
+            description="where the creeping patch begins: at a pushed edge, at a free side under a "
+            "top that moves, or in the interior under a remote load",
+        ),
+        "evolution": declarations(Friction)["evolution"],
     }
     return {name: _bounded(name, entry) for name, entry in found.items()}
 
@@ -87,6 +127,12 @@ def _bounded(
 
 QUANTITIES = _declared()
 """Declaration (unit, range, meaning) of every parameter of a fault, by name."""
+
+ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
+"""Parameters of a zone beside the fault."""
+
+OF_THEORY = ("far_side", *ZONE)
+"""Parameters that no simulation has: its loading sets the first far side, and it has no zone."""
 
 
 def labelled(value: Any) -> bool:

@@ -28,7 +28,7 @@ import numpy as np
 from ..types import Array, ComplexArray
 from .arrays import fault_of, named
 from .crossings import largest_crossings
-from .fault import QUANTITIES, Fault, Values, checked, takes_fault
+from .fault import QUANTITIES, FaultParameters, Values, checked, takes_fault
 from .patch_basis import patch_basis
 from .spectrum import Systems
 
@@ -154,7 +154,7 @@ def weakening_patch_length(
     outside_a : array_like or DataArray, optional
         Direct effect of the surroundings; that of the patch by default.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; `a`, `zeta` and `b` are those of
+        The parameters of :class:`~nucleation.fault.Fault`; `a`, `zeta` and `b` are those of
         the patch, all others those of patch and surroundings.
 
     Returns
@@ -191,7 +191,7 @@ def weakening_patch_length(
 
 
 def weakening_patch_values(
-    fault: Fault, outside_zeta: Values, outside_a: Values | None = None
+    fault: FaultParameters, outside_zeta: Values, outside_a: Values | None = None
 ) -> Any:
     """W_c (m); plain, in SI units."""
     zeta = checked("outside_zeta", outside_zeta, QUANTITIES["zeta"])

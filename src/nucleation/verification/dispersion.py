@@ -16,10 +16,9 @@ from ..model.friction.law import Friction
 from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
-from ..theory.critical import critical_length, critical_wavenumber
+from ..theory.critical import critical_point, length_on_rigid_base
 from ..theory.curves import CURVES
-from ..theory.spectrum import growth_rates
-from ..theory.transfer import RIGID, Body
+from ..theory.of_runs import block_on_rigid_base
 from ..types import Array, ComplexArray
 from .single_mode import measured_rates
 
@@ -55,7 +54,7 @@ def by_direction(rates: ArrayLike) -> ComplexArray:
 def _heights_for(parameters: Parameters) -> list[float]:
     """Heights (m) that have the ratios of :data:`HEIGHTS` to the L_c of a high block."""
     own, papers = (
-        critical_length(math.inf, fault.material, interface_state(fault))
+        length_on_rigid_base(math.inf, fault.material, interface_state(fault))
         for fault in (parameters, Parameters())
     )
     ratio = float(own / papers)
@@ -93,13 +92,13 @@ def dispersion_dataset(
     theory = []
     curves = []
     for height in heights:
-        body = Body(parameters.material, float(height), "traction")
-        k_c = critical_wavenumber(body, RIGID, interface).wavenumber
+        block = block_on_rigid_base(parameters.material, float(height), interface)
+        k_c = critical_point(block).wavenumber
         seeded = k_c * modes
         critical.append(k_c)
         measured.append([measured_rates(parameters, height, k) for k in seeded])
-        theory.append(growth_rates(seeded, body, RIGID, interface).T)
-        curves.append(growth_rates(k_c * CURVE, body, RIGID, interface).T)
+        theory.append(block.growth_rates(seeded).T)
+        curves.append(block.growth_rates(k_c * CURVE).T)
     critical_k = np.array(critical)
     found = xr.Dataset(
         {

@@ -20,9 +20,8 @@ from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
 from ..theory.closed_forms import bimaterial_contrast
-from ..theory.critical import critical_wavenumber
-from ..theory.spectrum import growth_rates
-from ..theory.transfer import bodies_of
+from ..theory.critical import critical_point
+from ..theory.of_runs import systems_of
 from ..types import Array
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
 from .single_mode import measured_rates
@@ -46,7 +45,7 @@ class _LayerPair(NamedTuple):
         Shear moduli of the upper and the lower layer (Pa).
     poisson_ratio, second_poisson_ratio : float
         Their Poisson ratios.
-    bottom : str
+    far_side : str
         Far side of the lower layer.
     height : float or None
         Height of the upper layer (m); None for half-spaces.
@@ -57,7 +56,7 @@ class _LayerPair(NamedTuple):
     second_modulus: float
     poisson_ratio: float = 1.0 / 3.0
     second_poisson_ratio: float = 0.2
-    bottom: str = "free"
+    far_side: str = "free"
     height: float | None = None
 
     def bodies(
@@ -108,7 +107,7 @@ class _LayerPair(NamedTuple):
             "plane": "strain",
             "second_body": "deformable",
             "second_density": SECOND_DENSITY,
-            "second_far_side": self.bottom,
+            "second_far_side": self.far_side,
         }
         return base.replaced(self.bodies(height, second_height) | further)
 
@@ -116,19 +115,19 @@ class _LayerPair(NamedTuple):
 def _thin_layers() -> tuple[_LayerPair, ...]:
     """Thin layers with each far side; the upper or the lower one is the stiffer one."""
     found = []
-    for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
+    for far_side, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
         above = _LayerPair(
-            f"stiff above, {bottom}",
+            f"stiff above, {far_side}",
             STIFF,
             SOFT,
-            bottom=bottom,
+            far_side=far_side,
             height=height,
         )
         below = _LayerPair(
-            f"stiff below, {bottom}",
+            f"stiff below, {far_side}",
             SOFT,
             STIFF,
-            bottom=bottom,
+            far_side=far_side,
             height=height,
         )
         found += [above, below]
@@ -167,8 +166,7 @@ def _sized(
 
 def _critical(parameters: Parameters) -> float:
     """k_c (1/m)."""
-    state = interface_state(parameters)
-    return critical_wavenumber(*bodies_of(parameters), state).wavenumber
+    return critical_point(systems_of([(parameters, interface_state(parameters))])).wavenumber
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
@@ -232,11 +230,11 @@ def mode_row(
     height = parameters.geometry.height
     k = ratio * critical
     measured = measured_rates(parameters, height, k)
-    theory = growth_rates(k, *bodies_of(parameters), interface)
+    theory = systems_of([(parameters, interface)]).growth_rates(np.array([k]))[:, 0]
     contrast = bimaterial_contrast(parameters.material, below.material)
     return {
         "id": layers.name,
-        "far_side": layers.bottom,
+        "far_side": layers.far_side,
         **layers.bodies(height, below.geometry.height),
         "friction": interface.friction,
         "a": interface.a,

@@ -25,8 +25,7 @@ from nucleation.theory.creep.lengths import (
     stability_point,
     stability_values,
 )
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 FAULT = {
@@ -36,7 +35,7 @@ FAULT = {
 
 
 def length_of(run):
-    return float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return run_length(run, interface_state(run))
 
 
 def test_the_map():
@@ -148,7 +147,7 @@ def test_a_patch_in_the_interior_of_a_full_space(ratio):
 
 def test_where_a_patch_begins():
     """From the loading and the place of the heterogeneity; its slip rate from the load's rise."""
-    weak = {"heterogeneity.varies": "f", "heterogeneity.change": -0.5}
+    weak = {"heterogeneity.varies": "friction", "heterogeneity.change": -0.5}
     for loading, centre, expected in (
         ({}, 0.5, "edge"),
         ({"loading.kind": "top"}, 0.05, "top"),

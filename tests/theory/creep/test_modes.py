@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
+from two_bodies import RIGID, Body, system, transfer_functions
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.creep import response as module
 from nucleation.theory.creep.response import response
 from nucleation.theory.creep.steady import creep
-from nucleation.theory.critical import systems_of
-from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=1 / 3)
 FAULT = InterfaceState()
@@ -52,7 +51,7 @@ def in_a_box(bodies, length, slip, x, even):
 def test_stress_of_slip(bodies, loading):
     """Slip of a pushed edge is odd, that of a free side even, and in the interior it is both."""
     length = 0.3
-    one = systems_of([(*bodies, FAULT)])
+    one = system(*bodies, FAULT)
     made = response(one, 2.0 * length if loading == "remote" else length, 24, loading)
     own = made.modes
     x = length * np.cos(own.theta)
@@ -81,7 +80,7 @@ def test_stress_of_slip(bodies, loading):
 
 def test_half_spaces_creep_as_a_crack_does():
     """Their slip rate is ``(2/pi) arccos(x/L)``, and no stress normal to them changes."""
-    one = systems_of([(Body(MATERIAL), Body(MATERIAL), FAULT)])
+    one = system(Body(MATERIAL), Body(MATERIAL), FAULT)
     made = creep(response(one, 0.5), FAULT.friction)
     theta = made.response.modes.theta
     assert made.slip_rate == pytest.approx(2.0 * theta / np.pi, rel=1e-9)
@@ -91,7 +90,7 @@ def test_half_spaces_creep_as_a_crack_does():
 def test_thin_layers_are_compressed_evenly():
     """Their slip rate is ``1 - x/L``, and the edge moves ``(1 - nu) f sigma0 L^2/(4 mu H)``."""
     length, height = 0.5, 2e-3
-    one = systems_of([(*pair(height), FAULT)])
+    one = system(*pair(height), FAULT)
     made = creep(response(one, length), FAULT.friction)
     x = np.cos(made.response.modes.theta)
     assert made.slip_rate == pytest.approx(1.0 - x, abs=0.01)
@@ -102,8 +101,8 @@ def test_thin_layers_are_compressed_evenly():
 
 def test_the_push_takes_compression_off_a_softer_upper_block():
     """Pushed in +x the block above thickens; the stiffer body below has f beta > 0."""
-    softer = systems_of([(Body(MATERIAL), RIGID, FAULT)])
-    stiffer = systems_of([(RIGID, Body(MATERIAL), FAULT)])
+    softer = system(Body(MATERIAL), RIGID, FAULT)
+    stiffer = system(RIGID, Body(MATERIAL), FAULT)
     means = [
         creep(response(one, 0.5, 32), FAULT.friction).normal_stress.mean()
         for one in (softer, stiffer)
@@ -113,7 +112,7 @@ def test_the_push_takes_compression_off_a_softer_upper_block():
 
 def test_very_thin_layers_are_like_less_thin_ones(monkeypatch):
     """Beyond the tables' reach thickness is a factor."""
-    one = systems_of([(*pair(1e-3), FAULT)])
+    one = system(*pair(1e-3), FAULT)
     plain = response(one, 0.2)
     monkeypatch.setattr(module, "SLIMMEST", 100.0)
     rough = response(one, 0.2)

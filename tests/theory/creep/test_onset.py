@@ -16,9 +16,8 @@ from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep import front, lengths
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import NoPatch, Patches, stability_point
-from nucleation.theory.critical import critical_lengths
+from nucleation.theory.critical import run_length
 from nucleation.theory.crossings import largest_crossings
-from nucleation.theory.transfer import bodies_of
 
 DIRECT = 1e-4  # a of the faults below
 SOFTNESS = 3e9 * 1e-6 / 1e6  # mu D/sigma0 (m)
@@ -141,7 +140,7 @@ def narrow_run(zeta):
     """A run whose friction has the least a that its law allows, and its L_c (m)."""
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
     run = Parameters(friction=law, geometry=Geometry(height=0.01, length=3.0))
-    return run, float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return run, run_length(run, interface_state(run))
 
 
 @pytest.mark.slow

@@ -136,8 +136,9 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
     share = min(run["state_rate_share"] for run in converged)
     note = (
         f"At the latest onset the state is {state:.2f} s in the place of "
-        f"{latest['initial_state']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
-        f"below 10 % in {share:.2g} of the interface (results: The slip law ahead of the front)."
+        f"{latest['initial_state']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: "
+        f"it is below 10 % in {share:.2g} of the interface "
+        "(results: The slip law ahead of the front)."
     )
     return Result(
         [_strengthened(evidence, run) for run in converged],

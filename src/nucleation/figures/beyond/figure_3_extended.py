@@ -81,8 +81,8 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` (m).
     lengths : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s), ``critical_length`` and
-        ``length`` with ``_low`` and ``_high`` (m).
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s),
+        ``critical_length`` and ``length`` with ``_low`` and ``_high`` (m).
     table : Dataset
         The same with ``stability_length`` instead of ``length``.
     noisy : Dataset, or an empty sequence

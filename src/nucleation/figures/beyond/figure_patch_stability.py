@@ -43,8 +43,8 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s), ``critical_length`` and
-        ``stability_length`` (m).
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s),
+        ``critical_length`` and ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, from :func:`nucleation.patch.growth.follow_patch`. Crosses are instants
         in the last periods before the drop, which are not near steady creep.

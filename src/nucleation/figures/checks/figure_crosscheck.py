@@ -137,7 +137,7 @@ def _described(parameters: Parameters) -> tuple[str, str]:
     ratio = below.material.shear_modulus / parameters.material.shear_modulus
     return (
         f"$H={heights}",
-        f"two blocks,\nlower {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$",
+        f"two blocks,\nlower {below.far_side},\n$\\mu_2={ratio:.3g}\\,\\mu$",
     )
 
 

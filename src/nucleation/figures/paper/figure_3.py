@@ -43,8 +43,8 @@ def draw(
         With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
     lengths : Dataset
         One entry on dimension ``run`` per simulation, with ``role``, ``evolution``, ``height`` (m),
-        ``initial_state`` (s) and ``length``, ``length_low``, ``length_high`` (m). Entries without a finite
-        length are left out; of the realisations of one fault the mean is drawn.
+        ``initial_state`` (s) and ``length``, ``length_low``, ``length_high`` (m). Entries
+        without a finite length are left out; of the realisations of one fault the mean is drawn.
     inset_simulation : Dataset
         The simulation in the inset, with its slip rate.
     inset_row : Dataset

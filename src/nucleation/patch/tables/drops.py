@@ -20,9 +20,9 @@ from ...datasets.variables import Variable, annotate, some, table, to_csv
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ...model.perturbation import Perturbation
+from ...theory.creep.lengths import stability_length_of
 from ...theory.creep.patches import NoPatch
 from ..delay import Growth, growth
-from ..growth import FITTED
 from ..mode_history import ModeHistory, mode_history
 
 MEASURED = some(
@@ -46,7 +46,8 @@ MEASURED = some(
 )
 
 PREDICTED = {
-    "stability_length": FITTED["stability_length"],
+    "stability_length": LENGTHS["stability_length"],
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
     "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
     "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
@@ -85,6 +86,7 @@ NOISE_FLOORS = some(
     "length",
     "critical_length",
     "stability_length",
+    "front_length",
     "floor_normal_load",
     "floor_state",
     "fault",
@@ -100,8 +102,13 @@ WEAK = 1e-5  # strength at which the one line gives L_s of a quiet run, which ha
 class _Law:
     """The law of the drop for one fault, from the mode along its creep."""
 
-    def __init__(self, history: ModeHistory) -> None:
+    def __init__(
+        self,
+        history: ModeHistory,
+        stability_length: float,
+    ) -> None:
         self.history = history
+        self.stability_length = stability_length
         self._known: dict[tuple[str, float], Growth] = {}
 
     def growth(
@@ -127,7 +134,8 @@ class _Law:
         drop = law.drop(run["strength"])
         closed = law.closed_form(self.history, run["strength"])
         return none | {
-            "stability_length": closed.front_length,
+            "stability_length": self.stability_length,
+            "front_length": closed.front_length,
             "law_length": drop.length,
             "law_low": drop.low,
             "law_high": drop.high,
@@ -138,7 +146,11 @@ class _Law:
     def _row_of_quiet_run(self, length: float) -> Row:
         closed = self.growth("normal_load").closed_form(self.history, WEAK)
         floors = {f"floor_{kind}": self.growth(kind).strength_at(length) for kind in QUIET_KINDS}
-        return {"stability_length": closed.front_length, **floors}
+        return {
+            "stability_length": self.stability_length,
+            "front_length": closed.front_length,
+            **floors,
+        }
 
 
 def gather_drops(
@@ -215,7 +227,9 @@ def _laws(runs: Iterable[dict[str, Any]]) -> dict[str, _Law]:
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
         with contextlib.suppress(NoPatch):
-            laws[fault(parameters)] = _Law(mode_history(parameters, run["critical_length"]))
+            critical = run["critical_length"]
+            history = mode_history(parameters, critical)
+            laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))
     return laws
 
 

@@ -36,7 +36,7 @@ COLUMNS = {
     **some(SHARED, "zeta_over_a", "f_beta"),
     "critical_length": LENGTHS["critical_length"],
     "stability_length": FITTED["stability_length"],
-    "creep_length": LENGTHS["creep_length"],
+    "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
     "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
     "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
     "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),

@@ -21,7 +21,6 @@ from ...model.linearised import interface_state
 from ...model.parameters import Parameters
 from ...theory.critical import run_length
 from ..expected_drop import NoDrop, expected_drop
-from ..growth import FITTED
 
 MEASURED = some(
     LENGTHS,
@@ -42,8 +41,9 @@ MEASURED = some(
 )
 
 EXPECTED = {
-    "stability_length": FITTED["stability_length"],
+    "stability_length": LENGTHS["stability_length"],
     "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
+    "runaway_status": Variable("", "value, or why there is none: stable, beyond or unknown"),
     "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "expected_length": Variable("m", "expected length at the drop", "L"),
     "expected_low": Variable("m", "least length at the drop that is expected", "L"),
@@ -82,10 +82,12 @@ def expected(parameters: Parameters) -> Row:
     try:
         known = expected_drop(parameters)
     except NoDrop as error:
-        return dict.fromkeys(EXPECTED, float("nan")) | {"doubt": str(error)}
+        none = dict.fromkeys(EXPECTED, float("nan"))
+        return none | {"runaway_status": error.status, "doubt": str(error)}
     return {
         "stability_length": known.stability_length,
         "runaway_length": known.runaway_length,
+        "runaway_status": known.runaway_status,
         "law_length": known.drop.length,
         "expected_length": known.length,
         "expected_low": known.low,

@@ -22,13 +22,12 @@ from scipy.optimize import brentq
 
 from ...model.friction.constants import full_law
 from ...model.friction.law import Friction
-from ...model.loading import LOADINGS
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ...types import Array
 from ..arrays import fault_of, named
 from ..crossings import largest_crossings
-from ..fault import Fault, takes_fault
+from ..fault import FaultParameters, takes_fault
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE
 from ..values import Values
@@ -124,25 +123,14 @@ def _guess(patches: Patches) -> float:
 
 
 @takes_fault
-def stability_length(
-    *,
-    friction_law: Friction | None = None,
-    loading: str = "edge",
-    **fault: Values,
-) -> Any:
+def stability_length(**fault: Values) -> Any:
     """Stability length L_s: where a creeping patch turns unstable.
 
     Parameters
     ----------
-    friction_law : Friction, optional
-        The full law. Each fault has this law with its own f, a, zeta and D, and local a(v), b(v)
-        along the patch; needs `velocity`. By default a and b are constant.
-    loading : {"edge", "top", "remote"}
-        Where the patch begins: at an edge that is pushed, at a free side under a top that moves, or
-        in the interior under a load from afar, which may be a top that moves. The bodies'
-        `far_side` sets the boundary condition there: a top that moves has ``velocity``.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`.
+        The parameters of :class:`~nucleation.fault.Fault`. Each fault has the friction law with its
+        own f, a, zeta and D.
 
     Returns
     -------
@@ -169,67 +157,31 @@ def stability_length(
     1.29
     """
     own = fault_of(fault)
-    length = stability_values(own, friction_law, loading)[0]
+    length = stability_answers(own)[0]
     return named(length, "stability_length", "m", "stability length of the creeping patch", own)
 
 
-def stability_values(
-    fault: Fault,
-    friction_law: Friction | None = None,
-    loading: str = "edge",
-) -> tuple[Any, Any, Any]:
-    """L_s, its mode's frequency and its error, as plain numbers in SI units.
+def stability_answers(fault: FaultParameters) -> tuple[Any, Any, Any, Any, Any]:
+    """L_s, its mode's frequency, its error, its status and the reason for it.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One or many faults.
-    friction_law : Friction, optional
-        The full law, as for :func:`stability_length`.
-    loading : {"edge", "top", "remote"}
-        Where the patch begins.
-
-    Returns
-    -------
-    length, frequency, error : ndarray or DataArray
-        L_s (m), angular frequency over V/D, and relative error of L_s; broadcast shape.
-
-    Raises
-    ------
-    ParameterError
-        As :func:`stability_length`.
-    """
-    return stability_answers(fault, friction_law, loading)[:3]
-
-
-def stability_answers(
-    fault: Fault,
-    friction_law: Friction | None = None,
-    loading: str = "edge",
-) -> tuple[Any, Any, Any, Any, Any]:
-    """The values of :func:`stability_values`, and the status of L_s with its reason.
-
-    Parameters
-    ----------
-    fault : Fault
-        One or many faults.
-    friction_law : Friction, optional
-        The full law, as for :func:`stability_length`.
-    loading : {"edge", "top", "remote"}
-        Where the patch begins.
 
     Returns
     -------
     length, frequency, error, status, reason : ndarray or DataArray
-        In SI units, broadcast shape; the last two are of texts. The reason is empty where there is
-        L_s.
+        L_s (m), angular frequency over V/D, relative error of L_s, and two texts; broadcast shape.
+        The reason is empty where there is L_s.
 
     Raises
     ------
     ParameterError
-        If the loading is unknown, or the law is not allowed with it or lacks a constant.
+        If the friction law is not allowed with the loading, or lacks a constant.
     """
-    _require_known(fault, friction_law, loading)
+    law = fault.friction_law
+    _require_edge(fault)
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
     def points(
@@ -240,9 +192,9 @@ def stability_answers(
         found = np.full((5, critical.size), np.nan, dtype=object)
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
-            patches = Patches(one, velocity=float(velocity[i]), loading=loading)
-            if friction_law is not None:
-                patches = _with_law(patches, friction_law)
+            patches = Patches(one, velocity=float(velocity[i]), loading=fault.loading)
+            if law is not None:
+                patches = _with_law(patches, law)
             try:
                 point = stability_point(patches, float(length))
             except NoPatch as none:
@@ -256,20 +208,14 @@ def stability_answers(
     return length, frequency, error, rows[3], rows[4]
 
 
-def _require_known(
-    fault: Fault,
-    law: Friction | None,
-    loading: str,
-) -> None:
-    """Refuse an unknown loading, and a friction law where V, f or an edge is missing."""
-    if loading not in LOADINGS:
-        raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
-    if law is None:
+def _require_edge(fault: FaultParameters) -> None:
+    """Refuse a friction law where V, f or an edge is missing."""
+    if fault.friction_law is None:
         return
-    if loading != "edge":
+    if fault.loading != "edge":
         raise ParameterError(
-            f"a friction law is not allowed with loading = {loading}: there the slip rate is not "
-            "V, and a and b are constant"
+            f"friction_law is not allowed with loading = {fault.loading}: there the slip rate is "
+            "not V, and a and b are constant"
         )
     if fault.velocity is None or fault.friction is None:
         raise ParameterError("a friction law needs the fault's velocity and friction")

@@ -10,11 +10,10 @@ import numpy as np
 from ...model.friction.law import Friction
 from ...model.linearised import interface_state
 from ...model.parameters import Parameters
-from ..critical import systems_of
 from ..estimates import loading_rate
+from ..of_runs import systems_of
 from ..spectrum import Systems
 from ..status import UNKNOWN
-from ..transfer import bodies_of
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
 from .response import modes_for, response
 from .steady import Creep, creep
@@ -59,7 +58,7 @@ class Patches:
         at a free side if that is nearer than the block's height. Else it begins in the interior,
         since friction has no shear stress to support at the side itself.
         """
-        one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
+        one = systems_of([(parameters, interface_state(parameters))])
         loading, block = parameters.loading, parameters.geometry
         pushed = cls(one, parameters.friction, loading.velocity)
         if loading.kind == "edge":

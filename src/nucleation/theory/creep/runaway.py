@@ -19,15 +19,16 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from ...model.friction.law import Friction
 from ...types import Array
 from ..arrays import fault_of, named
 from ..crossings import largest_crossings
-from ..fault import Fault, takes_fault
+from ..fault import FaultParameters, takes_fault
 from ..spectrum import Systems
-from ..status import BEYOND
+from ..status import BEYOND, STABLE, VALUE
 from ..values import Values
 from .lengths import stability_point
 from .patches import NoPatch, Patches
@@ -153,7 +154,7 @@ def runaway_point(
 
 
 @takes_fault
-def runaway_length(*, evolution: str = "aging", **fault: Values) -> Any:
+def runaway_length(**fault: Values) -> Any:
     """Runaway length L_run: the length beyond which a creeping patch cannot slip slowly.
 
     Between the stability length L_s and L_run a patch slips slowly in a limit cycle. Where friction
@@ -162,10 +163,9 @@ def runaway_length(*, evolution: str = "aging", **fault: Values) -> Any:
 
     Parameters
     ----------
-    evolution : {"aging", "slip"}
-        Evolution of the state.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; the patch is pushed at its edge.
+        The parameters of :class:`~nucleation.fault.Fault`; the patch is pushed at its edge, and a
+        and b are constant.
 
     Returns
     -------
@@ -188,37 +188,38 @@ def runaway_length(*, evolution: str = "aging", **fault: Values) -> Any:
     1.92
     """
     own = fault_of(fault)
-    return named(runaway_values(own, evolution), "runaway_length", "m", "runaway length", own)
+    return named(runaway_answers(own)[0], "runaway_length", "m", "runaway length", own)
 
 
-def runaway_values(
-    fault: Fault,
-    evolution: str = "aging",
-) -> Any:
-    """L_run, as plain numbers in SI units.
+def runaway_answers(fault: FaultParameters) -> tuple[Any, Any, Any]:
+    """L_run with its status and the reason for it.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One or many faults.
-    evolution : {"aging", "slip"}
-        Evolution of the state.
 
     Returns
     -------
-    ndarray or DataArray
-        L_run (m), broadcast shape; NaN as for :func:`runaway_length`.
+    length, status, reason : ndarray or DataArray
+        L_run (m) and two texts, broadcast shape; the reason is empty where there is L_run.
     """
 
-    def lengths(systems: Systems) -> Array:
+    def lengths(systems: Systems) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((1, critical.size), np.nan)
-        for i in np.flatnonzero(np.isfinite(critical)):
+        found = np.full((3, critical.size), np.nan, dtype=object)
+        for i, length in enumerate(critical):
+            if not np.isfinite(length):
+                found[1:, i] = STABLE, "homogeneous sliding is stable"
+                continue
             patches = Patches(systems.at(np.array([i])))
             try:
-                found[0, i] = runaway_point(patches, float(critical[i]), evolution)
-            except NoPatch:
+                found[0, i] = runaway_point(patches, float(length), str(fault.evolution))
+            except NoPatch as none:
+                found[1:, i] = none.status, str(none)
                 continue
+            found[1:, i] = VALUE, ""
         return found
 
-    return fault.evaluate(lengths)[0]
+    rows = fault.evaluate(lengths, rows=3, dtype=object)
+    return rows[0].astype(float), rows[1], rows[2]

@@ -53,7 +53,7 @@ UNUSED = (
 
 SCRIPT = "blocks.edp"
 REALISATION = "realisation.txt"  # in the directory of a run
-FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
+FIELDS = ("slip_rate", "state", "slip", "shear_stress", "sigma_yy")
 STEPS = {
     **some(RECORDED, "step_time", "step_size", "driving_force", "maximal_slip_rate"),
     "newton_iterations": RECORDED["newton_iterations"],
@@ -119,7 +119,7 @@ def arguments(
         "second_poisson_ratio": lower.material.in_plane_ratio,
         "second_height": lower.geometry.height,
         "second_n_y": below.mesh.n_y if below else 1,
-        "second_far_side": below.bottom if below else "rigid",
+        "second_far_side": below.far_side if below else "rigid",
     }
     return {name: str(value) for name, value in values.items()}
 

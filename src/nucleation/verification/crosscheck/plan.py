@@ -43,11 +43,11 @@ MOVED_AT_TOP = {
 TWO_BLOCKS: dict[str, tuple[dict[str, Any], SecondBody]] = {
     "pair": (
         PUSHED_PAIR,
-        SecondBody(kind="deformable", bottom="clamped", shear_modulus=6.2e9),
+        SecondBody(kind="deformable", far_side="clamped", shear_modulus=6.2e9),
     ),
     "top": (
         MOVED_AT_TOP,
-        SecondBody(kind="deformable", bottom="clamped"),
+        SecondBody(kind="deformable", far_side="clamped"),
     ),
 }
 """Runs of two blocks of the same height: parameters that only they have, and the lower block."""

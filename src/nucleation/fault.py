@@ -1,0 +1,228 @@
+"""One fault, and every question about it: the object behind the functions of the library."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from .answers.in_use import lengths_in_use
+from .model.friction.law import Friction
+from .model.own_fault import follows_from
+from .model.parameters import Parameters
+from .model.quantities import ParameterError, plain
+from .theory import arrays
+from .theory.fault import FaultParameters
+from .theory.of_runs import fault_of_run
+from .theory.stiffness import FAR_SIDES
+from .theory.values import ZONE, Values
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .answers.specimen import Fit
+    from .patch.expected_drop import ExpectedDrop
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Fault(FaultParameters):
+    __doc__ = f"""{FaultParameters.__doc__}
+    Notes
+    -----
+    ``fault.critical_length()`` is ``critical_length(**fault)``, and likewise for every function of
+    a fault in :mod:`nucleation.api`. Questions about a simulation, :meth:`parameters`,
+    :meth:`expected_drop` and :meth:`simulate`, need a single fault with `velocity` and `friction`.
+    """
+
+    @classmethod
+    def of(cls, parameters: Parameters) -> Self:
+        """The fault of a simulation, with its friction law.
+
+        Parameters
+        ----------
+        parameters : Parameters
+            Of the simulation; ``Parameters()`` has the paper's fault.
+
+        Returns
+        -------
+        Fault
+
+        Examples
+        --------
+        >>> round(float(Fault.of(Parameters()).critical_length()), 3)
+        0.328
+        """
+        return cls(**fault_of_run(parameters))
+
+    def critical_length(self) -> Any:
+        """L_c (m), :func:`nucleation.api.critical_length`."""
+        return arrays.critical_length(**self)
+
+    def critical_mode(self) -> arrays.CriticalMode:
+        """Length, wavenumber and frequency, :func:`nucleation.api.critical_mode`."""
+        return arrays.critical_mode(**self)
+
+    def spectrum(self, wavenumber: Values) -> Any:
+        """Growth rates (1/s) at wavenumbers (1/m), :func:`nucleation.api.spectrum`."""
+        return arrays.spectrum(wavenumber, **self)
+
+    def transfer_functions(self, wavenumber: Values) -> tuple[Any, Any]:
+        """G1 and G2 at wavenumbers (1/m), :func:`nucleation.api.transfer_functions`."""
+        return arrays.transfer_functions(wavenumber, **self)
+
+    def stability_length(self) -> Any:
+        """L_s (m), :func:`nucleation.api.stability_length`."""
+        from .theory.creep.lengths import stability_length
+
+        return stability_length(**self)
+
+    def runaway_length(self) -> Any:
+        """L_run (m), :func:`nucleation.api.runaway_length`."""
+        from .theory.creep.runaway import runaway_length
+
+        return runaway_length(**self)
+
+    def weakening_patch_length(self, outside_zeta: Values, outside_a: Values | None = None) -> Any:
+        """W_c (m), :func:`nucleation.api.weakening_patch_length`.
+
+        Parameters
+        ----------
+        outside_zeta : array_like
+            Velocity weakening of the surroundings, negative.
+        outside_a : array_like, optional
+            Their direct effect; that of the patch by default.
+
+        Returns
+        -------
+        ndarray or DataArray
+            Broadcast shape.
+        """
+        from .theory.weakening_patch import weakening_patch_length
+
+        return weakening_patch_length(outside_zeta=outside_zeta, outside_a=outside_a, **self)
+
+    def lengths_in_use(self, **options: Any) -> xr.Dataset:
+        """The lengths of the literature (m), :func:`nucleation.api.lengths_in_use`."""
+        return lengths_in_use(**options, **self)
+
+    def length_statuses(self, **options: Any) -> xr.Dataset:
+        """All lengths with reasons, :func:`nucleation.api.length_statuses`."""
+        from .answers.status import length_statuses
+
+        return length_statuses(**options, **self)
+
+    def specimen_fit(self, unknown: str, length: Any, criterion: str = "critical") -> Fit:
+        """Where a nucleation fits into a specimen, :func:`nucleation.api.specimen_fit`.
+
+        Parameters
+        ----------
+        unknown : str
+            Name of the parameter to find; its value in this fault has no effect.
+        length : float or text
+            Length of the specimen (m).
+        criterion : {"critical", "stability"}
+            L_c or L_s.
+
+        Returns
+        -------
+        Fit
+        """
+        from .answers.specimen import specimen_fit
+
+        others = {name: value for name, value in dict(self).items() if name != unknown}
+        return specimen_fit(unknown, length, criterion, **others)
+
+    def parameters(self, **changes: Any) -> Parameters:
+        """The parameters of a simulation of this fault, checked as those of a configuration.
+
+        Parameters
+        ----------
+        **changes
+            Other parameters by their names in studies, in SI units: ``n_x``, ``perturbation``,
+            ``block_length``, ... By default the block is 6 L_c long.
+
+        Returns
+        -------
+        Parameters
+
+        Raises
+        ------
+        ParameterError
+            If the fault is an array, lacks V or f, or can't be simulated.
+        """
+        from .configuration.single_run import merged, single_run
+
+        given = self._by_study_names() | changes
+        return single_run(merged(None, given | follows_from(given))).parameters
+
+    def expected_drop(self, **perturbation: Any) -> ExpectedDrop:
+        """L_s, L_run and L under a perturbation, :func:`nucleation.api.expected_drop`.
+
+        Parameters
+        ----------
+        **perturbation
+            ``perturbation`` (its kind), ``strength``, ``correlation_time`` and so on; by default a
+            normal load that fluctuates by 1e-4.
+
+        Returns
+        -------
+        ExpectedDrop
+        """
+        from .patch.expected_drop import expected_drop
+
+        usual = {"perturbation": "normal_load", "strength": 1e-4}
+        return expected_drop(self.parameters(**usual | perturbation))
+
+    def simulate(self, **changes: Any) -> xr.Dataset:
+        """Simulate this fault, :func:`nucleation.api.simulate`.
+
+        Parameters
+        ----------
+        **changes
+            As of :meth:`parameters`.
+
+        Returns
+        -------
+        Dataset
+        """
+        from .simulation.progress import simulate
+
+        return simulate(self.parameters(**changes))
+
+    def _by_study_names(self) -> dict[str, Any]:
+        """The parameters by their names in studies, also those of a law that V does not set."""
+        found: dict[str, Any] = {}
+        for name in self.keys():
+            value = getattr(self, name)
+            if name in ZONE:
+                raise ParameterError(f"{name} is not allowed: no simulation has a zone")
+            if np.ndim(value):
+                raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
+            found[name] = value if isinstance(value, str | Friction) else float(value)
+        far_side = found.pop("far_side")
+        needed = "velocity" if self.loading == "top" else "free"
+        if FAR_SIDES[far_side] is not FAR_SIDES[needed]:
+            raise ParameterError(
+                f"far_side = {far_side!r} is not allowed with loading = {self.loading}: the far "
+                f"side of a simulated block is {needed}"
+            )
+        found["second_body"] = "deformable"
+        if math.isinf(found["second_shear_modulus"]):
+            found["second_body"] = "rigid"
+            found = {name: x for name, x in found.items() if not name.startswith(_SECOND)}
+        elif found["second_far_side"] == "traction":
+            found["second_far_side"] = "free"
+        law = found.pop("friction_law", None)
+        if law is not None:
+            own = plain(law)
+            found["friction_law"] = own.pop("law")
+            for name in ("slip_distance", *law.set_by_expansion):
+                del own[name]
+            found |= own
+        return found
+
+
+_SECOND = ("second_shear_modulus", "second_poisson_ratio", "second_height", "second_far_side")
+"""Parameters that a rigid second body does not have."""

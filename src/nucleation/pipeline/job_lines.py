@@ -1,0 +1,66 @@
+"""One line for each job in Snakemake's output, in place of five."""
+
+import logging
+import time
+
+from snakemake.settings.enums import Quietness
+from snakemake_interface_logger_plugins.common import LogEvent
+
+_NEEDLESS = (
+    "Select jobs to execute...",
+    "Using shell: ",
+    "Rules claiming more threads will be scaled down.",
+)
+"""Beginnings of lines without news."""
+
+
+class JobLines(logging.Filter):
+    """Prints a job as it starts: the time, how many jobs are done, what it makes, its rule.
+
+    Errors, warnings and the table of jobs stay as they are.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._done = 0
+        self._all = 0
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Replace the text of a record, or leave the record out."""
+        event = getattr(record, "event", None)
+        if event == LogEvent.RUN_INFO:
+            self._all = vars(record).get("stats", {}).get("total", 0)
+        if event == LogEvent.JOB_FINISHED:
+            self._done += 1
+        if event == LogEvent.JOB_INFO:
+            self._shorten(record)
+        if event == LogEvent.PROGRESS:
+            return bool(vars(record)["done"] == vars(record)["total"])
+        if event in (LogEvent.JOB_STARTED, LogEvent.JOB_FINISHED):
+            return False
+        return not str(record.msg).startswith(_NEEDLESS)
+
+    def _shorten(self, record: logging.LogRecord) -> None:
+        facts = vars(record)
+        rule = facts["rule_name"]
+        message = facts["rule_msg"]
+        job = f"{message} ({rule})" if message else rule
+        record.msg = f"{time.strftime('%H:%M:%S')} [{self._done}/{self._all}] {job}"
+        # Snakemake's own form of such a record has several lines
+        del facts["event"]
+        facts["quietness"] = Quietness.RULES
+
+
+def shorten(logger: logging.Logger, quiet: set[Quietness]) -> None:
+    """Print one line for each job, unless the reasons of jobs are asked for.
+
+    Parameters
+    ----------
+    logger : logging.Logger
+        Snakemake's.
+    quiet : set of Quietness
+        What Snakemake does not print.
+    """
+    is_short = any(isinstance(one, JobLines) for one in logger.filters)
+    if Quietness.REASON in quiet and not is_short:
+        logger.addFilter(JobLines())

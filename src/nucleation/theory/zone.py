@@ -1,0 +1,176 @@
+"""Stiffness of a body with a layer of another material beside the interface.
+
+The layer ``0 < y < h``, a zone of gouge or of damaged rock, is bonded to the body behind it. Let B
+be the body's stiffness over the layer's modulus, and let P and Q be the layer's own for
+displacements of its near and its far face. Then the stiffness of both together is
+
+    C = P - Q (P + B)^-1 Q .
+
+As a quotient of determinants each entry of C is linear in ``B_xx``, ``B_yy``, ``B_xy`` and det B:
+numerators and the denominator of C are the sum of those of a free layer, of layers with the far
+sides ``velocity``, ``roller`` and ``clamped`` times ``(1 - nu) B_xx``, ``(1 - nu) B_yy`` and
+``det B/2``, and of :func:`_mixed_factor` times ``B_xy``. Every other term is positive. So C is
+accurate from ``kh -> 0``, where it is that of the body, to thick layers, which hide the body. In
+antiplane shear it is the sum of a free layer and a held one times ``B_xx``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .stiffness import FAR_SIDES, Array, Layers, Stiffness
+from .waves import Waves
+
+
+class Factor(NamedTuple):
+    """What multiplies one share of the body's stiffness in numerators and denominator of C."""
+
+    denominator: Array
+    xx: Array
+    xy: Array
+    yy: Array
+    det: Array
+
+
+class Zone(NamedTuple):
+    """A layer beside the interface and the body behind it; one or many, fields broadcast."""
+
+    layer: Layers  # the zone; its far side is the body
+    body: Layers
+
+    @property
+    def shear_modulus(self) -> Array:
+        """mu (Pa) of the body, over which the stiffness is normalised."""
+        return self.body.shear_modulus
+
+    @property
+    def height(self) -> Array:
+        """Height (m) of the body, without the zone."""
+        return self.body.height
+
+    @property
+    def far_side(self) -> str:
+        """The body's far side."""
+        return self.body.far_side
+
+    @property
+    def ratio(self) -> Array:
+        """Shear modulus of the body over that of the zone."""
+        return self.body.shear_modulus / self.layer.shear_modulus
+
+    @property
+    def thicknesses(self) -> list[Array]:
+        """Thicknesses (m) of the zone and of the body."""
+        return [self.layer.height, self.body.height]
+
+    @property
+    def contrast(self) -> Array:
+        """The smaller of the two shear moduli over the larger one."""
+        return np.minimum(self.ratio, 1.0 / self.ratio)
+
+    def at(self, index: NDArray) -> Zone:
+        """The zones and bodies of an index or a mask."""
+        return Zone(self.layer.at(index), self.body.at(index))
+
+    def with_heights(self, heights: Callable[[Array], Array]) -> Zone:
+        """The same with other thicknesses (m), a function of the present ones."""
+        return Zone(self.layer.with_heights(heights), self.body.with_heights(heights))
+
+    def at_least(self, thickness: float) -> Zone:
+        """The zone, or a thicker one that resists long waves alike.
+
+        A soft zone adds ``h (1/mu_zone - 1/mu)`` to the compliance, a stiff one ``h (mu_zone -
+        mu)`` to the resistance against stretching. The thicker zone adds as much.
+        """
+        layer = self.layer
+        thick = np.maximum(layer.height, thickness)
+        share = layer.height / thick
+        soft = 1.0 / (1.0 + share * (self.ratio - 1.0))
+        stiff = 1.0 + share * (1.0 / self.ratio - 1.0)
+        changed = self.body.shear_modulus * np.where(self.ratio > 1.0, soft, stiff)
+        modulus = np.where(share < 1.0, changed, layer.shear_modulus)
+        return self._replace(layer=layer._replace(height=thick, shear_modulus=modulus))
+
+    def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
+        """Dimensionless stiffness at a wavenumber (1/m), over the body's modulus."""
+        waves = Waves(self.layer.layer_number(wavenumber))
+        shares = self.shares(self.body.stiffness(wavenumber))
+        factors = self.factors(waves, waves)
+        terms = zip(shares, factors, strict=True)
+        below, *above = sum(share * np.stack(factor) for share, factor in terms)
+        return self.normalised(Stiffness(*(numerator / below for numerator in above)))
+
+    def shares(self, behind: Stiffness) -> list[Array]:
+        """1, B_xx, B_yy, det B and B_xy, with the body's stiffness over its modulus given."""
+        xx = self.ratio * behind.xx
+        one = np.ones_like(xx)
+        if self.layer.antiplane:
+            return [one, xx]
+        yy = self.ratio * behind.yy
+        compression = 1.0 - self.layer.poisson_ratio
+        det = 0.5 * self.ratio**2 * behind.det
+        return [one, compression * xx, compression * yy, det, self.ratio * behind.xy]
+
+    def factors(
+        self,
+        waves: Waves,
+        subtracted: Waves,
+    ) -> list[Factor]:
+        """What multiplies each of the :meth:`shares`.
+
+        Parameters
+        ----------
+        waves, subtracted : Waves
+            Functions of kh that are added, and those that are subtracted: the same ones, or bounds
+            on opposite sides.
+
+        Returns
+        -------
+        list of Factor
+            Times ``exp(-2 kh)``; shape of kh.
+        """
+        nu = self.layer.poisson_ratio
+        if self.layer.antiplane:
+            held, free = 2.0 * waves.cosh_squared, waves.sinh_2q
+            zero = 0.0 * free
+            return [Factor(held, free, zero, held, free), Factor(free, held, zero, free, held)]
+        found = []
+        for far_side in ("free", "velocity", "roller", "clamped"):
+            known = FAR_SIDES[far_side]
+            terms = known(waves, nu)
+            less = known(subtracted, nu).xy_less
+            found.append(Factor(terms.denominator, terms.xx, terms.xy - less, terms.yy, terms.det))
+        return [*found, _mixed_factor(waves, subtracted, nu)]
+
+    def normalised(self, over_zone: Stiffness) -> Stiffness:
+        """A stiffness over the body's modulus, from that over the zone's."""
+        scale = 1.0 / self.ratio
+        return Stiffness(
+            xx=scale * over_zone.xx,
+            xy=scale * over_zone.xy,
+            yy=scale * over_zone.yy,
+            det=scale**2 * over_zone.det,
+        )
+
+
+def _mixed_factor(
+    w: Waves,
+    less: Waves,
+    nu: Array,
+) -> Factor:
+    """The factor of ``B_xy``; its entries may be negative."""
+    compression = 1.0 - nu
+    expansion = 1.0 - 2.0 * nu
+    kappa = 3.0 - 4.0 * nu
+    constant = 8.0 * compression**2 * w.decay
+    return Factor(
+        denominator=2.0 * (expansion * kappa * w.sinh_squared - less.square),
+        xx=4.0 * compression * (expansion * w.sinh_2q - less.linear),
+        xy=constant + 4.0 * (expansion**2 * w.sinh_squared - less.square),
+        yy=4.0 * compression * (expansion * w.sinh_2q + w.linear),
+        det=8.0 * (expansion * w.sinh_squared + w.square),
+    )

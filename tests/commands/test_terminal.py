@@ -1,0 +1,126 @@
+"""What a person sees: lines fit the terminal, values have the units in which they were given."""
+
+import fcntl
+import os
+import pty
+import re
+import struct
+import termios
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nucleation.commands.text import table, wrapped
+from nucleation.commands.unit_text import in_unit
+from nucleation.model.quantities import Quantity
+from nucleation.model.units import parse
+
+GRANITE = (
+    "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--a", "0.010", "--b", "0.015",
+    "--slip-distance", "5um", "--velocity", "1mm/yr", "--friction", "0.6", "--height", "20cm",
+)  # fmt: skip
+STRESS = ("--normal-stress", "50MPa")
+RANGE = ("--poisson-ratio", "0.25 (0.2 to 0.3)", "--draws", "20")
+COMMANDS = {
+    "length": ("length", *GRANITE, *STRESS),
+    "patch": ("length", *GRANITE, *STRESS, "--outside-zeta", "-0.005", "--width", "1m"),
+    "quantiles": ("length", *GRANITE, *STRESS, *RANGE),
+    "specimen": ("specimen", "--length", "20cm", *GRANITE, *STRESS),
+    "simulate": ("simulate", "x.nc", *GRANITE, *STRESS, "--dry-run"),
+    "mistake": ("length", "--shear-modulus", "30um"),
+}
+SYSTEM = ("length", "specimen", "simulate")
+
+
+def said(ended):
+    return (ended.out + ended.err).splitlines()
+
+
+@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS.keys())
+def test_lines_fit_and_words_are_those_of_a_file(nucleation, monkeypatch, command):
+    wide = said(nucleation(*command))
+    for columns in (80, 70):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        narrow = said(nucleation(*command))
+        assert max(map(len, narrow)) <= columns
+        assert sorted(" ".join(narrow).split()) == sorted(" ".join(wide).split())
+    assert max(map(len, wide)) > 80
+
+
+@pytest.mark.system
+def test_a_terminal_of_eighty_columns(program):
+    """A terminal wraps, and the same command into a pipe does not."""
+    child, terminal = pty.fork()
+    if child == 0:
+        os.environ.pop("COLUMNS", None)
+        os.execv(program[0], [*program, *COMMANDS["specimen"]])
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    shown = b""
+    try:
+        while chunk := os.read(terminal, 4096):
+            shown += chunk
+    except OSError:  # the other end is closed
+        pass
+    os.waitpid(child, 0)
+    lines = shown.decode().splitlines()
+    assert 70 < max(map(len, lines)) <= 80
+    assert any(line.startswith("  ") for line in lines), "a hanging indent"
+
+
+def test_a_number_stays_with_its_unit(monkeypatch):
+    text = "a sentence about a length L = 5 um and a stress of 3.1 GPa and one more of 16 % at last"
+    for columns in range(40, 70):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        lines = wrapped(text)
+        assert " ".join(line.strip() for line in lines) == text
+        assert not any(re.search(r"(\d|=)$", line) for line in lines)
+        assert all(line.startswith("  ") for line in lines[1:])
+
+
+def test_a_table_is_narrowed_in_its_widest_column(monkeypatch):
+    rows = [("L", "2 m", "a meaning " * 9), "and a line", ("L_run", "20 m", "short")]
+    assert table(rows)[2] == "  L_run  20 m  short"
+    monkeypatch.setenv("COLUMNS", "60")
+    lines = table(rows)
+    assert max(map(len, lines)) <= 60
+    starts = {len(line) - len(line.lstrip()) for line in lines if "meaning" in line}
+    assert starts == {2, len("  L_run  20 m  ")}
+    numbers = table([("id", "1"), ("b", "200")], right=[1])
+    assert numbers == ["  id    1", "  b   200"]
+
+
+@pytest.mark.parametrize("command", SYSTEM)
+def test_values_come_back_as_typed(nucleation, command):
+    told = nucleation(*COMMANDS[command]).out
+    for text in ("mu = 30 GPa", "a layer 20 cm high", "D = 5 um", "sigma0 = 50 MPa", "V = 1 mm/yr"):
+        assert text in told
+    assert not re.search(r"\de[+-]?\d+ (Pa|m)(?![\w/])", told.partition("theory")[0])
+
+
+def test_values_of_a_file_come_back_as_typed(nucleation, tmp_path):
+    file = tmp_path / "fault.yaml"
+    file.write_text("shear_modulus: 300 kbar\nsecond_body: 2e4 MPa,0.3\nheight: 1.50 m\n")
+    told = nucleation("simulate", tmp_path / "x.nc", "--parameters", file, "--dry-run").out
+    for text in ("mu = 300 kbar", "mu = 2e4 MPa", "a layer 1.50 m high", "D = 500 nm"):
+        assert text in told, told
+
+
+@given(
+    value=st.floats(1e-20, 1e20),
+    unit=st.sampled_from(["m", "s", "m/s", "Pa", "Pa/s", "Pa/m", "kg/m^3", "1"]),
+)
+def test_an_engineering_unit_keeps_the_value(value, unit):
+    again = parse("value", in_unit(value, unit), Quantity("value", unit=unit))
+    assert again == pytest.approx(value, rel=1e-5)
+
+
+def test_one_rule_for_the_system(nucleation):
+    """The commands echo bodies, friction and assumptions of one fault in the same words."""
+    length, specimen, simulate = (nucleation(*COMMANDS[name]).out for name in SYSTEM)
+    drop = nucleation("drop", *GRANITE, *STRESS).out
+    assert length.splitlines()[:3] == drop.splitlines()[:3]
+    assert length.splitlines()[0] == specimen.splitlines()[0]
+    assert all(line in simulate for line in length.splitlines()[:3])
+    starts = [line.partition(":")[0] for line in length.splitlines()[:3]]
+    assert starts == ["System", "Friction", "Assumed"]

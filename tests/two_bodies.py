@@ -1,0 +1,77 @@
+"""Single systems of two given bodies, for tests of the linear theory."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from nucleation.model.material import ANTIPLANE, Material
+from nucleation.theory import critical, crossings, spectrum
+from nucleation.theory.stiffness import LayerPair, Layers
+
+
+class Body(NamedTuple):
+    """A body beside the interface; half-spaces and layers of one material."""
+
+    material: Material = Material()
+    height: float = np.inf
+    far_side: str = "velocity"
+
+    @property
+    def layers(self):
+        material = self.material
+        return Layers(
+            np.array([material.shear_modulus]),
+            np.array([material.in_plane_ratio]),
+            np.array([float(self.height)]),
+            self.far_side,
+            material.plane == ANTIPLANE,
+        )
+
+
+RIGID = None
+
+
+def pair(upper, lower):
+    return LayerPair(upper and upper.layers, lower and lower.layers)
+
+
+def system(upper, lower, interface):
+    """One system, with fields of shape (1,)."""
+    bodies = pair(upper, lower)
+    return spectrum.Systems(
+        bodies,
+        np.array([interface.friction]),
+        np.array([interface.a]),
+        np.array([interface.zeta]),
+        bodies.modulus * interface.slip_length / interface.normal_stress,
+        np.array([interface.velocity / interface.slip_length]),
+    )
+
+
+def transfer_functions(k, upper, lower):
+    """G1 and G2, shape of k."""
+    k = spectrum.as_wavenumber(k)
+    found = pair(upper, lower).transfer_functions(np.ravel(k))
+    return tuple(value.reshape(k.shape)[()] for value in found)
+
+
+def growth_rates(k, upper, lower, interface):
+    """Both roots, shape (2,) and that of k."""
+    k = spectrum.as_wavenumber(k)
+    found = system(upper, lower, interface).growth_rates(np.ravel(k))
+    return found.reshape(2, *k.shape)
+
+
+def critical_wavenumber(upper, lower, interface):
+    return critical.critical_point(system(upper, lower, interface))
+
+
+def critical_length(height, material, interface):
+    """L_c (m) of a block on a rigid base."""
+    return critical.length_on_rigid_base(height, material, interface)
+
+
+def critical_lengths(cases):
+    """L_c (m) of each system, NaN where sliding is stable."""
+    k = [crossings.largest_crossings(system(*case))[0] for case in cases]
+    return 2.0 * np.pi / np.array(k)
