@@ -47,6 +47,20 @@ def test_shear_stress_of_a_known_displacement():
     assert rows.tolist() == list(range(12))
 
 
+@pytest.mark.parametrize("velocity", [1e-5, 1e-8])
+def test_the_event_is_shown_for_a_memory_time_to_either_side(velocity):
+    parameters = Parameters().replaced({"velocity": velocity})
+    memory_time = parameters.memory_time
+    time = memory_time * np.linspace(0.0, 100.0, 1001)
+    rate = velocity * (1.0 + 1e3 * (np.arange(1001) == 520))
+    record = xr.Dataset(
+        {"step_time": ("step", time), "maximal_slip_rate": ("step", rate)},
+        attrs={"parameters": parameters.to_json()},
+    )
+    begin, end = film.event_interval(record, 50.0 * memory_time)
+    assert begin == pytest.approx(49.0 * memory_time) and end == pytest.approx(53.0 * memory_time)
+
+
 def test_film_is_of_the_same_run(filmed, simulation, table):
     """Within the patch the stress beside the interface is near that of the interface, and the
     free side has next to none."""

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from nucleation.figures.beyond import figure_2_simulated, figure_pairs
+from nucleation.figures.paper import figure_2
 from nucleation.theory.closed_forms import bimaterial_length_ratio
 
 
@@ -54,8 +55,30 @@ def test_finer_meshes_are_not_among_the_pairs_drawn(table):
     assert drawn.lines[0].get_xdata().size == 3
 
 
-def test_figure_2_has_both_senses_in_units_without_contrast(table):
-    left, right = figure_2_simulated.draw(table).axes[:2]
+def test_identical_blocks_have_a_smooth_curve_where_it_is_given(table):
+    x = np.geomspace(0.01, 1.0, 31)
+    curve = {"": {"x": x, "length": np.sqrt(x)}}
+    left = figure_pairs.draw(table, curve).axes[0]
+    np.testing.assert_array_equal(left.lines[0].get_ydata(), np.sqrt(x))
+
+
+def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(table, theory):
+    unknown = table["f_beta"].values == 0.1
+    lost = table["stability_ratio"].where(~xr.DataArray(unknown, dims="run"))
+    panels = figure_2_simulated.draw(table.assign(stability_ratio=lost), theory).axes[:2]
+    papers = figure_2.looks(theory["zeta_over_a"].values)
+    for axes in panels:
+        for weakening in (10.0, 1.0):
+            label = rf"Eq. (9), $\zeta/a={weakening:g}$"
+            curve = next(line for line in axes.lines if line.get_label() == label)
+            assert curve.get_color() == papers[weakening]["color"]
+    crosses = [line for line in panels[1].lines if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in crosses] == [[0.1], [0.1]]
+    assert not [line for line in panels[0].lines if line.get_marker() == "x"]
+
+
+def test_figure_2_has_both_senses_in_units_without_contrast(table, theory):
+    left, right = figure_2_simulated.draw(table, theory).axes[:2]
     assert len(left.containers) == 2
     for panel, ratio in ((left, 0.75), (right, 0.5)):
         for (points, _, bars), weakening in zip(panel.containers, (10.0, 1.0), strict=True):

@@ -8,6 +8,7 @@ from made_up_theory import critical_length
 
 from nucleation.analysis.lengths import over_realisations
 from nucleation.figures.beyond import figure_3_extended, figure_patch_stability
+from nucleation.model.parameters import Parameters
 
 HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1] * 2)
 THEORY = critical_length(HEIGHTS)
@@ -40,10 +41,13 @@ def patches(table):
             "patch_length": ("instant", theory * np.linspace(0.1, 0.9, 30)),
             "oscillation_growth": ("instant", np.linspace(-3.0, 3.0, 30)),
             "oscillation_frequency": ("instant", np.linspace(17.0, 9.0, 30)),
+            "instant_time": ("instant", np.linspace(1.0, 30.0, 30)),
+            "stability_frequency": 2.0 * np.pi,  # 1/s: periods of a second
             "mode_real": ("x", shape.real),
             "mode_imaginary": ("x", shape.imag),
         }
-        made.append(xr.Dataset(columns, coords={"x": X}))
+        attributes = {"parameters": Parameters().to_json()}
+        made.append(xr.Dataset(columns, coords={"x": X}, attrs=attributes))
     return made
 
 
@@ -59,16 +63,28 @@ def extended(theory, lengths, table):
 
 def test_growth_and_frequency_of_the_converged_runs(drawn):
     for axes, first in zip(drawn.axes[:2], (-3.0, 17.0), strict=True):
-        clouds = [line for line in axes.lines if len(line.get_xdata()) == 30]
-        assert len(clouds) == 3
-        for line in clouds:
-            np.testing.assert_allclose(line.get_xdata(), np.linspace(0.1, 0.9, 30))
+        clouds = [line for line in axes.lines if line.get_marker() == "."]
+        late = [line for line in axes.lines if line.get_marker() == "x"]
+        assert len(clouds) == len(late) == 3
+        for line, last in zip(clouds, late, strict=True):
+            assert last.get_xdata().size == 4  # instants in the last four periods
+            x = np.append(line.get_xdata(), last.get_xdata())
+            np.testing.assert_allclose(x, np.linspace(0.1, 0.9, 30))
             assert line.get_ydata()[0] == first
+
+
+def test_ranges_follow_the_memory_time(drawn, table, patches):
+    slower = Parameters().replaced({"velocity": 1e-6}).to_json()  # D/V is ten times as long
+    slow = figure_patch_stability.draw(
+        table, [patch.assign_attrs(parameters=slower) for patch in patches]
+    )
+    for axes, other in zip(drawn.axes[:2], slow.axes[:2], strict=True):
+        np.testing.assert_allclose(axes.get_ylim(), 10.0 * np.array(other.get_ylim()))
 
 
 def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches):
     drawn = figure_patch_stability.draw(table.isel(run=slice(0, 5)), patches[:5])
-    assert sum(len(line.get_xdata()) == 30 for line in drawn.axes[0].lines) == 3
+    assert sum(line.get_marker() == "." for line in drawn.axes[0].lines) == 3
 
 
 def test_shape_of_the_mode_is_its_modulus_over_the_patch(drawn):

@@ -6,6 +6,7 @@ import xarray as xr
 from matplotlib.collections import QuadMesh
 
 from nucleation.figures.paper import figure_s2
+from nucleation.model.parameters import Parameters
 
 
 @pytest.fixture
@@ -87,6 +88,7 @@ def test_the_zoom_takes_the_first_event_only():
     time = np.linspace(0.0, 10.0, 10001)
     rate = 1e-5 + 0.1 * (np.abs(time - 5.002) < 2.1e-3) + 0.1 * (np.abs(time - 8.0) < 2.1e-3)
     record = xr.Dataset({"step_time": ("step", time), "maximal_slip_rate": ("step", rate)})
+    record.attrs["parameters"] = Parameters().to_json()
     start, peak, end = figure_s2.event_window(record, 5.0)
     assert 4.99 < start < 5.0 <= peak <= 5.004 < end < 5.01
 

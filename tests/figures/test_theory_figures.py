@@ -21,6 +21,16 @@ def test_figure_2_has_a_curve_for_each_ratio(theory):
     assert len({line.get_linestyle() + str(line.get_color()) for line in lines}) == len(lines)
 
 
+def test_the_legend_of_figure_2_shows_every_pattern_entirely(theory):
+    (axes,) = figure_2.draw(theory).axes
+    legend = axes.get_legend()
+    for line in legend.get_lines():
+        x = line.get_xdata()
+        _, pattern = line._unscaled_dash_pattern
+        period = sum(pattern or [0.0]) * line.get_linewidth()
+        assert x[-1] - x[0] > 1.5 * period  # points
+
+
 def test_table_s1_holds_the_papers_values():
     rows = {row.symbol: row for row in table_s1.rows(Friction())}
     assert list(rows) == ["D", "b", "v*", "θ", "φ*", "v₀", "ξ"]

@@ -114,3 +114,20 @@ def test_distributions_are_those_of_the_committed_drops():
     many = [g for _, g in frame.groupby(list(figure_drop.ENSEMBLE)) if len(g) >= figure_drop.FEWEST]
     expected = {tuple(np.sort(g["length"] / g["critical_length"])) for g in many}
     assert {tuple(line.get_xdata()) for line in steps} == expected and len(expected) == 4
+
+
+def test_curves_are_the_law_at_their_strengths():
+    described_run = described(history())
+    files = module.drop_files([drops()], [described_run])
+    found = files[".nc"]
+    assert files[".csv"].splitlines()[0] == ",".join(COLUMNS)
+    case = int(np.flatnonzero(found["curve_kind"].values == "normal_load")[0])
+    assert str(found["curve_fault"].values[case]) == FAULT
+    at = int(np.argmin(np.abs(found["curve_strength"].values - 1e-5)))
+    strength = float(found["curve_strength"][at])
+    law = growth(history(), LOAD).drop(strength)
+    drawn = [float(found[name][case, at]) for name in ("curve_low", "curve_length", "curve_high")]
+    assert drawn == pytest.approx([law.low, law.length, law.high], rel=1e-12)
+    line = next(li for li in figure_drop.draw(found).axes[0].lines if "median" in li.get_label())
+    shown = found["curve_strength"].values <= 1.01e-5  # up to the strongest run
+    np.testing.assert_array_equal(line.get_xdata(), found["curve_strength"].values[shown])

@@ -1,5 +1,6 @@
 """The map of lengths: rows of a table on their places of a grid, and what is drawn of them."""
 
+import drawn_layout
 import numpy as np
 import pytest
 import xarray as xr
@@ -48,3 +49,26 @@ def test_figure_shows_the_ratios_and_the_lengths():
         theory, drop, stability = curves[i : i + 3]
         np.testing.assert_allclose(drop / theory, 0.6151, rtol=1e-4)
         np.testing.assert_allclose(stability / theory, 0.5)
+
+
+def test_contours_are_smoothed_over_known_neighbours_only():
+    """Scatter of one row is halved, a plane stays, and a gap takes no part."""
+    scattered = np.array([[0.0], [0.0], [1.0], [0.0], [0.0]])
+    np.testing.assert_allclose(figure_map._smoothed(scattered).T, [[0, 0.25, 0.5, 0.25, 0]])
+    plane = np.arange(5.0)[:, None] * np.ones(3)
+    np.testing.assert_allclose(figure_map._smoothed(plane)[1:-1], plane[1:-1])
+    gap = np.array([[2.0], [2.0], [np.nan], [2.0]])
+    np.testing.assert_allclose(figure_map._smoothed(gap).T, [[2, 2, np.nan, 2]])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", [(1, 2), (2, 1), (2, 2), (3, 2)])
+def test_small_grids_are_legible(shape):
+    """Cells are centred on their values, and no texts collide."""
+    heights, weakenings = shape
+    grid = on_grid(gather_map(lengths())).isel(height=slice(heights), zeta_over_a=slice(weakenings))
+    figure = figure_map.draw(grid)
+    drawn_layout.require_legible(figure)
+    for axes in figure.axes[:3]:
+        left, right = axes.get_xlim()
+        assert left < grid["height"].values.min() and right > grid["height"].values.max()

@@ -11,7 +11,14 @@ from nucleation.model.identity import fault
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.expected_drop import expected_drop
-from nucleation.patch.tables.weakening import MEASURED, expected, gather_weakening
+from nucleation.patch.tables.weakening import (
+    CURVES,
+    MEASURED,
+    expected,
+    gather_weakening,
+    weakening_curves,
+)
+from nucleation.theory.creep.thin import thin_limit
 
 STRONG = Parameters(perturbation=Perturbation(kind="normal_load", strength=1e-4))
 QUIET = Parameters()
@@ -67,3 +74,40 @@ def test_the_figure_has_a_panel_for_each_base_with_curves():
     np.testing.assert_allclose(curve.get_ydata(), float(one["stability_length"][0]))
     points = axes.containers[0].lines[0]
     assert points.get_ydata() == pytest.approx(0.75)
+
+
+@pytest.mark.slow
+def test_curves_of_a_thin_layer_and_of_half_spaces():
+    """L_s of a thin layer is that of the thin limit; high blocks have the curves of half-spaces."""
+    law = {"friction_law": "dieterich_ruina", "strength": 1e-4, "perturbation": "normal_load"}
+    thin = Parameters().replaced(law | {"height": 0.002})
+    high = Parameters().replaced(law | {"height": 3.0, "second_body": "deformable"})
+    runs = []
+    for parameters in (thin, high):
+        one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
+        runs.append(one)
+    found = weakening_curves(runs, [2.5, 6.0])
+    assert set(found) == set(CURVES)
+    assert found["curve_half_spaces"].values.tolist() == [False, True]
+    limits = [thin_limit(ratio).length_ratio for ratio in (2.5, 6.0)]
+    np.testing.assert_allclose(found["curve_stability"][0], limits, rtol=0.05)
+    higher = high.replaced({"height": 600.0, "second_height": 600.0})
+    runs[1] = runs[1] | {"parameters": higher.to_dict()}
+    again = weakening_curves(runs[1:], [2.5, 6.0])
+    np.testing.assert_allclose(again["curve_law"][0], found["curve_law"][1], rtol=1e-2)
+    assert np.isnan(found["curve_runaway"]).all()
+
+
+def test_the_figure_draws_the_curves_that_are_given():
+    one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    rows = [one.assign(zeta_over_a=("run", np.full(2, value))) for value in (0.5, 1.0, 3.0)]
+    x = np.geomspace(0.2, 6.0, 9)
+    lines = ("curve_stability", "curve_runaway", "curve_law")
+    curves = {name: (("system", "curve"), [1.0 / np.sqrt(x)]) for name in lines}
+    curves |= {"curve_study": ("system", ["own"]), "curve_below": ("system", ["rigid"])}
+    curves |= {"curve_height": ("system", [0.02]), "curve_half_spaces": ("system", [False])}
+    curves["curve_ratio"] = ("curve", x)
+    (axes,) = figure_weakening.draw(xr.concat(rows, dim="run").merge(xr.Dataset(curves))).axes
+    for line in axes.lines[:3]:
+        np.testing.assert_array_equal(line.get_xdata(), x)
+        np.testing.assert_array_equal(line.get_ydata(), 1.0 / np.sqrt(x))

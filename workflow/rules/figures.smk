@@ -379,6 +379,20 @@ rule draw_figure_sensitivity:
         JOB
 
 
+def theory_over(study, runs):
+    """The theory's lengths over the one number that differs among some runs of a study."""
+    own = settings.studies[study]
+    return theory_curves(runs, own, settings.base, settings.main_text_interface)
+
+
+def theory_of_identical_blocks():
+    """The theory's lengths over the height, by study of identical blocks."""
+    found = {}
+    for study in in_role("pairs_identical"):
+        found |= theory_over(study, one_of_each_fault(runs_of(study)))
+    return found
+
+
 rule draw_figure_pairs:
     """Two deformable bodies"""
     input:
@@ -396,6 +410,7 @@ rule draw_figure_pairs:
     localrule: True
     params:
         call="nucleation.figures.beyond.figure_pairs:draw",
+        theory=lambda wildcards: theory_of_identical_blocks(),
     message:
         "Two deformable bodies"
     shell:
@@ -406,6 +421,7 @@ rule draw_figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:
         table=f"{RESULTS}/pairs.nc",
+        theory=f"{RESULTS}/theory.nc",
         recipe=recipe("draw_figure_2_simulated"),
     output:
         report(
@@ -476,12 +492,7 @@ rule draw_study:
         call="nucleation.figures.beyond.figure_studies:draw_study",
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
-        theory=lambda wildcards: theory_curves(
-            runs_of(wildcards.study),
-            settings.studies[wildcards.study],
-            settings.base,
-            settings.main_text_interface,
-        ),
+        theory=lambda wildcards: theory_over(wildcards.study, runs_of(wildcards.study)),
     message:
         "Figure of the study {wildcards.study}: simulations and theory"
     shell:

@@ -11,7 +11,7 @@ rule gather_drop:
         f"{RESULTS}/logs/drop.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.drops:gather_drops",
+        call="nucleation.patch.tables.drops:drop_files",
         loads=lambda wildcards: laws_of(runs_for("drop")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("drop"))),
     message:
@@ -30,7 +30,7 @@ rule gather_weakening:
     log:
         f"{RESULTS}/logs/weakening.log",
     params:
-        call="nucleation.patch.tables.weakening:gather_weakening",
+        call="nucleation.patch.tables.weakening:weakening_files",
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
     message:

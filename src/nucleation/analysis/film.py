@@ -23,8 +23,8 @@ from .record import parameters_of
 
 Indices = NDArray[np.intp]
 
-MARGIN = 0.05  # s by which the shown event begins before the onset and ends after its peak
-LONGEST_EVENT = 1.0  # s from the onset to the peak
+MARGIN = 1.0  # D/V by which the shown event begins before the onset and ends after its peak
+LONGEST_EVENT = 20.0  # D/V from the onset to the peak
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
 MOST_COLUMNS = 241
 MOST_ROWS = 31
@@ -112,7 +112,7 @@ def event_interval(simulation: xr.Dataset, onset: float) -> tuple[float, float]:
     Parameters
     ----------
     simulation : Dataset
-        Record of a run.
+        Record of a run, with the attribute ``parameters``.
     onset : float
         Onset of the event (s), NaN without an event.
 
@@ -125,11 +125,13 @@ def event_interval(simulation: xr.Dataset, onset: float) -> tuple[float, float]:
     if not np.isfinite(onset):
         end = float(time[-1])
         return end, end
-    after = (time >= onset) & (time <= onset + LONGEST_EVENT)
+    memory_time = parameters_of(simulation).memory_time
+    after = (time >= onset) & (time <= onset + LONGEST_EVENT * memory_time)
     during = np.flatnonzero(after)
     rates = simulation["maximal_slip_rate"].values[during]
     peak = time[during[rates.argmax()]]
-    return onset - MARGIN, float(peak) + MARGIN
+    margin = MARGIN * memory_time
+    return onset - margin, float(peak) + margin
 
 
 def _chosen_frames(time: Array, event: tuple[float, float]) -> Indices:

@@ -17,17 +17,18 @@ from ...analysis.lengths import row
 from ...analysis.record import parameters_of
 from ...datasets.files import replacing
 from ...figures import style
+from ...figures.units import time_unit
 from ...model.parameters import Parameters
 from ..paper import figure_s2
 
-_LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
+_LOWEST_RATE = 1e-4  # over V: below this the interface sticks
+_NEAR = 2.0  # D/V before the onset from which the time is counted from it
 _LEVELS = 25  # of the stress: few colours make a small file
 _SPAN = 0.995  # part of the stress's values within the range of colours
 _DOTS = 125.0  # per inch
 _COLOURS = 128
 _PAUSE = 80  # ms for each frame
 _LAST_PAUSE = 1500
-_KILO = 1e3
 
 _Update = Callable[[int], object]
 """Changes one panel to the frame with this number."""
@@ -100,39 +101,50 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[_Update]]:
     start, end = event_interval(film, onset)
     title = rate.set_title("", loc="left")
     times = film["time"].values
-    run = figure_s2.Window(0.0, float(times[-1]), 0.0, 1.0)
-    event = figure_s2.Window(start, end, onset if np.isfinite(onset) else 0.0, _KILO)
+    last = float(times[-1])
+    run = figure_s2.Window(0.0, last, 0.0, *time_unit(last))
+    origin = onset if np.isfinite(onset) else 0.0
+    event = figure_s2.Window(start, end, origin, *time_unit(max(end - origin, origin - start)))
+    near_onset = onset - _NEAR * parameters.memory_time
     updates: list[_Update] = [
-        lambda i: title.set_text(_clock(float(times[i]), onset)),
-        _rate_panel(rate, film, float(row["length"])),
+        lambda i: title.set_text(_clock(float(times[i]), near_onset, run, event)),
+        _rate_panel(rate, film, float(row["length"]), parameters.loading.velocity),
         _block_panel(block, film, parameters),
         _force_panel(whole, film, run),
         _force_panel(near, film, event),
     ]
-    whole.set_xlabel("$t$ (s)", labelpad=1.0)
-    whole.set_ylabel("$-f_d$ (kN/m)")
-    near.set_xlabel("from the onset (ms)", labelpad=1.0)
+    whole.set_xlabel(f"$t$ ({run.unit})", labelpad=1.0)
+    whole.set_ylabel(f"$-f_d$ ({figure_s2.force_unit(film)[1]})")
+    near.set_xlabel(f"from the onset ({event.unit})", labelpad=1.0)
     return figure, updates
 
 
-def _clock(time: float, onset: float) -> str:
-    """The time, and near the onset the time from it."""
-    if not np.isfinite(onset) or time < onset - 0.1:
-        return f"$t$ = {time:.2f} s"
-    return f"$t$ = {time:.4f} s: {_KILO * (time - onset):+.2f} ms from the onset"
+def _clock(
+    time: float,
+    near_onset: float,
+    run: figure_s2.Window,
+    event: figure_s2.Window,
+) -> str:
+    """The time (s), and near the onset the time from it, in the units of two panels."""
+    shown = run.shown(np.array(time))
+    if not time >= near_onset:
+        return f"$t$ = {shown:.2f} {run.unit}"
+    after = event.shown(np.array(time))
+    return f"$t$ = {shown:.4f} {run.unit}: {after:+.2f} {event.unit} from the onset"
 
 
-def _rate_panel(axes: Axes, film: xr.Dataset, length: float) -> _Update:
-    """The slip rate on a logarithmic axis, the critical length dashed."""
+def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) -> _Update:
+    """The slip rate on a logarithmic axis from far below V, the critical length dashed."""
+    lowest = _LOWEST_RATE * velocity
     x = film["x"].values
-    values = np.maximum(film["slip_rate"].values, 1e-3 * _LOWEST_RATE)
+    values = np.maximum(film["slip_rate"].values, 1e-3 * lowest)
     (line,) = axes.plot(x, values[0], color=style.VERMILLION)
     if np.isfinite(length):
         axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9)
         up = axes.get_xaxis_transform()
         axes.annotate("$L_c$", (length, 0.06), (4, 0), up, "offset points")
     axes.set_yscale("log")
-    axes.set_ylim(_LOWEST_RATE, 3.0 * values.max())
+    axes.set_ylim(lowest, 3.0 * values.max())
     axes.set_xlim(x[0], x[-1])
     axes.set_ylabel("Slip rate (m/s)")
     axes.tick_params(labelbottom=False)

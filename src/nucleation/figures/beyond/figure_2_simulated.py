@@ -8,25 +8,30 @@ from matplotlib.figure import Figure
 from ...figures import laws, style
 from ...patch.tables.pairs import over_realisations
 from ...theory.closed_forms import bimaterial_length_ratio
+from ..paper import figure_2
 
 _CONTRAST = np.linspace(-0.42, 0.42, 169)
 _PANELS = (
     ("length_ratio", "(a) at the drop"),
     ("stability_ratio", "(b) patch turns unstable"),
 )
+_MARKERS = "osD^v"
+_UNKNOWN = 0.14  # ordinate of runs without the length
 
 
 @style.styled
-def draw(table: xr.Dataset) -> Figure:
+def draw(table: xr.Dataset, theory: xr.Dataset) -> Figure:
     """Draw lengths over ``L_c^M``, at the drop and where the patch becomes unstable.
 
     The stiffer body is the upper one in the left half of each panel, and the lower one in the right
-    half; bars are the range of the realisations.
+    half; bars are the range of the realisations. Crosses are runs without the length.
 
     Parameters
     ----------
     table : Dataset
         From :func:`nucleation.patch.tables.pairs.gather_pairs`.
+    theory : Dataset
+        That of Figure 2, for its colours: with ``zeta_over_a``.
 
     Returns
     -------
@@ -34,9 +39,12 @@ def draw(table: xr.Dataset) -> Figure:
         Two panels.
     """
     rows = over_realisations(laws.where(table, role="figure_2_simulated"))
-    figure, panels = style.panels(1, 2, 8.4, sharey=True)
+    rows = rows.assign(zeta_over_a=rows["zeta_over_a"].round(3)).sortby("f_beta")
+    figure, panels = style.panels(1, 2, 8.8, sharey=True)
+    simulated = np.unique(rows["zeta_over_a"].values)
+    looks = figure_2.looks(np.union1d(theory["zeta_over_a"].values, simulated))
     for axes, (name, title) in zip(panels, _PANELS, strict=True):
-        _draw_lengths(axes, rows, name)
+        _draw_lengths(axes, rows, name, looks)
         axes.set_title(title, loc="left")
         axes.set_xlabel(r"Bimaterial contrast $f\beta$")
         axes.axvline(0.0, color=style.GUIDE, linewidth=0.6, linestyle=":")
@@ -54,45 +62,59 @@ def draw(table: xr.Dataset) -> Figure:
             )
     panels[0].set_ylim(bottom=0.0)
     panels[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
-    handles = panels[0].get_legend_handles_labels()[0]
-    # curves, then points; each column of the legend has both of one zeta/a
-    half = len(handles) // 2
-    pairs = []
-    for curve, points in zip(handles[:half], handles[half:], strict=True):
-        pairs += [curve, points]
-    figure.legend(handles=pairs, loc="outside lower center", ncols=max(half, 1))
+    entries = style.entries(*panels)
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside lower center",
+        ncols=max(simulated.size, 1),
+        handlelength=figure_2.HANDLE,
+    )
     return figure
 
 
-def _draw_lengths(axes: Axes, rows: xr.Dataset, name: str) -> None:
-    ratios = np.unique(np.round(rows["zeta_over_a"].values, 3))[::-1]
+def _draw_lengths(
+    axes: Axes,
+    rows: xr.Dataset,
+    name: str,
+    looks: dict[float, style.Options],
+) -> None:
+    """Curves of Eq. (9) and the simulated lengths of one panel, for each zeta/a."""
     for end in ("_low", "_high"):
         if name + end not in rows:
             rows = rows.assign({name + end: rows[name]})
-    rows = rows.sortby("f_beta")
-    shades = style.shades(ratios.size, 0.75)
-    for ratio, shade, marker in zip(ratios, shades, "osD^v", strict=False):
+    ratios = np.unique(rows["zeta_over_a"].values)[::-1]
+    for ratio, marker in zip(ratios, _MARKERS, strict=False):
+        look = looks[float(ratio)]
+        weakening = rf"$\zeta/a={ratio:.3g}$"
         curve = bimaterial_length_ratio(np.abs(_CONTRAST), ratio)
-        label = rf"Eq. (9), $\zeta/a={ratio:.3g}$"
-        axes.plot(_CONTRAST, curve, color=shade, linewidth=1.1, label=label)
-        own = laws.where(
-            rows,
-            np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio,
-        )
+        axes.plot(_CONTRAST, curve, linewidth=1.1, label=f"Eq. (9), {weakening}", **look)
+        own = laws.where(rows, zeta_over_a=ratio)
+        contrast = own["f_beta"].values
         # the theory's length for blocks of this height without contrast
         unit = 1.0 / own["half_space_ratio"].values
+        colour = look["color"]
         laws.draw(
             axes,
-            own["f_beta"].values,
+            contrast,
             own,
             name,
             unit,
-            color=shade,
+            color=colour,
             marker=marker,
             ms=3.8,
-            linewidth=0.7,
-            linestyle="--",
+            linewidth=0.5,
+            linestyle="-",
             capsize=1.8,
-            label=rf"simulated, $\zeta/a={ratio:.3g}$",
+            label=f"simulated, {weakening}",
         )
+        unknown = contrast[np.isnan(own[name].values)]
+        if unknown.size:
+            axes.plot(
+                unknown,
+                np.full(unknown.size, _UNKNOWN),
+                "x",
+                color=colour,
+                label=f"{weakening}, no length found",
+            )
     axes.set_xlim(_CONTRAST[0], _CONTRAST[-1])

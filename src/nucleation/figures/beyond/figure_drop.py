@@ -1,12 +1,16 @@
 """Where the force drops under a declared perturbation: simulations, the law, meshes' own noise."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
+from ...types import Array
 
 # the fault in the panels over the strength; height in m
 _SHOWN: dict[str, str | float] = {
@@ -15,14 +19,17 @@ _SHOWN: dict[str, str | float] = {
 }
 _KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
-    "state": ("s", style.BLUE, "state"),
-    "drive_velocity": ("^", style.GREEN, "drive"),
+    "state": ("s", style.GREEN, "state"),
+    "drive_velocity": ("^", style.PURPLE, "drive"),
     "strength": ("D", style.BLACK, "roughness"),
 }
 _STRENGTHS = (3e-13, 3e-1)
 _RATIOS = (0.45, 0.87)
+_LAW = "law: median, and 16 to 84 % (band)"
+_BAND_ALPHA = 0.35
 _MEAN = "simulated: mean and range of realisations"
 PREDICTED = ("law_low", "law_length", "law_high")
+CURVES = ("curve_strength", "curve_low", "curve_length", "curve_high", "curve_closed_form")
 ENSEMBLE = (
     "fault",
     "kind",
@@ -36,7 +43,7 @@ _GOAL = 0.03  # relative error of the law's mean
 _CLOSE = 30.0  # strengths with a smaller ratio share one label
 _ROOM = 0.6  # part of the panel of distributions for its legend
 # factors that separate kinds of the same strength
-_ASIDE = {"normal_load": 0.75, "state": 1.33}
+_ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
 _SMALL: style.Options = {
     "fontsize": style.SMALL,
     "title_fontsize": style.SMALL,
@@ -50,7 +57,8 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.tables.drops.gather_drops`.
+        From :func:`nucleation.patch.tables.drops.drop_files`. Without its curves the law is drawn
+        through the strengths of the runs.
 
     Returns
     -------
@@ -65,7 +73,10 @@ def draw(table: xr.Dataset) -> Figure:
     _draw_ratios(ratio, found)
     _draw_distributions(spread, found)
     style.letters(load, state, ratio, spread)
-    entries = style.entries(load, state)
+    entries: dict[str, Any] = dict(style.entries(load, state))
+    if _LAW in entries:
+        line = style.key("", "", "-", style.THEORY)
+        entries[_LAW] = (Patch(color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0), line)
     entries[_MEAN] = style.key(_MEAN, "o", "-", **style.OPEN)
     figure.legend(
         entries.values(),
@@ -91,7 +102,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     marker, colour, label = _KINDS[kind]
     theory = float(fault["critical_length"].values[0])
     if own.sizes["run"]:
-        _draw_law(axes, own, theory)
+        _draw_law(axes, _law(table, own, kind), theory)
         ratio = own["length"].values / theory
         strength = own["strength"].values
         axes.plot(
@@ -138,25 +149,32 @@ def _shown_fault(table: xr.Dataset) -> xr.Dataset:
     return laws.where(runs, fault=runs["fault"].values[0])  # of one material
 
 
-def _draw_law(axes: Axes, own: xr.Dataset, theory: float) -> None:
+def _law(table: xr.Dataset, own: xr.Dataset, kind: str) -> tuple[Array, ...]:
+    """Strength, and the law's low, median, high and one line (m): the curves, or those of runs."""
+    if "curve_kind" in table:
+        same_fault = table["curve_fault"].values == own["fault"].values[0]
+        cases = np.flatnonzero(same_fault & (table["curve_kind"].values == kind))
+        if cases.size:
+            strongest = own["strength"].values[np.isfinite(own["law_length"].values)].max()
+            known = np.flatnonzero(table["curve_strength"].values <= 1.01 * strongest)
+            case = table.isel(case=cases[0], curve=known)
+            return tuple(case[name].values for name in CURVES)
+    return tuple(own[name].values for name in ("strength", *PREDICTED, "closed_form_length"))
+
+
+def _draw_law(axes: Axes, law: tuple[Array, ...], theory: float) -> None:
     """The law's median and range, and its closed form."""
-    strength = own["strength"].values
-    low, middle, high = (own[name].values / theory for name in PREDICTED)
+    strength = law[0]
+    low, middle, high, closed_form = (values / theory for values in law[1:])
     axes.fill_between(
         strength,
         low,
         high,
         color=style.GUIDE,
-        alpha=0.35,
+        alpha=_BAND_ALPHA,
         linewidth=0.0,
     )
-    axes.plot(
-        strength,
-        middle,
-        color=style.THEORY,
-        label="law: median, 16 to 84 %",
-    )
-    closed_form = own["closed_form_length"].values / theory
+    axes.plot(strength, middle, color=style.THEORY, label=_LAW)
     axes.plot(
         strength,
         closed_form,
@@ -194,7 +212,7 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
         axes.annotate(
             names,
             place,
-            (4, 3),
+            (-4, -12),
             textcoords="offset points",
             fontsize=style.SMALL,
         )
@@ -241,7 +259,7 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         if runs.sizes["run"] < FEWEST:
             continue
         first = runs.isel(run=0)
-        _, colour, label = _KINDS[str(first["kind"].values)]
+        marker, colour, label = _KINDS[str(first["kind"].values)]
         strength = float(first["strength"])
         theory = float(first["critical_length"])
         lengths = np.sort(runs["length"].values) / theory
@@ -259,7 +277,7 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         axes.plot(
             law,
             [0.16, 0.5, 0.84],
-            "o",
+            marker,
             color=colour,
             ms=3.5,
             **style.OPEN,

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 from matplotlib.ticker import (
     LogLocator,
     NullFormatter,
@@ -14,16 +15,22 @@ from matplotlib.ticker import (
 
 from ...figures import style
 from ...patch.tables.map import mean_over_seeds
+from ...types import Array
+from .parameter_axes import edges
 
 _RATIOS = (0.45, 1.0)  # range of the colours
-_CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
+_CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2)
+_WEIGHTS = (0.25, 0.5, 0.25)  # of neighbours, for contours: realisations scatter by 2 %
+_SHORTEST = 4  # points of a contour; shorter ones are scatter
 _NOTHING = "#D9D9D9"
 _SLICES = (
     ("o", style.VERMILLION),
     ("s", style.BLUE),
-    ("^", style.GREEN),
+    ("^", style.BLACK),
 )
 """Marks of the weakenings in the panel over height."""
+_LEGEND_ROOM = 0.15  # of the range of lengths, above them
+_LABEL_ROOM = 0.25  # of the range of heights, beside them
 
 
 @style.styled
@@ -69,31 +76,60 @@ def _draw_ratio(axes: Axes, ratio: xr.DataArray) -> QuadMesh:
     height = ratio["height"].values
     weakening = ratio["zeta_over_a"].values
     axes.set_facecolor(_NOTHING)
+    axes.set(xscale="log", yscale="log")
     image = axes.pcolormesh(
-        height,
-        weakening,
+        edges(height, logarithmic=True),
+        edges(weakening, logarithmic=True),
         values,
         cmap=style.SEQUENCE,
         norm=Normalize(*_RATIOS),
-        shading="nearest",
         rasterized=True,
     )
     if min(values.shape) > 1 and np.isfinite(values).any():
-        lines = axes.contour(
-            height,
-            weakening,
-            values,
-            levels=_CONTOURS,
-            colors="white",
-            linewidths=0.7,
-        )
-        axes.clabel(lines, fmt="%g", fontsize=style.SMALL)
-    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)")
+        _draw_contours(axes, height, weakening, values)
+    axes.set_xlabel("Block height $H$ (m)")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)))
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_ylabel(r"Weakening $\zeta/a$")
     return image
+
+
+def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -> None:
+    """Contours of the ratio, smoothed over neighbours, without short pieces."""
+    lines = axes.contour(
+        height,
+        weakening,
+        _smoothed(_smoothed(values).T).T,
+        levels=_CONTOURS,
+        colors="white",
+        linewidths=0.7,
+    )
+    lines.set_paths([_long(path) for path in lines.get_paths()])
+    axes.clabel(lines, fmt="%g", fontsize=style.SMALL)
+
+
+def _smoothed(values: Array) -> Array:
+    """Weighted means of neighbours in a column, of those that are known; NaN stays NaN."""
+    known = np.isfinite(values)
+    padded = np.pad(np.where(known, values, 0.0), ((1, 1), (0, 0)))
+    shares = np.pad(known.astype(float), ((1, 1), (0, 0)))
+    rows = values.shape[0]
+    total = sum(w * padded[i : i + rows] for i, w in enumerate(_WEIGHTS))
+    share = sum(w * shares[i : i + rows] for i, w in enumerate(_WEIGHTS))
+    return np.where(known, total / np.where(known, share, 1.0), np.nan)
+
+
+def _pieces(path: Path) -> list[Path]:
+    """The connected lines of a path."""
+    starts = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)
+    return [Path(vertices) for vertices in np.split(np.asarray(path.vertices), starts[1:])]
+
+
+def _long(path: Path) -> Path:
+    """A contour without its pieces of few points."""
+    pieces = [piece for piece in _pieces(path) if np.shape(piece.vertices)[0] >= _SHORTEST]
+    return Path.make_compound_path(*pieces)
 
 
 def _draw_slices(
@@ -109,38 +145,37 @@ def _draw_slices(
     shown = np.unique(places.round().astype(int))
     for i, (marker, colour) in zip(shown, _SLICES, strict=False):
         theory = grid["critical_length"].values[:, i]
-        axes.plot(
-            height,
-            theory,
+        lengths = [ratio.isel(zeta_over_a=i).values * theory for ratio in (drop, stability)]
+        axes.plot(height, theory, color=colour)
+        axes.plot(height, lengths[0], marker, color=colour, markersize=3.5)
+        axes.plot(height, lengths[1], "--", color=colour, linewidth=0.9)
+        axes.annotate(
+            rf"$\zeta/a = {weakenings[i]:.2g}$",
+            (height[-1], theory[-1]),
+            (5.0, 0.0),
+            textcoords="offset points",
+            va="center",
             color=colour,
-            label=rf"$\zeta/a = {weakenings[i]:.2g}$",
+            fontsize=style.SMALL,
         )
-        for ratio, face in ((drop, colour), (stability, "white")):
-            length = ratio.isel(zeta_over_a=i).values * theory
-            axes.plot(
-                height,
-                length,
-                marker,
-                color=colour,
-                markerfacecolor=face,
-                markersize=3.5,
-            )
-    handles = [
-        *style.entries(axes).values(),
-        style.key("theory $L_c$", "", "-"),
-        style.key("drop", "o", markersize=3.5),
-        style.key("patch unstable", "o", markersize=3.5, **style.OPEN),
-    ]
     axes.set(
         xscale="log",
         yscale="log",
         xlabel="Block height $H$ (m)",
         ylabel="Length (m)",
     )
-    axes.set_ylim(bottom=axes.get_ylim()[0] / 2.0)  # for the legend
+    low, high = axes.get_ylim()
+    axes.set_ylim(top=high * (high / low) ** _LEGEND_ROOM)
+    first, last = axes.get_xlim()
+    axes.set_xlim(right=last * (last / first) ** _LABEL_ROOM)
     axes.legend(
-        handles=handles,
+        handles=[
+            style.key("theory $L_c$", "", "-"),
+            style.key("drop $L$", "o", markersize=3.5),
+            style.key("$L_s$", "", "--", linewidth=0.9),
+        ],
         fontsize=style.SMALL,
-        loc="lower right",
-        ncols=2,
+        loc="upper left",
+        ncols=3,
+        columnspacing=1.2,
     )

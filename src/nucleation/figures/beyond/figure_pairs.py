@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from ...answers.formulas import FINITE_PATCH
 from ...figures import laws, style
 from ...patch.tables.pairs import over_realisations
+from .figure_studies import Curves
 
 _SIDES = (
     ("free", "o", style.VERMILLION),
@@ -23,15 +24,20 @@ _HALF_SPACES = (
 )
 """Part of the half-spaces' length, line and name."""
 
+_THEORY = "theory $L_c$, free far sides"
+
 
 @style.styled
-def draw(table: xr.Dataset) -> Figure:
+def draw(table: xr.Dataset, theory: Curves | None = None) -> Figure:
     """Draw (a) the lengths of identical blocks and (b) the lengths of all pairs over the theory's.
 
     Parameters
     ----------
     table : Dataset
         From :func:`nucleation.patch.tables.pairs.gather_pairs`.
+    theory : mapping, optional
+        The theory's length (``length``, m) of identical blocks over closely spaced heights (``x``,
+        m), by a label. Without it, the theory's lengths of the runs are connected.
 
     Returns
     -------
@@ -41,21 +47,19 @@ def draw(table: xr.Dataset) -> Figure:
     figure, (left, right) = style.panels(1, 2, 7.4)
     table = over_realisations(table)
     table = laws.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check
-    _draw_heights(left, laws.where(table, role="pairs_identical").sortby("height"))
+    identical = laws.where(table, role="pairs_identical").sortby("height")
+    _draw_heights(left, identical, theory or {})
     weakening = table["zeta_over_a"].values / np.median(table["zeta_over_a"])
     _draw_ratios(right, laws.where(table, np.abs(weakening - 1.0) < 0.1))
     return figure
 
 
-def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
+def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     height = rows["height"].values
     theory = rows["critical_length"].values
-    axes.plot(
-        height,
-        theory,
-        color=style.THEORY,
-        label="theory $L_c$, free far sides",
-    )
+    connected = {"": {"x": height, "length": theory}}
+    for curve in (curves or connected).values():
+        axes.plot(curve["x"], curve["length"], color=style.THEORY, label=_THEORY)
     axes.plot(
         height,
         rows["length"].values,
@@ -100,8 +104,8 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
         low = own["length_ratio_low"].values
         high = own["length_ratio_high"].values
         axes.vlines(thickness, low, high, color=colour, linewidth=0.9)
-    style.level(axes, 0.5, ":", 0.8, label="half of it")
-    style.level(axes, 1.0, "--", 0.8, label="theory")
+    style.level(axes, 1.0, "-", 1.2, color=style.THEORY, label="theory $L_c$")
+    style.level(axes, 0.5, "--", 1.2, color=style.THEORY, label="theory $L_c/2$")
     axes.set(
         xscale="log",
         ylim=(0.4, 1.1),

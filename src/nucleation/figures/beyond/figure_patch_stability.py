@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from ...analysis.record import parameters_of
 from ...figures import laws, style
 from ...types import Array
 
@@ -19,16 +20,18 @@ _DARKEST = 0.9  # used part of the sequence of colours: its end is too light for
 _PANELS = (
     (
         "growth",
-        (-6.0, 4.5),
+        (-0.3, 0.225),
         r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)",
     ),
     (
         "frequency",
-        (4.0, 20.0),
+        (0.2, 1.0),
         r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)",
     ),
 )
-"""Property of the oscillating mode, range (1/s), name."""
+"""Property of the oscillating mode, range over V/D, name."""
+
+_LATE = 4.0  # periods of the mode before the drop in which the patch slips in bursts
 
 _Colour = tuple[float, ...]
 
@@ -43,8 +46,8 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
         On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s),
         ``critical_length`` and ``stability_length`` (m).
     patches : sequence of Dataset
-        In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
-        ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
+        In the same order, from :func:`nucleation.patch.growth.follow_patch`. Crosses are instants
+        in the last periods before the drop, which are not near steady creep.
 
     Returns
     -------
@@ -61,15 +64,18 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
         colour = colours[float(row["height"])]
         _draw_properties((growth, frequency), patch, row, colour)
         _draw_mode(shape, patch, row, colour)
+    memory_time = max(parameters_of(patch).memory_time for patch in patches)
     for axes, (_, limits, label) in zip((growth, frequency), _PANELS, strict=True):
-        axes.set(xlim=(0.3, 0.8), ylim=limits, ylabel=label)
+        low, high = limits
+        axes.set(xlim=(0.3, 0.8), ylim=(low / memory_time, high / memory_time), ylabel=label)
         axes.set_xlabel("Patch length over theory $L/L_c$")
     style.level(growth, 0.0)
     growth.axvline(0.5, color=style.THEORY, linewidth=1.0, linestyle="--")
     growth.text(
         0.49,
-        3.4,
+        0.9,
         "$L_c/2$",
+        transform=growth.get_xaxis_transform(),
         color=style.THEORY,
         fontsize=style.SMALL,
         ha="right",
@@ -84,6 +90,12 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
             color=colours[float(height)],
             label=f"$H={height:g}$ m",
         )
+    late = rf"last {_LATE:g} periods"
+    growth.legend(
+        handles=[style.key(late, "x", markersize=3.0)],
+        loc="lower right",
+        handletextpad=0.2,
+    )
     frequency.legend(loc="lower left", labelspacing=0.3)
     _finish_mode(shape)
     style.letters(growth, frequency, shape, minor=True)
@@ -116,9 +128,13 @@ def _draw_properties(
 ) -> None:
     """Growth and frequency of the mode at every frozen instant."""
     ratio = patch["patch_length"].values / float(row["critical_length"])
+    time = patch["instant_time"].values
+    late = time > time.max() - _LATE * 2.0 * np.pi / float(patch["stability_frequency"])
     for axes, (name, _, _) in zip(panels, _PANELS, strict=True):
         values = patch[f"oscillation_{name}"].values
-        axes.plot(ratio, values, ".", ms=1.8, rasterized=True, color=colour)
+        look: style.Options = {"rasterized": True, "color": colour, "linestyle": "none"}
+        axes.plot(ratio[~late], values[~late], marker=".", ms=1.8, **look)
+        axes.plot(ratio[late], values[late], marker="x", ms=2.4, mew=0.6, **look)
 
 
 def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colour: _Colour) -> None:

@@ -10,23 +10,26 @@ from ...figures import laws, style
 
 _LINES = {
     "stability_length": (
+        "curve_stability",
         r"$L_s$: the patch turns unstable",
         style.BLUE,
         "-",
     ),
     "runaway_length": (
-        r"$L_{run}$: slow slip has no end but an event",
+        "curve_runaway",
+        r"$L_{\mathrm{run}}$: slow slip has no end but an event",
         style.VERMILLION,
-        "-",
+        "-.",
     ),
-    "law_length": ("law of the drop, median", style.GUIDE, "--"),
+    "law_length": ("curve_law", "law of the drop, median", style.GUIDE, "--"),
 }
-"""Label, colour and dashes of each length by theory."""
+"""Name of the curve, label, colour and dashes of each length by theory."""
 
 _SIMULATED = "simulated drop: mean and range of realisations"
 _BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
 _FEWEST = 3  # zeta/a of a base and height for a panel
 _TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)  # of zeta/a
+_RATIOS = (0.5, 1.0, 2.0)  # ticks of lengths over L_c
 
 
 @style.styled
@@ -36,7 +39,8 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.tables.weakening.gather_weakening`.
+        From :func:`nucleation.patch.tables.weakening.weakening_files`. Without its curves, lines
+        connect the theory's lengths of the runs.
 
     Returns
     -------
@@ -50,10 +54,14 @@ def draw(table: xr.Dataset) -> Figure:
     figure, panels = style.panels(1, len(systems), 7.5)
     panels = np.ravel(panels)
     for axes, letter, system in zip(panels, "abcdefgh", systems, strict=False):
-        _draw_system(axes, system)
-        base = _BASES[str(system["below"].values[0])]
-        height = float(system["height"][0])
-        axes.set_title(f"({letter}) {base}, $H$ = {height:g} m", loc="left")
+        curves = _curves(table, system)
+        _draw_system(axes, system, curves)
+        bodies = _BASES[str(system["below"].values[0])]
+        height = f"$H$ = {float(system['height'][0]):g} m"
+        text = f"{bodies}, {height}"
+        if curves is not None and curves["curve_half_spaces"]:
+            text = f"half-spaces (runs: {height})"
+        axes.set_title(f"({letter}) {text}", loc="left")
     panels[0].set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(panels[0])
     entries[_SIMULATED] = style.key(_SIMULATED, "o", colour=style.BLACK)
@@ -61,13 +69,27 @@ def draw(table: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_system(axes: Axes, system: xr.Dataset) -> None:
+def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset | None:
+    """The theory's curves of a base and height, None if the table has none."""
+    if "curve_study" not in table:
+        return None
+    same = np.ones(table.sizes["system"], dtype=bool)
+    for name in ("study", "below", "height"):
+        same &= table[f"curve_{name}"].values == system[name].values[0]
+    return table.isel(system=np.flatnonzero(same)[0]) if same.any() else None
+
+
+def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset | None) -> None:
     """The lengths of one base and height."""
     faults = list(laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"))
     weakening = np.array([float(fault["zeta_over_a"][0]) for fault in faults])
-    for name, (label, colour, dashes) in _LINES.items():
-        ratios = [float(fault[name][0] / fault["critical_length"][0]) for fault in faults]
-        axes.plot(weakening, ratios, dashes, color=colour, label=label)
+    for name, (curve, label, colour, dashes) in _LINES.items():
+        if curves is None:
+            ratios = [float(fault[name][0] / fault["critical_length"][0]) for fault in faults]
+            x, y = weakening, np.array(ratios)
+        else:
+            x, y = curves["curve_ratio"].values, curves[curve].values
+        axes.plot(x, y, linestyle=dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
         simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
@@ -83,7 +105,10 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
                 markersize=4.0,
             )
     style.level(axes, 0.5, label="half of $L_c$")
-    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.25, 7.0), ylim=(0.4, 1.6))
+    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
+    axes.set(yscale="log", ylim=(0.4, 2.8))
     axes.set_xticks(_TICKS)
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_yticks(_RATIOS)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_minor_formatter(NullFormatter())

@@ -91,9 +91,25 @@ def set_scale(axes: Axes, which: str, values: Array) -> None:
         axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def edges(values: Array) -> Array:
-    """Edges of cells around values, between neighbours on the axis."""
-    logarithmic = is_logarithmic(values)
+def edges(values: Array, logarithmic: bool | None = None) -> Array:
+    """Edges of cells around values, between neighbours on the axis.
+
+    Parameters
+    ----------
+    values : array
+        Rising values, (n,).
+    logarithmic : bool, optional
+        Whether the axis is logarithmic; by default as :func:`is_logarithmic`.
+
+    Returns
+    -------
+    array
+        The edges, (n + 1,); one value has edges 10 % away from it.
+    """
+    if values.size == 1:
+        return np.array([0.9, 1.1]) * values
+    if logarithmic is None:
+        logarithmic = is_logarithmic(values)
     places = np.log(values) if logarithmic else values
     middle = 0.5 * (places[1:] + places[:-1])
     borders = np.r_[

@@ -152,7 +152,7 @@ def _draw_differences(
         xlim=(-0.6, len(found) - 0.4),
         ylabel=label,
     )
-    axes.set_yticks([LEAST, 0.1, 10.0], [r"$\leq 10^{-3}$", "$0.1$", "$10$"])
+    axes.set_yticks([LEAST, 0.1, 10.0], [f"\u2264 {LEAST:g}", "0.1", "10"])
     names = [_name(key, usual_age) for key in found]
     axes.set_xticks(
         range(len(found)),

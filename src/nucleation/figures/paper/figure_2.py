@@ -2,10 +2,12 @@
 
 from itertools import cycle
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...types import Array
 
 DASHES = (
     "-",
@@ -14,6 +16,18 @@ DASHES = (
     (0, (1.2, 1.2)),
     (0, (9, 1.5, 1, 1.5, 1, 1.5)),
 )
+HANDLE = 4.0  # length of the legend's lines over the font size: each pattern is shown entirely
+
+
+def looks(weakenings: Array) -> dict[float, style.Options]:
+    """Colour and dashes by zeta/a, from the highest to the lowest."""
+    values = np.sort(np.unique(weakenings))[::-1].tolist()
+    found = {}
+    for value, shade, dashes in zip(
+        values, style.shades(len(values), 0.82), cycle(DASHES), strict=False
+    ):
+        found[value] = {"color": shade, "linestyle": dashes}
+    return found
 
 
 @style.styled
@@ -31,19 +45,11 @@ def draw(theory: xr.Dataset) -> Figure:
         One panel.
     """
     figure, axes = style.column(6.6)
-    ratio = theory["bimaterial_length_ratio"].sortby("zeta_over_a", ascending=False)
-    values = ratio["zeta_over_a"].values
-    shades = style.shades(values.size, 0.82)
+    ratio = theory["bimaterial_length_ratio"]
     f_beta = ratio["f_beta"]
-    for shade, dashes, value in zip(shades, cycle(DASHES), values, strict=False):
+    for value, look in looks(ratio["zeta_over_a"].values).items():
         curve = ratio.sel(zeta_over_a=value).transpose("f_beta").values
-        axes.plot(
-            f_beta,
-            curve,
-            color=shade,
-            linestyle=dashes,
-            label=f"${value:.3g}$",
-        )
+        axes.plot(f_beta, curve, label=f"${value:.3g}$", **look)
     axes.set_xlabel(r"Bimaterial contrast $f\beta$")
     axes.set_ylabel(r"Critical length $L_c/L_c^{\mathcal{M}}$")
     axes.set_xlim(float(f_beta.min()), float(f_beta.max()))
@@ -55,5 +61,6 @@ def draw(theory: xr.Dataset) -> Figure:
         loc="lower left",
         title_fontsize=9.0,
         labelspacing=0.3,
+        handlelength=HANDLE,
     )
     return figure

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from ...analysis.lengths import row
 from ...analysis.record import parameters_of
 from ...figures import style
+from ...figures.units import prefixed, time_unit
 from ...types import Array
 
 _PIXELS = 1200  # pixel columns of the widest image: more are invisible
 EVENT_LEVEL = 0.01  # the event's panel shows slip rates above this part of the highest
-_KILO = 1e3
+_GAP = 2.0  # D/V without fast slip, after which another event begins
 
 
 class Window(NamedTuple):
@@ -27,6 +28,7 @@ class Window(NamedTuple):
     end: float  # s
     origin: float  # s
     scale: float  # units of the axis in a second
+    unit: str  # of the axis
 
     def shown(self, time: Array) -> Array:
         """Times (s) on the axis."""
@@ -37,7 +39,7 @@ class Window(NamedTuple):
 def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     """Draw ``tau / sigma_0`` over time and x, and the applied force below it.
 
-    The left column shows the whole record, the right column the event in milliseconds. Positions
+    The left column shows the whole record, the right column the event. Positions
     that the slip did not reach are left out, except a margin.
 
     Parameters
@@ -65,8 +67,8 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     )
     time = simulation["time"].values
     start, peak, end = event_window(simulation, float(row["onset_time"]))
-    record = Window(time[0], time[-1], 0.0, 1.0)  # seconds
-    event = Window(start, end, peak, _KILO)  # milliseconds
+    record = Window(time[0], time[-1], 0.0, *time_unit(time[-1]))
+    event = Window(start, end, peak, *time_unit(max(end - peak, peak - start)))
     for (image, force), window in zip(panels.T, (record, event), strict=True):
         mesh = _draw_image(image, ratio, window, norm)
         least = 0.0 if window.origin == 0.0 else np.inf
@@ -79,7 +81,7 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
         pad=0.01,
         extend="both",
     )
-    _label(panels, row)
+    _label(panels, row, (record, event), force_unit(simulation)[1])
     return figure
 
 
@@ -116,7 +118,8 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     Parameters
     ----------
     simulation : Dataset
-        With ``step_time(step)`` (s) and ``maximal_slip_rate(step)`` (m/s).
+        With ``step_time(step)`` (s), ``maximal_slip_rate(step)`` (m/s) and the attribute
+        ``parameters``.
     onset : float
         Onset time (s); if it is NaN, the whole record is searched.
 
@@ -130,13 +133,14 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     after = ~(time < onset)
     fast = np.flatnonzero(after & (rate >= EVENT_LEVEL * np.max(rate[after])))
     # only the first run of fast steps: a later event, or a reflection, begins after a gap
-    gap = np.flatnonzero(np.diff(time[fast]) > 0.1)
+    memory_time = parameters_of(simulation).memory_time
+    gap = np.flatnonzero(np.diff(time[fast]) > _GAP * memory_time)
     if gap.size:
         fast = fast[: gap[0] + 1]
     start = float(time[fast[0]])
     end = float(time[fast[-1]])
     peak = float(time[fast[np.argmax(rate[fast])]])
-    margin = max(0.5 * (end - start), 1e-6)
+    margin = max(0.5 * (end - start), 2e-5 * memory_time)
     return start - margin, peak, end + margin
 
 
@@ -166,13 +170,18 @@ def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
 
 
+def force_unit(record: xr.Dataset) -> tuple[float, str]:
+    """Factor and name of the unit of a record's driving force, from N/m."""
+    return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
+
+
 def draw_force(
     axes: Axes,
     record: xr.Dataset,
     window: Window,
     least: float = np.inf,
 ) -> None:
-    """Draw the driving force (kN/m), positive in compression, with limits for a window.
+    """Draw the driving force, positive in compression, with limits for a window.
 
     Parameters
     ----------
@@ -183,10 +192,11 @@ def draw_force(
     window : Window
         Limits of the time axis.
     least : float
-        A force (kN/m) that is within the limits, too.
+        A force that is within the limits, too.
     """
     time = record["step_time"].values
-    force = -record["driving_force"].values / _KILO
+    scale, _ = force_unit(record)
+    force = -scale * record["driving_force"].values
     axes.plot(window.shown(time), force, color=style.DRIVE, linewidth=1.2)
     seen = force[(time >= window.start) & (time <= window.end)]
     low = min(least, seen.min())
@@ -218,12 +228,18 @@ def _mark(image: Axes, force: Axes, row: xr.Dataset, window: Window) -> None:
     force.axvline(onset, color=style.GUIDE, linestyle=":", linewidth=0.9)
 
 
-def _label(panels: NDArray[np.object_], row: xr.Dataset) -> None:
+def _label(
+    panels: NDArray[np.object_],
+    row: xr.Dataset,
+    windows: tuple[Window, Window],
+    force_name: str,
+) -> None:
     """Axis labels, panel letters, and the names of the marks on the left."""
     (image, zoom), (force, last) = panels
     image.set_ylabel("Position $x$ (m)")
-    force.set(xlabel="Time $t$ (s)", ylabel="Applied force $-f_d$ (kN/m)")
-    last.set_xlabel("Time from the highest slip rate (ms)")
+    record, event = windows
+    force.set(xlabel=f"Time $t$ ({record.unit})", ylabel=f"Applied force $-f_d$ ({force_name})")
+    last.set_xlabel(f"Time from the highest slip rate ({event.unit})")
     zoom.tick_params(labelleft=False)
     last.yaxis.set_ticks_position("both")
     last.tick_params(labelleft=False, labelright=True)
@@ -239,7 +255,7 @@ def _label(panels: NDArray[np.object_], row: xr.Dataset) -> None:
         across = image.get_yaxis_transform()
         image.annotate("$L_c$", place, (5.0, 1.0), across, color="white", **beside)
     if np.isfinite(row["onset_time"]):
-        place = (float(row["onset_time"]), 0.0)
+        place = (float(record.shown(row["onset_time"].values)), 0.0)
         up = force.get_xaxis_transform()
         look: style.Options = {
             "color": style.GUIDE,

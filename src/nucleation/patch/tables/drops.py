@@ -16,7 +16,7 @@ import xarray as xr
 
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.rows import Row, rows_of
-from ...datasets.variables import Variable, some, table
+from ...datasets.variables import Variable, annotate, some, table, to_csv
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ...model.perturbation import Perturbation
@@ -58,6 +58,19 @@ PREDICTED = {
 }
 
 COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
+
+CURVES = {
+    "curve_fault": Variable("", "fault of a curve, as in the column fault"),
+    "curve_kind": Variable("", "kind of perturbation of a curve"),
+    "curve_strength": Variable("1", "relative strength", "eps"),
+    "curve_length": Variable("m", "length at the drop by the law, median", "L"),
+    "curve_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
+    "curve_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "curve_closed_form": Variable("m", "length at the drop by the law in one line", "L"),
+}
+"""The law over the strength, for each fault under each of :data:`QUIET_KINDS`."""
+
+CURVE_STRENGTHS = np.geomspace(1e-12, 1e-1, 89)
 
 NOISE_FLOORS = some(
     COLUMNS,
@@ -160,6 +173,56 @@ def gather_drops(
     Dataset
         :data:`COLUMNS` on ``run``.
     """
+    return _beside(_laws(runs), [*drops, *quiet])
+
+
+def drop_files(
+    drops: Iterable[xr.Dataset],
+    runs: Iterable[dict[str, Any]],
+    quiet: Iterable[xr.Dataset] = (),
+) -> dict[str, Any]:
+    """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`.
+
+    Parameters
+    ----------
+    drops, runs, quiet : iterable
+        As for :func:`gather_drops`.
+
+    Returns
+    -------
+    dict
+        By the ending of the file's name.
+    """
+    laws = _laws(runs)
+    rows = _beside(laws, [*drops, *quiet])
+    return {".nc": rows.merge(law_curves(laws)), ".csv": to_csv(rows)}
+
+
+def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
+    """:data:`CURVES` on ``case`` and ``curve``, from the law by fault."""
+    cases = [(name, kind) for name in laws for kind in QUIET_KINDS]
+    values = np.full((4, len(cases), CURVE_STRENGTHS.size), np.nan)
+    for i, (name, kind) in enumerate(cases):
+        law = laws[name].growth(kind)
+        for j, strength in enumerate(CURVE_STRENGTHS):
+            drop = law.drop(strength)
+            closed = law.closed_form(laws[name].history, strength)
+            values[:, i, j] = drop.length, drop.low, drop.high, closed.length
+    names = ("curve_length", "curve_low", "curve_high", "curve_closed_form")
+    on_curve = {name: (("case", "curve"), own) for name, own in zip(names, values, strict=True)}
+    found = xr.Dataset(
+        {
+            "curve_fault": ("case", [name for name, _ in cases]),
+            "curve_kind": ("case", [kind for _, kind in cases]),
+            "curve_strength": ("curve", CURVE_STRENGTHS),
+            **on_curve,
+        }
+    )
+    return annotate(found, CURVES)
+
+
+def _laws(runs: Iterable[dict[str, Any]]) -> dict[str, _Law]:
+    """The law by fault, without faults that have no patches the theory can follow."""
     laws = {}
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
@@ -167,8 +230,13 @@ def gather_drops(
             critical = run["critical_length"]
             history = mode_history(parameters, critical)
             laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))
+    return laws
+
+
+def _beside(laws: dict[str, _Law], tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """:data:`COLUMNS` of all runs of the faults that have a law."""
     rows = []
-    for measured in (*drops, *quiet):
+    for measured in tables:
         for row in rows_of(measured, names=(*MEASURED, "fault")):
             if row["fault"] in laws:
                 rows.append(row | laws[row["fault"]].row(row))

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.interpolate import PchipInterpolator
 
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.lengths import description
@@ -54,6 +55,7 @@ DRAWN = {
 """The thin limit's curve, and the creep of some faults at their L_s."""
 
 CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
+PLACES = 121  # along a patch, in its angle
 PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 
 _PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
@@ -180,9 +182,11 @@ def _profiles(
         made = advance(patches, [row["front_length"]], parameters.loading.initial_state)
         (creep,) = made.creeps
         contrasts.append(row["f_beta"])
-        places.append(np.cos(creep.response.modes.theta))
-        rates.append(creep.slip_rate)
-        stresses.append(creep.normal_stress)
+        theta = creep.response.modes.theta
+        angles = np.linspace(theta[0], theta[-1], PLACES)
+        places.append(np.cos(angles))
+        rates.append(PchipInterpolator(theta, creep.slip_rate)(angles))
+        stresses.append(PchipInterpolator(theta, creep.normal_stress)(angles))
     at = "case", "place"
     return {
         "shown_beta": ("case", contrasts),

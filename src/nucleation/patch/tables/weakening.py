@@ -4,16 +4,22 @@ The runs cover faults from weak to strong weakening: where zeta/a is small the p
 in a limit cycle up to L_run, and where it is large the law of the drop holds.
 """
 
+import dataclasses
+import math
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.rows import RATIO_COLUMNS, Row, rows_of
-from ...datasets.variables import Variable, some, table
+from ...datasets.variables import Variable, annotate, some, table, to_csv
+from ...model.friction.constants import with_constants
 from ...model.identity import fault
+from ...model.linearised import interface_state
 from ...model.parameters import Parameters
+from ...theory.critical import run_length
 from ..expected_drop import NoDrop, expected_drop
 
 MEASURED = some(
@@ -51,6 +57,24 @@ COLUMNS = {
     **EXPECTED,
     "fault": LENGTHS["fault"],
 }
+
+
+CURVES = {
+    "curve_study": LENGTHS["study"],
+    "curve_below": LENGTHS["below"],
+    "curve_height": LENGTHS["height"],
+    "curve_half_spaces": Variable("1", "whether the curves are those of half-spaces"),
+    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
+    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
+    "curve_runaway": Variable("1", "L_run over L_c, NaN where zeta/a > 2", "L_run/L_c"),
+    "curve_law": Variable("1", "length at the drop by the law over L_c, median", "L/L_c"),
+}
+"""The theory over zeta/a for each pair of study, base and height."""
+
+CURVE = np.geomspace(0.2, 6.0, 22)  # zeta/a of the curves
+AS_HALF_SPACES = 100.0  # factor of a height that makes a block a half-space
+
+_OVER_CRITICAL = ("stability_length", "runaway_length", "law_length")
 
 
 def expected(parameters: Parameters) -> Row:
@@ -102,3 +126,98 @@ def gather_weakening(
         for row in rows_of(complete, names=names):
             rows.append(row | by_fault[row["fault"]])
     return table(rows, COLUMNS)
+
+
+def weakening_files(
+    drops: Iterable[xr.Dataset],
+    runs: Iterable[dict[str, Any]],
+) -> dict[str, Any]:
+    """The table of :func:`gather_weakening` as CSV, and with :data:`CURVES`.
+
+    Parameters
+    ----------
+    drops, runs : iterable
+        As for :func:`gather_weakening`.
+
+    Returns
+    -------
+    dict
+        By the ending of the file's name.
+    """
+    runs = list(runs)
+    rows = gather_weakening(drops, runs)
+    return {".nc": rows.merge(weakening_curves(runs)), ".csv": to_csv(rows)}
+
+
+def weakening_curves(
+    runs: Iterable[dict[str, Any]],
+    ratios: Iterable[float] = CURVE,
+) -> xr.Dataset:
+    """Lengths by theory over zeta/a, of each study, base and height.
+
+    Blocks on a deformable base that are higher than L_c in all their runs are as good as
+    half-spaces; they have the curves of half-spaces.
+
+    Parameters
+    ----------
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.runs.Run.to_dict`.
+    ratios : iterable of float
+        Rising zeta/a of the curves.
+
+    Returns
+    -------
+    Dataset
+        :data:`CURVES` on ``system`` and ``curve``.
+    """
+    systems: dict[tuple[str, str, float], list[dict[str, Any]]] = {}
+    for run in runs:
+        parameters = Parameters.from_dict(run["parameters"])
+        below = "rigid" if parameters.below is None else "deformable"
+        key = run["study"], below, parameters.geometry.height
+        systems.setdefault(key, []).append(run)
+    ratios = list(ratios)
+    high = []
+    lengths = np.full((len(_OVER_CRITICAL), len(systems), len(ratios)), math.nan)
+    for i, ((_, below, height), own) in enumerate(systems.items()):
+        longest = max(run["critical_length"] for run in own)
+        high.append(below == "deformable" and height > longest)
+        parameters = Parameters.from_dict(own[0]["parameters"])
+        if high[i]:
+            parameters = _as_half_spaces(parameters)
+        for j, ratio in enumerate(ratios):
+            lengths[:, i, j] = _over_critical(parameters, ratio)
+    studies, bases, heights = zip(*systems, strict=True)
+    names = ("curve_stability", "curve_runaway", "curve_law")
+    found = xr.Dataset(
+        {
+            "curve_study": ("system", list(studies)),
+            "curve_below": ("system", list(bases)),
+            "curve_height": ("system", list(heights)),
+            "curve_half_spaces": ("system", high),
+            "curve_ratio": ("curve", ratios),
+            **{n: (("system", "curve"), own) for n, own in zip(names, lengths, strict=True)},
+        }
+    )
+    return annotate(found, CURVES)
+
+
+def _as_half_spaces(parameters: Parameters) -> Parameters:
+    """The same pair of blocks, much higher."""
+    below = parameters.below
+    assert below is not None
+    heights = {
+        "height": AS_HALF_SPACES * parameters.geometry.height,
+        "second_height": AS_HALF_SPACES * below.geometry.height,
+    }
+    return parameters.replaced(heights)
+
+
+def _over_critical(parameters: Parameters, ratio: float) -> list[float]:
+    """L_s, L_run and the law's length over L_c, of the fault with another zeta/a."""
+    velocity = parameters.loading.velocity
+    law = with_constants(parameters.friction, velocity, {"zeta_over_a": ratio})
+    own = dataclasses.replace(parameters, friction=law)
+    critical = run_length(own, interface_state(own))
+    known = expected(own)
+    return [known[name] / critical for name in _OVER_CRITICAL]
