@@ -62,6 +62,9 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
     assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
+    assert shown["mesh"] == "a mesh of 60 x 6 elements" and "60 x 6" in shown["caution"]
+    fine = summary.of_paper(run(n_x=400, n_y=150))
+    assert (fine["mesh"], fine["caution"]) == ("the paper's mesh", "")
     assert summary.of_paper(run(role="own")) is None
 
 
