@@ -98,7 +98,8 @@ def calculator(app, error):
     if error is None and app.builder.name == "html":
         from nucleation.report.calculator import build
 
-        Path(app.outdir, "calculator.html").write_text(build(), encoding="utf-8")
+        tables = ROOT / "results" / "reference" / "patch_tables.json"
+        Path(app.outdir, "calculator.html").write_text(build(tables), encoding="utf-8")
 
 
 def redirects(app, error):
