@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
+from PIL import Image
 
 from nucleation.figures import catalogue
 from nucleation.report import encode, page, summary, tables, verdicts
@@ -136,6 +137,14 @@ def test_every_figure_has_a_caption_that_is_valid():
 def test_mistakes_in_captions_stop_the_report(template, error):
     with pytest.raises(error):
         encode.caption_html(template, {})
+
+
+@pytest.mark.parametrize(("dots", "width"), [(300.0, 336), (None, 1050)])
+def test_pictures_have_their_physical_width(dots, width):
+    file = io.BytesIO()
+    options = {"dpi": (dots, dots)} if dots else {}
+    Image.new("RGB", (1050, 2)).save(file, "PNG", **options)
+    assert encode.width(file.getvalue()) == width  # 3.5 inches of 96 dots
 
 
 def test_no_text_can_end_the_script_that_holds_the_data():

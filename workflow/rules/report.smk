@@ -86,7 +86,7 @@ rule write_report:
             for name in ENTRIES
         ],
         datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
-        patch_tables=str(BASE / "results/reference/patch_tables.json"),
+        patch_tables=str(Path(BASE, "results", "reference", "patch_tables.json")),
         claims=[f"{RESULTS}/tables/claims.json"] if OF_THE_PAPER else [],
         page_files=sorted(
             str(path)

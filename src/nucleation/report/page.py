@@ -175,11 +175,13 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
     groups: dict[str, list[dict[str, Any]]] = {}
     for picture in content.pictures:
         shown = picture.files[0]
+        content_of_file = shown.read_bytes()
         own = {
             "name": picture.name,
             "title": picture.entry.title,
             "moves": shown.suffix == ".gif",
-            "image": encode.data_address(shown.read_bytes(), shown.name),
+            "image": encode.data_address(content_of_file, shown.name),
+            "width": encode.width(content_of_file),
             "caption": Markup(encode.caption_html(picture.caption, picture.params)),
             "downloads": _downloads(picture, content.results),
         }
