@@ -57,7 +57,7 @@ html_theme = "furo"
 html_title = "nucleation"
 html_static_path = ["_static"]
 html_css_files = ["mathematics.css"]
-html_search_scorer = "_static/search_scores.js"
+html_search_scorer = str(ROOT / "docs" / "search_scores.js")
 html_show_sphinx = False
 
 MOVED = ROOT / "docs" / "moved.txt"
