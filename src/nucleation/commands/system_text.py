@@ -58,12 +58,22 @@ def _system_line(fault: FaultParameters, sought: str) -> str:
     if sought == "shear_modulus":
         first[0] = math.nan
     if math.isinf(number(fault, "second_shear_modulus")):
-        bodies = f"{_body(*first)} on a rigid one"
+        bodies = f"{_body(*first, fault.plane)} on a rigid one"
     elif alike:
-        bodies = f"two identical bodies, each {_body(*first)}"
+        bodies = f"two identical bodies, each {_body(*first, fault.plane)}"
     else:
-        bodies = f"{_body(*first)} on {_body(*second)}"
+        bodies = f"{_body(*first, fault.plane)} on {_body(*second, fault.plane)}"
+    if fault.has_zone:
+        bodies += f"; {_zone(fault)} beside the fault"
     return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
+
+
+def _zone(fault: FaultParameters) -> str:
+    """The zone of other stiffness in words."""
+    names = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
+    thickness, modulus, ratio = (float(number(fault, name)) for name in names)
+    material = _material(modulus, ratio, fault.plane)
+    return f"a zone of {in_unit(thickness, 'm')} {material} in each deformable body"
 
 
 def _body(
@@ -71,14 +81,24 @@ def _body(
     ratio: float,
     height: float,
     far_side: str,
+    plane: str,
 ) -> str:
-    """One body in words; a shear modulus of NaN is the one to find."""
-    value = _SOUGHT if math.isnan(float(modulus)) else in_unit(modulus, "Pa")
-    material = f"(mu = {value}, nu = {float(ratio):.4g})"
+    """One body in words."""
+    material = _material(float(modulus), float(ratio), plane)
     if math.isinf(float(height)):
         return f"a half-space {material}"
     side = _FAR_SIDES.get(far_side, far_side)
     return f"a layer {in_unit(height, 'm')} high with its far side {side} {material}"
+
+
+def _material(
+    modulus: float,
+    ratio: float,
+    plane: str,
+) -> str:
+    """Moduli in words; a shear modulus of NaN is the one to find, and antiplane shear has no nu."""
+    value = _SOUGHT if math.isnan(modulus) else in_unit(modulus, "Pa")
+    return f"(mu = {value})" if plane == ANTIPLANE else f"(mu = {value}, nu = {ratio:.4g})"
 
 
 def _friction_line(fault: FaultParameters, sought: str) -> str:
