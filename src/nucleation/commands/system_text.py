@@ -51,18 +51,13 @@ def plane_in_words(plane: str) -> str:
 
 def _system_line(fault: FaultParameters, sought: str) -> str:
     """Bodies, far sides, loading and plane."""
-    names = ("shear_modulus", "poisson_ratio", "height", "far_side")
-    first = [getattr(fault, name) for name in names]
-    second = [getattr(fault, f"second_{name}") for name in names]
-    alike = first == second
-    if sought == "shear_modulus":
-        first[0] = math.nan
+    first, second = _body(fault, "", sought), _body(fault, "second_", "")
     if math.isinf(number(fault, "second_shear_modulus")):
-        bodies = f"{_body(*first, fault.plane)} on a rigid one"
-    elif alike:
-        bodies = f"two identical bodies, each {_body(*first, fault.plane)}"
+        bodies = f"{first} on a rigid one"
+    elif _body(fault, "", "") == second:
+        bodies = f"two identical bodies, each {first}"
     else:
-        bodies = f"{_body(*first, fault.plane)} on {_body(*second, fault.plane)}"
+        bodies = f"{first} on {second}"
     if fault.has_zone:
         bodies += f"; {_zone(fault)} beside the fault"
     return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
@@ -77,16 +72,19 @@ def _zone(fault: FaultParameters) -> str:
 
 
 def _body(
-    modulus: float,
-    ratio: float,
-    height: float,
-    far_side: str,
-    plane: str,
+    fault: FaultParameters,
+    prefix: str,
+    sought: str,
 ) -> str:
-    """One body in words."""
-    material = _material(float(modulus), float(ratio), plane)
-    if math.isinf(float(height)):
+    """The first body in words, or with the prefix ``second_`` the other one."""
+    names = ("shear_modulus", "poisson_ratio", "height")
+    modulus, ratio, height = (float(number(fault, prefix + name)) for name in names)
+    if sought == "shear_modulus":
+        modulus = math.nan
+    material = _material(modulus, ratio, fault.plane)
+    if math.isinf(height):
         return f"a half-space {material}"
+    far_side = getattr(fault, f"{prefix}far_side")
     side = _FAR_SIDES.get(far_side, far_side)
     return f"a layer {in_unit(height, 'm')} high with its far side {side} {material}"
 
