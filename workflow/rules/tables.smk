@@ -49,7 +49,7 @@ rule gather_other_faults:
     log:
         f"{RESULTS}/logs/other_faults.log",
     params:
-        call="nucleation.patch.tables.weakening:gather_weakening",
+        call="nucleation.patch.tables.other_faults:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("other_faults"))),
     message:

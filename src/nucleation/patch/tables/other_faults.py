@@ -1,0 +1,88 @@
+"""Simulated drops beside the expected ones, one row for each fault."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...analysis.lengths import COLUMNS as LENGTHS
+from ...analysis.rows import RATIO_COLUMNS, Row, rows_of
+from ...datasets.variables import Variable, some, table
+from ...model.identity import fault
+from ...model.parameters import Parameters
+from .weakening import EXPECTED, expected
+
+GIVEN = some(
+    LENGTHS,
+    "friction_law",
+    "evolution",
+    "height",
+    "below",
+    "far_side",
+    "second_shear_modulus",
+    "kind",
+    "strength",
+    "theory_length",
+)
+
+SIMULATED = {
+    "realisations": Variable("1", "number of realisations"),
+    "length": Variable("m", "length at the drop, mean of the realisations", "L"),
+    "length_least": Variable("m", "least length at the drop of a realisation", "L"),
+    "length_largest": Variable("m", "largest length at the drop of a realisation", "L"),
+    "inside": Variable("1", "number of realisations in the expected range"),
+}
+
+COLUMNS = {
+    "zeta_over_a": RATIO_COLUMNS["zeta_over_a"],
+    **GIVEN,
+    **EXPECTED,
+    **SIMULATED,
+    "fault": LENGTHS["fault"],
+}
+
+
+def gather_other_faults(
+    drops: xr.Dataset,
+    runs: Iterable[dict[str, Any]],
+) -> xr.Dataset:
+    """The simulated drops of each fault beside the theory.
+
+    Parameters
+    ----------
+    drops : Dataset
+        The study's table of lengths.
+    runs : iterable of dict
+        One run of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``. Lengths are NaN where a realisation has no drop.
+    """
+    rows = []
+    for run in runs:
+        parameters = Parameters.from_dict(run["parameters"])
+        own = drops.isel(run=np.flatnonzero(drops["fault"].values == fault(parameters)))
+        rows.append(_row(own, expected(parameters)))
+    return table(rows, COLUMNS)
+
+
+def _row(
+    own: xr.Dataset,
+    theory: Row,
+) -> Row:
+    """One fault's row, of the lengths (m) of its realisations and its :data:`EXPECTED`."""
+    (row,) = rows_of(own, [0], (*GIVEN, "fault", "velocity_weakening", "direct_effect"))
+    lengths = own["length"].values
+    is_inside = (lengths >= theory["expected_low"]) & (lengths <= theory["expected_high"])
+    simulated = {
+        "zeta_over_a": row["velocity_weakening"] / row["direct_effect"],
+        "realisations": lengths.size,
+        "length": float(lengths.mean()),
+        "length_least": float(lengths.min()),
+        "length_largest": float(lengths.max()),
+        "inside": int(is_inside.sum()),
+    }
+    return row | theory | simulated
