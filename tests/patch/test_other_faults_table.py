@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from nucleation.model.identity import fault
+from nucleation.model.identity import ensemble
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.expected_drop import expected_drop
@@ -18,10 +18,10 @@ RUNS = [{"parameters": parameters.to_dict()} for parameters in FAULTS]
 
 def drops(lengths):
     """The study's table: a list of lengths (m) for each fault."""
-    digests = [fault(FAULTS[i]) for i, own in enumerate(lengths) for _ in own]
+    digests = [ensemble(FAULTS[i]) for i, own in enumerate(lengths) for _ in own]
     count = len(digests)
     columns = {name: np.zeros(count) for name in GIVEN}
-    columns |= {"length": np.concatenate(lengths), "fault": np.array(digests)}
+    columns |= {"length": np.concatenate(lengths), "ensemble": np.array(digests)}
     columns |= {"velocity_weakening": np.full(count, 0.014), "direct_effect": np.full(count, 0.007)}
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 

@@ -51,7 +51,7 @@ rule gather_other_faults:
     params:
         call="nucleation.patch.tables.other_faults:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
-        runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("other_faults"))),
+        runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
     message:
         "Drops of faults that the expected drop was not fitted to"
     shell:

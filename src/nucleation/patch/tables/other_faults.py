@@ -9,7 +9,7 @@ import xarray as xr
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.rows import RATIO_COLUMNS, Row, rows_of
 from ...datasets.variables import Variable, some, table
-from ...model.identity import fault
+from ...model.identity import ensemble
 from ...model.parameters import Parameters
 from .weakening import EXPECTED, expected
 
@@ -39,7 +39,6 @@ COLUMNS = {
     **GIVEN,
     **EXPECTED,
     **SIMULATED,
-    "fault": LENGTHS["fault"],
 }
 
 
@@ -54,7 +53,7 @@ def gather_other_faults(
     drops : Dataset
         The study's table of lengths.
     runs : iterable of dict
-        One run of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`.
+        The first realisation of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`.
 
     Returns
     -------
@@ -64,7 +63,7 @@ def gather_other_faults(
     rows = []
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
-        own = drops.isel(run=np.flatnonzero(drops["fault"].values == fault(parameters)))
+        own = drops.isel(run=np.flatnonzero(drops["ensemble"].values == ensemble(parameters)))
         rows.append(_row(own, expected(parameters)))
     return table(rows, COLUMNS)
 
@@ -74,7 +73,7 @@ def _row(
     theory: Row,
 ) -> Row:
     """One fault's row, of the lengths (m) of its realisations and its :data:`EXPECTED`."""
-    (row,) = rows_of(own, [0], (*GIVEN, "fault", "velocity_weakening", "direct_effect"))
+    (row,) = rows_of(own, [0], (*GIVEN, "velocity_weakening", "direct_effect"))
     lengths = own["length"].values
     is_inside = (lengths >= theory["expected_low"]) & (lengths <= theory["expected_high"])
     simulated = {
