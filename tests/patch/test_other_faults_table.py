@@ -22,6 +22,7 @@ def drops(lengths):
     count = len(digests)
     columns = {name: np.zeros(count) for name in GIVEN}
     columns |= {"length": np.concatenate(lengths), "ensemble": np.array(digests)}
+    columns["reached_length"] = np.nan_to_num(columns["length"], nan=0.9)
     columns |= {"velocity_weakening": np.full(count, 0.014), "direct_effect": np.full(count, 0.007)}
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
@@ -45,3 +46,4 @@ def test_a_realisation_without_a_drop_is_outside():
     found = gather_other_faults(drops([[0.5 * (low + high), np.nan]]), RUNS[:1])
     assert found["inside"].values.tolist() == [1]
     assert np.isnan(found["length"])
+    assert found["reached_length"].values.tolist() == [0.9]

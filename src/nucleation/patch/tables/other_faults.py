@@ -31,6 +31,7 @@ SIMULATED = {
     "length": Variable("m", "length at the drop, mean of the realisations", "L"),
     "length_least": Variable("m", "least length at the drop of a realisation", "L"),
     "length_largest": Variable("m", "largest length at the drop of a realisation", "L"),
+    "reached_length": Variable("m", "largest patch length of a realisation, at its end", "L(t)"),
     "inside": Variable("1", "number of realisations in the expected range"),
 }
 
@@ -82,6 +83,7 @@ def _row(
         "length": float(lengths.mean()),
         "length_least": float(lengths.min()),
         "length_largest": float(lengths.max()),
+        "reached_length": float(own["reached_length"].max()),
         "inside": int(is_inside.sum()),
     }
     return row | theory | simulated
