@@ -22,7 +22,7 @@ BODIES = ["rigid"] * 8 + ["same"] * 6 + ["other"] * 6
 SCATTERED = 5.0
 """zeta/a from which on a fault has six realisations, not two: runs are short, and drops scatter."""
 BURSTS = 0.253
-"""zeta/a of the fault in which no burst lowered the force: its runs were made shorter afterwards."""
+"""zeta/a of the fault in which no burst lowered the force: its runs end earlier than drawn."""
 
 
 def log_uniform(random, low, high):
@@ -89,7 +89,7 @@ def _entry(random, ratio, height, law, body):
     if evolution == "slip":
         zone /= 2.0
     elements = (12.0 if ratio > 2.0 else 6.0) * length / zone
-    latest = 3e4 if BURSTS != rounded(ratio) else 6e3
+    latest = 6e3 if rounded(ratio) == BURSTS else 3e4
     run = {
         "block_length": rounded(length),
         "n_x": 50 * math.ceil(min(max(elements, 300.0), 1500.0) / 50.0),

@@ -20,6 +20,7 @@ GIVEN = some(
     "height",
     "below",
     "far_side",
+    "shear_modulus",
     "second_shear_modulus",
     "kind",
     "strength",
