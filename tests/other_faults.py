@@ -21,8 +21,9 @@ LAWS = list(itertools.product(("product", "dieterich_ruina"), ("aging", "slip"))
 BODIES = ["rigid"] * 8 + ["same"] * 6 + ["other"] * 6
 SCATTERED = 5.0
 """zeta/a from which on a fault has six realisations, not two: runs are short, and drops scatter."""
-BURSTS = 0.253
-"""zeta/a of the fault in which no burst lowered the force: its runs end earlier than drawn."""
+LATE = {0.216: (6.0, 8e3), 0.253: (None, 6e3)}
+"""Changed after the first runs, by zeta/a: block over L_c where the patch filled the half in which it
+is followed, and end over D/V of runs in which no burst lowers the force."""
 
 
 def log_uniform(random, low, high):
@@ -81,7 +82,8 @@ def _entry(random, ratio, height, law, body):
         "correlation_length": rounded(0.1 * critical),
         "seed": [1, 2, 3, 4, 5, 6] if ratio > SCATTERED else [1, 2],
     }
-    length = 4.0 * critical
+    block, latest = LATE.get(rounded(ratio), (None, 3e4))
+    length = (block or 4.0) * critical
     if fault["height"] > 0.4 * critical:
         length = 5.0 * (1.5 * critical + fault["height"])
     zone = elastic / (fault["a"] + zeta)
@@ -89,7 +91,6 @@ def _entry(random, ratio, height, law, body):
     if evolution == "slip":
         zone /= 2.0
     elements = (12.0 if ratio > 2.0 else 6.0) * length / zone
-    latest = 6e3 if rounded(ratio) == BURSTS else 3e4
     run = {
         "block_length": rounded(length),
         "n_x": 50 * math.ceil(min(max(elements, 300.0), 1500.0) / 50.0),
