@@ -22,8 +22,8 @@ BODIES = ["rigid"] * 8 + ["same"] * 6 + ["other"] * 6
 SCATTERED = 5.0
 """zeta/a from which on a fault has six realisations, not two: runs are short, and drops scatter."""
 LATE = {0.216: (6.0, 8e3), 0.253: (None, 6e3)}
-"""Changed after the first runs, by zeta/a: block over L_c where the patch filled the half in which it
-is followed, and end over D/V of runs in which no burst lowers the force."""
+"""Changed after the first runs, by zeta/a: the block over L_c where the patch filled the half in
+which it is followed, and the end over D/V where no burst lowers the force."""
 
 
 def log_uniform(random, low, high):
