@@ -186,6 +186,19 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
         assert np.isfinite(found.runaway_length) == weak
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ratio", "evolution", "late"),
+    [(0.25, "slip", True), (0.25, "aging", False), (0.35, "slip", False)],
+)
+def test_bursts_by_the_slip_law_hardly_lower_the_force(ratio, evolution, late):
+    law = Friction(law="dieterich_ruina", evolution=evolution, reference_slip_rate=1e-5)
+    friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
+    found = expected_drop(dataclasses.replace(long_block(), friction=friction))
+    assert found.slips_slowly
+    assert ("hardly lower the force" in found.doubt) == late
+
+
 @pytest.mark.parametrize(
     ("height", "length", "feels"),
     [
