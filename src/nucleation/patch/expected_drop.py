@@ -194,7 +194,7 @@ def _doubts_of_runaway(history: ModeHistory) -> Iterator[str]:
     if own.friction.evolution == "slip" and ratio < SLIP_BURSTS:
         yield (
             f"by the slip law and zeta/a = {ratio:.3g}, below {SLIP_BURSTS:g}, bursts hardly lower "
-            "the force: simulated forces did not drop up to 1.1 times this length and more"
+            "the force: in simulations it did not drop up to 1.3 times this length"
         )
     if below is not None and (below.material, below.geometry) != (own.material, own.geometry):
         yield (
