@@ -187,7 +187,7 @@ def test_a_simulation_of_half_spaces_resolves_the_process_zone(nucleation, tmp_p
 
 def test_uncertain_half_spaces(nucleation):
     words = [word for word in OWN if word not in ("--slip-distance", "5um")]
-    uncertain = ("--slip-distance", "5um (3 to 10)", "--height", "inf", "--draws", "10")
+    uncertain = ("--slip-distance", "5um (3 to 10)", "--height", "inf", "--draws", "20")
     text = nucleation("drop", *words, *uncertain).out
     assert "Each draw has its own." in text and "length at the drop L" in text
 
