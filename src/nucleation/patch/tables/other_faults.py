@@ -29,7 +29,7 @@ GIVEN = some(
 
 SIMULATED = {
     "realisations": Variable("1", "number of realisations"),
-    "length": Variable("m", "length at the drop, mean of the realisations", "L"),
+    "length": LENGTHS["length"],  # the mean of the realisations
     "length_least": Variable("m", "least length at the drop of a realisation", "L"),
     "length_largest": Variable("m", "largest length at the drop of a realisation", "L"),
     "reached_length": Variable("m", "largest patch length of a realisation, at its end", "L(t)"),
