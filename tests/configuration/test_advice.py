@@ -23,7 +23,7 @@ def advice(*runs, **settings):
 
 
 def test_the_papers_configuration_needs_no_warning():
-    """The meshes of the twenty other faults are coarse on purpose, since their runs take an hour."""
+    """The twenty other faults have meshes that are coarse on purpose: their runs take an hour."""
     assert advise([run for run in papers().runs if run.study != "other_faults"]) == []
 
 
