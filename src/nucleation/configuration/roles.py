@@ -61,28 +61,28 @@ class _Role(NamedTuple):
 
 ROLES = {
     OWN: _Role(
-        "lengths, a figure, a part of the report",
+        "a study of your own: lengths, a figure, its part of the report",
         several=True,
         one_by_one=False,
     ),
     PAPERS: _Role(
-        "the paper's mesh: Figures 3 and S2, verdicts",
+        "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts",
         study=(_LENGTHS,),
         runs=(_INTERFACE,),
         heights=("inset_height", "space_time_height"),
     ),
     JUDGED: _Role(
-        "verdicts about lengths",
+        "the runs for verdicts about lengths",
         study=(_LENGTHS,),
         runs=(_INTERFACE,),
     ),
     LONGER: _Role(
-        "verdict on the block's length",
+        "runs in longer blocks, for the claim that the block length has no effect",
         several=True,
         runs=(_INTERFACE,),
     ),
     "noisy": _Role(
-        "stronger perturbation: band of `figure_3_extended`",
+        "a stronger perturbation, for the band of `figure_3_extended`",
         one_by_one=False,
     ),
     "patch_convergence": _Role(
@@ -90,61 +90,61 @@ ROLES = {
         several=True,
     ),
     "drop": _Role(
-        "declared perturbations: `figure_drop`",
+        "declared perturbations, for `figure_drop`",
         several=True,
         one_by_one=False,
     ),
     "weakening": _Role(
-        "weak to strong weakening: `figure_weakening`",
+        "weak to strong weakening, for `figure_weakening`",
         several=True,
         one_by_one=False,
     ),
     "weakening_patches": _Role(
-        "in a fault that strengthens: `figure_weakening_patches`",
+        "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
         runs=(_REMOTE, _ZETA_VARIES),
     ),
     "map": _Role(
-        "heights and weakenings: `figure_map`",
+        "heights and weakenings, for `figure_map`",
         one_by_one=False,
         study=(_STABILITY, _BATCHES),
     ),
     "patch_theory": _Role(
-        "faults for `figure_patch_theory`",
+        "faults for the test of the patch theory, for `figure_patch_theory`",
         several=True,
         one_by_one=False,
         study=(_STABILITY, _BATCHES),
     ),
     "convergence": _Role(
-        "mesh and steps refined: `figure_convergence`",
+        "mesh and steps refined, for `figure_convergence`",
         several=True,
         one_by_one=False,
     ),
     "convergence_quiet": _Role(
-        "the same unperturbed: `floors`",
+        "the same without a perturbation, for the noise of meshes",
         several=True,
         one_by_one=False,
         runs=(_UNPERTURBED,),
     ),
     "sensitivity": _Role(
-        "one parameter changed at a time, from each height's first run",
+        "one parameter changed at a time; the first run of a height is the base",
     ),
     "pairs": _Role(
-        "two deformable bodies: table of pairs",
+        "two deformable bodies, for the table of pairs",
         several=True,
         runs=(_PAIR,),
     ),
     "pairs_identical": _Role(
-        "identical blocks: `figure_pairs`",
+        "the same, identical blocks, for `figure_pairs`",
         several=True,
         runs=(_PAIR,),
     ),
     "figure_2_simulated": _Role(
-        "half-spaces in contrast: `figure_2_simulated`",
+        "the same, half-spaces in contrast, for `figure_2_simulated`",
         several=True,
         runs=(_PAIR,),
     ),
     LITERATURE: _Role(
-        "the literature's lengths: `figure_literature`",
+        "the literature's lengths in their own settings, for `figure_literature`",
         runs=(_REMOTE,),
     ),
 }
