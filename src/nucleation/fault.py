@@ -141,7 +141,8 @@ class Fault(FaultParameters):
         ----------
         **changes
             Other parameters by their names in studies, in SI units: ``n_x``, ``perturbation``,
-            ``block_length``, ... By default the block is 6 L_c long.
+            ``block_length``, ... By default the block is 6 L_c long. Half-spaces become blocks that
+            are 4 L_c high and 35 L_c long, which changes L_s by 2 % or less.
 
         Returns
         -------
@@ -152,10 +153,11 @@ class Fault(FaultParameters):
         ParameterError
             If the fault is an array, lacks V or f, or can't be simulated.
         """
-        from .configuration.single_run import merged, single_run
+        from .configuration.single_run import merged, single_run, without_half_spaces
 
         given = self._by_study_names() | changes
-        return single_run(merged(None, given | follows_from(given))).parameters
+        fixed, _ = without_half_spaces(None, given | follows_from(given))
+        return single_run(merged(None, fixed)).parameters
 
     def expected_drop(self, **perturbation: Any) -> ExpectedDrop:
         """L_s, L_run and L under a perturbation, :func:`nucleation.api.expected_drop`.

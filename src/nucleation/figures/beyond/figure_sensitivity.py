@@ -18,7 +18,7 @@ SYMBOLS = {
     "nu": r"\nu",
     "sigma0": r"\sigma_0",
     "tau0": r"\tau_0",
-    "phi0": r"\phi_0",
+    "initial_state": r"\phi_0",
 }
 """TeX of the declared symbols that are not single letters."""
 
