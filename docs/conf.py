@@ -57,6 +57,7 @@ html_theme = "furo"
 html_title = "nucleation"
 html_static_path = ["_static"]
 html_css_files = ["mathematics.css"]
+html_search_scorer = "_static/search_scores.js"
 html_show_sphinx = False
 
 MOVED = ROOT / "docs" / "moved.txt"
@@ -98,7 +99,8 @@ def calculator(app, error):
     if error is None and app.builder.name == "html":
         from nucleation.report.calculator import build
 
-        Path(app.outdir, "calculator.html").write_text(build(), encoding="utf-8")
+        tables = ROOT / "results" / "reference" / "patch_tables.json"
+        Path(app.outdir, "calculator.html").write_text(build(tables), encoding="utf-8")
 
 
 def redirects(app, error):

@@ -79,9 +79,14 @@ def test_film_is_of_the_same_run(filmed, simulation, table):
 def test_animation_has_a_picture_for_every_moment(filmed, table, tmp_path):
     few = filmed.isel(time=[0, 20, 40])
     path = tmp_path / "animation.gif"
-    animation.save(animation.frames(few, table.isel(run=0)), path)
+    animation.save(animation.frames(few, table.isel(run=0)), path, still=1)
     with Image.open(path) as saved:
-        assert saved.n_frames == 3
+        assert saved.n_frames == 4
+        shown = []
+        for number in range(4):
+            saved.seek(number)
+            shown.append(saved.convert("RGB").tobytes())
+        assert shown[0] == shown[2] != shown[1]
         assert saved.convert("RGB").getpixel((1, 1)) == (255, 255, 255)
 
 

@@ -230,4 +230,4 @@ def test_inputs_have_a_verdict_of_their_own():
 
     assert judged(400.0)["verdict"] == Verdict.GIVEN
     assert judged(400.0)["reason"].startswith("It is an input of the paper and of our runs.")
-    assert judged(80.0)["verdict"] == Verdict.NOT_REPLICATED
+    assert judged(80.0)["verdict"] == Verdict.UNCHECKED

@@ -17,6 +17,7 @@ from nucleation.report import page, stability
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
+PATCH_TABLES = ROOT / "results" / "reference" / "patch_tables.json"
 MISSING = "chromium is missing: workflow/install-debian.sh browser"
 CLAIMS = [
     {"id": "onset", "where": "Fig. S2", "statement": "It runs away after 13 s.", "paper": "13",
@@ -61,6 +62,7 @@ def content(settings, table, tmp_path_factory):
         pictures=[
             page.Picture("figure_2", entry, [png, pdf], caption, {})
         ],
+        patch_tables=PATCH_TABLES,
         claims=CLAIMS,
     )  # fmt: skip
 

@@ -2,22 +2,30 @@
 
 import json
 import shlex
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from nucleation.api import critical_length, lengths_in_use, stability_length
+from nucleation.api import (
+    critical_length,
+    lengths_in_use,
+    runaway_length,
+    stability_length,
+    weakening_patch_length,
+)
 from nucleation.commands import run
-from nucleation.report import calculator, stability
+from nucleation.report import calculator, patch_tables, stability, tabulated
 from nucleation.theory.fault import QUANTITIES
 
 pytestmark = pytest.mark.system
+PATCH_TABLES = Path(__file__).parents[2] / "results" / "reference" / "patch_tables.json"
 
 
 @pytest.fixture(scope="module")
 def calculating(open_page, tmp_path_factory):
     path = tmp_path_factory.mktemp("calculator") / "calculator.html"
-    path.write_text(calculator.build(), encoding="utf-8")
+    path.write_text(calculator.build(PATCH_TABLES), encoding="utf-8")
     return open_page(path)
 
 
@@ -142,6 +150,80 @@ def test_where_the_tables_do_not_hold_it_says_so(web, more):
     assert web.locator("#values dd").nth(1).inner_text().startswith("not known here: only ")
 
 
+WEAK = {
+    "rigid_base": RIGID,
+    "identical_layers": {},
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("system", WEAK)
+def test_runaway_length_is_within_the_stated_precision(web, system):
+    random, faults = np.random.default_rng(5), []
+    for _ in range(8):
+        a = random.uniform(0.002, 0.005)
+        weakening = 0.4 * 5.0 ** random.uniform(0.01, 0.99)
+        fault = {
+            "shear_modulus": 1e10, "poisson_ratio": random.uniform(0.0, 0.49), "a": a,
+            "normal_stress": 5e6, "b": a * (1.0 + weakening), "slip_distance": 1e-5,
+            "friction": random.uniform(0.05, 0.95), "height": 10.0 ** random.uniform(-2, 2),
+        }  # fmt: skip
+        faults.append(fault | WEAK[system])
+    for fault, (at, _, _) in zip(faults, computed(web, faults), strict=True):
+        error = at["runaway"] / float(runaway_length(**fault)) - 1.0
+        assert abs(error) < patch_tables.RUNAWAY_PRECISION[system], fault
+
+
+def test_smallest_patch_is_within_the_stated_precision(web):
+    random, faults = np.random.default_rng(6), []
+    for _ in range(12):
+        a = random.uniform(0.002, 0.005)
+        weakening = 0.4 * 50.0 ** random.uniform(0.01, 0.99)
+        fault = {
+            "shear_modulus": 1e10, "poisson_ratio": 0.3, "a": a, "normal_stress": 5e6,
+            "b": a * (1.0 + weakening), "slip_distance": 1e-5, "friction": 0.6,
+            "outside_zeta": -a * weakening * 0.1 * 100.0 ** random.uniform(0.01, 0.99),
+            "outside_a": a * random.uniform(0.51, 1.99),
+        }  # fmt: skip
+        faults.append(fault)
+    for fault, (at, _, _) in zip(faults, computed(web, faults), strict=True):
+        expected = float(weakening_patch_length(**fault))
+        assert at["patch"] == pytest.approx(expected, rel=patch_tables.PATCH_PRECISION), fault
+
+
+@pytest.mark.slow
+def test_the_committed_tables_are_what_the_code_gives(web):
+    """At a node of each, which the page has without interpolation."""
+    stored = json.loads(PATCH_TABLES.read_text())
+    tables = {**patch_tables.RUNAWAY, "patch": patch_tables.PATCH}
+    read = "(table) => Math.exp([...floats(table.logs)][0])"
+    for name, table in tables.items():
+        made = stored["runaway"].get(name, stored["patch"])
+        assert {k: tuple(v) for k, v in made["ends"].items()} == dict(table.ends)
+        assert tuple(map(len, made["nodes"].values())) == table.nodes
+        first = {key: np.float64(nodes[0]) for key, nodes in made["nodes"].items()}
+        for key in first.keys() & tabulated.LOGARITHMIC:
+            first[key] = np.exp(first[key])
+        assert web.evaluate(read, made) == pytest.approx(float(table.values(**first)), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("more", "row", "said"),
+    [
+        ({"b": 0.025}, 2, "none for ζ/a above 2: "),
+        ({"b": 0.006}, 2, "not known here: only for ζ/a from 0.4 to 2 "),
+        ({"height": 0.3, "second_far_side": "roller"}, 2, "not known here: only on a rigid base "),
+        ({"outside_zeta": -0.004, "height": 0.3}, 3, "not known here: only between identical half"),
+        ({"outside_zeta": -0.5}, 3, "not known here: only for ζ/a from 0.4 to 20, "),
+        ({"outside_zeta": 0.1}, 3, "none: the surroundings have to strengthen"),
+    ],
+)
+def test_why_there_is_no_length_of_a_patch(web, more, row, said):
+    fault = {"shear_modulus": 1e10, "poisson_ratio": 0.2, "normal_stress": 5e6, "a": 0.005}
+    computed(web, [fault | {"b": 0.01, "slip_distance": 1e-6, "friction": 0.6} | more])
+    assert web.locator("#values dd").nth(row).inner_text().startswith(said)
+
+
 def test_the_command_beside_gives_the_same(web, capsys):
     """The very line that the page shows, run by the command."""
     for bodies, seed in (("same", 4), ("rigid", 5), ("other", 6)):
@@ -152,7 +234,7 @@ def test_the_command_beside_gives_the_same(web, capsys):
         theory = json.loads(capsys.readouterr().out)["theory"]
         assert theory["critical_length"] == pytest.approx(at["length"], rel=1e-8)
         assert theory["critical_frequency_over_rate"] == pytest.approx(
-            float(web.locator("#values dd").nth(3).inner_text().removesuffix(" V/D")), rel=1e-3
+            float(web.locator("#mode dd").nth(1).inner_text().removesuffix(" V/D")), rel=1e-3
         ), fault
 
 
@@ -167,7 +249,7 @@ def test_values_and_units_go_through_the_address(web):
     assert "the friction coefficient is needed" in web.inner_text("#values")
     web.fill("#friction", "0.6")
     values = web.locator("#values dd").all_inner_texts()
-    assert values[3].endswith(" rad/s")
+    assert web.locator("#mode dd").nth(1).inner_text().endswith(" rad/s")
     kept = web.url
     assert "&second-body=10GPa%2C0.2%2Cinf" in kept and "velocity=1mm%2Fyr" in kept
     web.select_option("#unit-height", "mm")
@@ -218,3 +300,23 @@ def test_an_unknown_key_of_the_address_is_named_and_the_rest_stays(web):
     assert web.input_value("#shear_modulus") != ""
     said = web.locator("#values dt").all_inner_texts()
     assert len(said) > 1 and said[-1] == "Not known in the address: shear-modulos"
+
+
+def test_a_wrong_choice_in_the_address_is_named_and_the_rest_stays(web):
+    start = web.url.split("#")[0]
+    web.goto(f"{start}#shear-modulus=30GPa&poisson-ratio=0.3&plane=thin&second-body=soft")
+    assert web.input_value("#plane") != "" and web.input_value("#second_body") != ""
+    *values, said = web.locator("#values dt").all_inner_texts()
+    assert values and said == "Not known in the address: second-body=soft, plane=thin"
+
+
+def test_on_a_phone_the_lengths_are_in_sight(browser, tmp_path):
+    path = tmp_path / "calculator.html"
+    path.write_text(calculator.build(PATCH_TABLES), encoding="utf-8")
+    web = browser.new_context(viewport={"width": 390, "height": 844}, is_mobile=True).new_page()
+    web.goto(path.as_uri())
+    for field in ("shear_modulus", "velocity"):
+        web.fill(f"#{field}", "20")
+        box = web.locator("#values").bounding_box()
+        assert box["y"] >= 0 and box["y"] + box["height"] < 0.7 * 844
+        assert box["y"] + box["height"] <= web.locator(f"#{field}").bounding_box()["y"]

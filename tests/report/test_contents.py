@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
+from PIL import Image
 
 from nucleation.figures import catalogue
 from nucleation.report import encode, page, summary, tables, verdicts
@@ -62,6 +63,9 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
     assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
+    assert shown["mesh"] == "a mesh of 60 x 6 elements" and "60 x 6" in shown["caution"]
+    fine = summary.of_paper(run(n_x=400, n_y=150))
+    assert (fine["mesh"], fine["caution"]) == ("the paper's mesh", "")
     assert summary.of_paper(run(role="own")) is None
 
 
@@ -133,6 +137,14 @@ def test_every_figure_has_a_caption_that_is_valid():
 def test_mistakes_in_captions_stop_the_report(template, error):
     with pytest.raises(error):
         encode.caption_html(template, {})
+
+
+@pytest.mark.parametrize(("dots", "width"), [(300.0, 336), (None, 1050)])
+def test_pictures_have_their_physical_width(dots, width):
+    file = io.BytesIO()
+    options = {"dpi": (dots, dots)} if dots else {}
+    Image.new("RGB", (1050, 2)).save(file, "PNG", **options)
+    assert encode.width(file.getvalue()) == width  # 3.5 inches of 96 dots
 
 
 def test_no_text_can_end_the_script_that_holds_the_data():

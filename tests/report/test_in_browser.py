@@ -77,6 +77,15 @@ def test_every_control_has_a_name_and_every_picture_a_text(opened):
         assert regions.nth(index).get_attribute("aria-labelledby")
 
 
+def test_on_paper_it_has_no_controls_and_the_drawings_fit(open_report):
+    web = open_report(viewport={"width": 700, "height": 990}).page
+    web.emulate_media(media="print")
+    for hidden in ("#fault", "nav", "#others", ".counts"):
+        assert not web.locator(hidden).first.is_visible()
+    assert web.locator("#values").is_visible() and web.locator("#claims").is_visible()
+    assert web.locator("figure img").first.bounding_box()["width"] <= 700
+
+
 def test_first_stop_of_the_keyboard_skips_to_the_content(open_report):
     web = open_report(viewport={"width": 1280, "height": 900}).page
     web.keyboard.press("Tab")
@@ -91,7 +100,7 @@ def test_phone_shows_all_without_scrolling_sideways(open_report, width):
         details.evaluate("(element) => { element.open = true; }")
     assert web.evaluate("document.documentElement.scrollWidth") <= width
     outside = web.evaluate("""() =>
-      [...document.querySelectorAll("button, input, select, .plot, img")]
+      [...document.querySelectorAll("button, input, select, .drawing")]
       .filter((one) => !one.closest(".wide") && one.getBoundingClientRect().width > 0)
       .filter((one) => one.getBoundingClientRect().right > innerWidth + 1)
       .map((one) => one.outerHTML.slice(0, 80))""")

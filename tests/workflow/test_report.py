@@ -61,5 +61,5 @@ def test_animation_goes_through_creep_and_event(results):
     assert film["time"][0] == 0.0
     assert 20 < int((film["time"] > onset - 0.05).sum()) < film.sizes["time"]
     with Image.open(results / "figures" / "animation.gif") as animation:
-        assert animation.n_frames == film.sizes["time"]
+        assert animation.n_frames == film.sizes["time"] + 1  # the onset comes first
     assert (results / "figures" / "animation.gif").stat().st_size < 4e6

@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations
 from .claim import Row, Verdict
+from .phrases import caution, mesh, span
 from .table import counts, escaped
 
 
@@ -23,11 +24,13 @@ def render(
     ----------
     template : str
         Markdown with Jinja2's expressions. The template can use ``claim(id)``, a claim's row;
-        ``ours(id)``, our number with range and unit; ``verdicts``, their counts; ``verdict``,
-        :class:`~nucleation.claims.claim.Verdict`; ``claims``, all rows; ``runs(role)``, the role's
-        rows of lengths, one for each fault; ``pairs``, the faults of the paper's study, each with
-        its row of the converged study; ``by_theory(role)``, the range of L_s/L_c by theory; and the
-        filters ``digits(n)``, ``percent(n)`` and ``typeset``, the last for texts with formulas.
+        ``ours(id)``, our number with range and unit; ``checked(id)``, whether it has a verdict;
+        ``mesh``, that of the role ``paper`` in words, and the ``caution`` that a coarse one needs;
+        ``verdicts``, their counts; ``verdict``, :class:`~nucleation.claims.claim.Verdict`;
+        ``claims``, all rows; ``runs(role)``, the role's rows of lengths, one for each fault;
+        ``pairs``, the faults of the paper's study, each with its row of the converged study;
+        ``by_theory(role)``, the range of L_s/L_c by theory; and the filters ``digits(n)``,
+        ``span(n)`` of numbers, ``percent(n)`` and ``typeset``, the last for texts with formulas.
     claims : list of dict
         Rows of :func:`nucleation.claims.table.evaluate`.
     lengths : iterable of Dataset
@@ -56,6 +59,7 @@ def render(
     environment.filters |= {
         "digits": digits,
         "percent": _percent,
+        "span": _span,
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}
@@ -66,14 +70,20 @@ def render(
 
     def by_theory(role: str) -> str:
         ratios = [row["stability_length"] / row["critical_length"] for row in runs(role)]
-        return f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else "not computed"
+        return span(ratios, ".2f")
 
     def ours(id: str) -> str:
         return rounded(by_id[id])
 
+    def checked(id: str) -> bool:
+        return bool(by_id[id]["verdict"] != Verdict.UNCHECKED)
+
     return environment.from_string(template).render(
         claim=by_id.__getitem__,
         ours=ours,
+        checked=checked,
+        mesh=mesh(runs("paper")),
+        caution=caution(runs("paper")),
         verdicts=counts(claims),
         verdict=Verdict,
         claims=claims,
@@ -118,6 +128,17 @@ def digits(
         return mantissa
     factor = "" if mantissa == "1" else rf"{mantissa}\times "
     return f"${factor}10^{{{int(power)}}}$"
+
+
+def _span(
+    values: Iterable[float],
+    number: int,
+) -> str:
+    """The smallest and the largest value with some digits, or one if both look the same."""
+    known = list(values)
+    low = digits(min(known), number)
+    high = digits(max(known), number)
+    return low if low == high else f"{low} to {high}"
 
 
 def rounded(row: Row) -> str:

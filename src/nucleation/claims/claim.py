@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from . import phrases
 from .expected import Estimate, Estimates, Expected, Missing, holds
 
 Row = dict[str, Any]
@@ -58,6 +59,8 @@ class Result:
         Replaces that of the claim, if it depends on the configuration.
     on_papers_mesh : Estimates, optional
         The same from the study ``paper``, if it was also evaluated.
+    mesh : str
+        Mesh of that study, in words.
     cause : Cause, optional
         A possible cause of a difference.
     note : str
@@ -67,6 +70,7 @@ class Result:
     estimates: Estimates
     expected: Expected | None = None
     on_papers_mesh: Estimates | None = None
+    mesh: str = phrases.PAPERS
     cause: Cause | None = None
     note: str = ""
 
@@ -136,9 +140,8 @@ class Claim:
         if self.carried:
             expected = dataclasses.replace(expected, chosen=True)
         verdict, reason = judge(expected, result)
-        if self.input and verdict is Verdict.REPLICATED:
-            verdict = Verdict.GIVEN
-            reason = f"It is an input of the paper and of our runs. {reason}"
+        if self.input:
+            verdict, reason = _of_input(verdict, reason)
         note = result.note or self.note
         if note:
             reason += f" {note}"
@@ -220,6 +223,16 @@ def judge(
     return Verdict.NOT_REPLICATED, reason
 
 
+def _of_input(
+    verdict: Verdict,
+    reason: str,
+) -> tuple[Verdict, str]:
+    """The verdict on an input of ours: no result, whether it is the paper's or another."""
+    if verdict is Verdict.REPLICATED:
+        return Verdict.GIVEN, f"It is an input of the paper and of our runs. {reason}"
+    return Verdict.UNCHECKED, f"It is an input, and these runs have another. {reason}"
+
+
 def _why_undecided(ours: Estimate) -> str:
     if math.isnan(ours.value):
         return "A run has no such event."
@@ -260,14 +273,14 @@ def _reach(expected: Expected, ours: Estimate) -> str:
 
 
 def _other_mesh(expected: Expected, result: Result) -> str:
-    """A sentence on whether the statement holds on the paper's mesh too."""
+    """A sentence on whether the statement holds for the study ``paper`` too."""
     if result.on_papers_mesh is None:
         return ""
     other = expected.worst(result.on_papers_mesh)
     if not math.isfinite(other.value):
         return ""
     held = "holds as well" if holds(expected, other) else "does not hold"
-    return f" On the paper's mesh it {held}, with {other.value:.4g}."
+    return f" On {result.mesh} it {held}, with {other.value:.4g}."
 
 
 def _finite(value: float) -> float | None:

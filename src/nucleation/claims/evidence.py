@@ -15,6 +15,7 @@ from ..model.identity import fault
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Parameters
+from . import phrases
 from .claim import Cause, Result, Row
 from .expected import Estimates, Missing
 
@@ -147,6 +148,11 @@ class Evidence:
             runs += row["members"]
         return runs
 
+    @property
+    def papers_mesh(self) -> str:
+        """Mesh of the runs with the role :data:`PAPERS`, in words."""
+        return phrases.mesh(self.each(PAPERS))
+
     def patch(self, row: Row) -> xr.Dataset:
         """The stability of the patch of a fault's first realisation; raises Missing without it."""
         if row["id"] not in self.patches:
@@ -178,7 +184,7 @@ class Evidence:
 def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence], Result]:
     """Judge numbers of the runs with a role by the converged, perturbed runs.
 
-    If the statement holds on the paper's own mesh only, the mesh is the cause.
+    If the statement holds on the mesh of the study ``paper`` only, the mesh is the cause.
 
     Parameters
     ----------
@@ -197,10 +203,12 @@ def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence
             papers = numbers(evidence, PAPERS)
         except Missing:
             return Result(judged)
-        cause = Cause(MESH, "On the paper's own mesh our number is", papers)
+        mesh = evidence.papers_mesh
+        cause = Cause(MESH, f"On {mesh} our number is", papers)
         return Result(
             judged,
             on_papers_mesh=papers,
+            mesh=mesh,
             cause=cause,
         )
 

@@ -1,8 +1,7 @@
 "use strict";
 // The calculator: lengths of the fault in the fields. Their values stand in the page's address as the
 // command line has them, shear-modulus=30GPa, and are read from it; a report has them in its data.
-const lengthOfPatch = Stability.reader(data.stability);
-const NONE = { height: Infinity, second_height: Infinity, friction: 0 }; // of fields that are empty
+const NONE = { height: Infinity, second_height: Infinity, friction: 0, outside_zeta: null }; // of fields that are empty
 const fields = Object.fromEntries(data.fields.map((field) => [field.key, field]));
 const choice = (key) => element(key)?.value ?? "";
 const plain = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
@@ -48,7 +47,7 @@ function parameters() {
   }
   return [{
     ...upper, sigma0: v.normal_stress, a: v.a, zeta: v.b - v.a, ell: v.slip_distance, f: v.friction,
-    V: v.velocity, second: kind === "rigid" ? undefined : second,
+    V: v.velocity, outside: v.outside_zeta === null ? null : { zeta: v.outside_zeta, a: v.outside_a ?? v.a }, second: kind === "rigid" ? undefined : second,
   }, wrong];
 }
 
@@ -79,10 +78,26 @@ function answer(p) {
   const thick = Math.min(p.H, p.second ? p.second.H : Infinity) > data.thick * at.length;
   const half = { heightRatio: Infinity };
   const bodies = thick ? { ...own, ...half, second: own.second && { ...own.second, ...half } } : own;
-  at.stability = p.zeta > 0 ? lengthOfPatch(bodies)(own.reference, at.length) : null;
+  if (p.zeta > 0) {
+    at.stability = Stability.length(bodies, own.reference, at.length, data.stability);
+    at.runaway = Patch.runaway(bodies, own.reference, at.stability, data.patch_tables, data.stability);
+    at.patch = p.outside && Patch.smallest(bodies, at.length, data.patch_tables);
+  }
   const frequency = p.V ? `${at.frequency.toPrecision(4)} rad/s`
     : `${Theory.solve({ ...own, V: p.ell }, own.reference).frequency.toPrecision(4)} V/D`;
-  return [at, Stability.values(bodies, at, data.stability, frequency)];
+  const over = (length) => (typeof length === "string" ? length
+    : `${length.toPrecision(3)} m = ${(length / at.length).toFixed(2)} L<sub>c</sub>`);
+  const rows = [
+    ["Critical length L<sub>c</sub>", `${Number(at.length.toPrecision(5))} m`],
+    ["Stability length of the patch L<sub>s</sub>", over(at.stability || Stability.why(bodies, data.stability))],
+  ];
+  if (at.runaway) rows.push(["Runaway length of the patch L<sub>run</sub>", over(at.runaway)]);
+  if (at.patch) rows.push(["Smallest weakening patch W<sub>c</sub>", over(at.patch)]);
+  const mode = [
+    ["Critical wavenumber k<sub>c</sub> = 2π/L<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
+    ["Angular frequency ω of its mode", frequency],
+  ];
+  return [at, rows, mode];
 }
 
 // The lengths in use, by the systems that they are for; with two materials the pair's own come first.
@@ -119,9 +134,10 @@ function show() {
   element("second-fields").hidden = choice("second_body") !== "other";
   for (const prefix of ["", "second_"]) element(`of-${prefix}far_side`).hidden = !bounded(prefix);
   const [p, wrong] = parameters();
-  const [at, values] = wrong.length ? [{}, [[`No values: ${wrong.join("; ")}`, ""]]] : answer(p);
+  const [at, values, mode = []] = wrong.length ? [{}, [[`No values: ${wrong.join("; ")}`, ""]]] : answer(p);
   const left = unknown.length ? [[`Not known in the address: ${plain(unknown.join(", "))}`, ""]] : [];
   showValues("values", [...values, ...left]);
+  showValues("mode", mode);
   element("others").innerHTML = wrong.length ? "" : table(p, at.length);
   const given = words();
   element("command").textContent = `nucleation length ${given.map(([name, text]) => `--${name} ${text}`).join(" ")}`;
@@ -137,6 +153,13 @@ function put(key, text) {
   if (parts && unit) element(`unit-${key}`).value = unit;
 }
 
+// Choose what the address has, if it is among the options.
+function choose(key, value) {
+  const options = [...element(key).options].map((option) => option.value);
+  if (options.includes(value)) element(key).value = value;
+  else unknown.push(`${key.replaceAll("_", "-")}=${value}`);
+}
+
 function readAddress() {
   const given = new URLSearchParams((data.given ?? location.hash.slice(1)).replaceAll("+", "%2B"));
   if (!given.size) return;
@@ -149,13 +172,13 @@ function readAddress() {
   }
   const second = given.get("second-body") ?? "same";
   const other = second.split(",");
-  element("second_body").value = other.length > 1 ? "other" : second;
+  choose("second_body", other.length > 1 ? "other" : second);
   if (other.length > 1) {
     ["second_shear_modulus", "second_poisson_ratio", "second_height"].forEach((key, i) => put(key, other[i] ?? ""));
   }
-  element("plane").value = given.get("plane") ?? "strain";
-  element("far_side").value = given.get("far-side") ?? "traction";
-  element("second_far_side").value = given.get("second-far-side") ?? "";
+  choose("plane", given.get("plane") ?? "strain");
+  choose("far_side", given.get("far-side") ?? "traction");
+  choose("second_far_side", given.get("second-far-side") ?? "");
 }
 
 element("fault").addEventListener("submit", (event) => event.preventDefault());

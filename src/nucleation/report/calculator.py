@@ -1,10 +1,11 @@
 """A calculator of a fault's lengths: one HTML file that needs no network (``make calculator``).
 
-The page computes L_c, L_s and the lengths in use with the code of the report (``theory.js`` and
-``stability.js``). Their names, sources and limits come from the library.
+The page computes L_c and the lengths in use by formulas, L_s, L_run and W_c by tables. Their names,
+sources and limits come from the library.
 """
 
 import dataclasses
+import json
 import math
 import sys
 import urllib.parse
@@ -22,7 +23,9 @@ from . import encode, stability
 SCRIPTS = (
     "page.js",
     "theory.js",
+    "tables.js",
     "stability.js",
+    "patch.js",
     "lengths.js",
     "calculator.js",
 )
@@ -71,7 +74,11 @@ _SECOND_BODY = (
     _Input("second_poisson_ratio", "Its Poisson's ratio", "ν₂", "0.25"),
     _Input("second_height", "Its height", "H₂", "", _HEIGHTS, "half-space"),
 )
-FIELDS = (*_BODY, *_INTERFACE, *_SECOND_BODY)
+_SURROUNDINGS = (
+    _Input("outside_zeta", "ζ = b − a around the patch", "ζₒ", "", (), "the patch's"),
+    _Input("outside_a", "Direct effect around the patch", "aₒ", "", (), "the patch's"),
+)
+FIELDS = (*_BODY, *_INTERFACE, *_SECOND_BODY, *_SURROUNDINGS)
 
 FAR_SIDES = {
     "traction": "free, or under a given stress",
@@ -85,16 +92,21 @@ _THICK = 20.0
 """Height over L_c above which layers have the L_s of half-spaces, within the precision."""
 
 
-def build() -> str:
-    """The whole page as HTML."""
-    return encode.template("calculator.html").render(shown(), level=2)
+def build(patch_tables: Path) -> str:
+    """The whole page as HTML, with the tables of :func:`.patch_tables.files`."""
+    return encode.template("calculator.html").render(shown(patch_tables), level=2)
 
 
-def shown(given: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def shown(
+    patch_tables: Path,
+    given: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """Values for a template that contains the calculator.
 
     Parameters
     ----------
+    patch_tables : Path
+        JSON of :func:`.patch_tables.files`.
     given : mapping, optional
         The first fault on a rigid base, parameters as of :class:`~nucleation.fault.Fault`.
         Without it the page reads the fault from its address, and writes it there.
@@ -104,7 +116,8 @@ def shown(given: Mapping[str, Any] | None = None) -> dict[str, Any]:
     dict
         By the names in the template.
     """
-    read_by_page = data()
+    tables = json.loads(patch_tables.read_text("utf-8"))
+    read_by_page = data() | {"patch_tables": tables}
     if given is not None:
         read_by_page["given"] = _address(given)
     return {
@@ -114,9 +127,13 @@ def shown(given: Mapping[str, Any] | None = None) -> dict[str, Any]:
             (_BODY, "The body"),
             (_INTERFACE, "The interface"),
             (_SECOND_BODY, ""),
+            (_SURROUNDINGS, "If only a patch weakens: its surroundings"),
         ),
         "far_sides": FAR_SIDES,
         "precision": stability.PRECISION,
+        "runaway_precision": tables["runaway_precision"],
+        "weak": tables["runaway"]["rigid_base"]["ends"]["zeta_over_a"],
+        "patch_precision": tables["patch_precision"],
         "ends": stability.TABLES["half_spaces"].ends["zeta_over_a"],
         "data": encode.script_json(read_by_page),
     }
@@ -160,7 +177,7 @@ def data() -> dict[str, Any]:
 
 def _in_page(field: _Input) -> dict[str, Any]:
     """A field with its units (in SI units) and its range; here the second body is not rigid."""
-    entry = QUANTITIES[field.key.removeprefix("second_")]
+    entry = QUANTITIES[field.key.removeprefix("second_").removeprefix("outside_")]
     # a range without ends, as one unit may be outside the range of the parameter
     unbounded = dataclasses.replace(entry, low=-math.inf, high=math.inf)
     return {
@@ -178,4 +195,4 @@ def _in_page(field: _Input) -> dict[str, Any]:
 if __name__ == "__main__":
     output = Path(sys.argv[1])
     output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(build(), encoding="utf-8")
+    output.write_text(build(Path(sys.argv[2])), encoding="utf-8")

@@ -1,6 +1,7 @@
 """Contents of a page: files as data addresses, arrays, JSON and captions."""
 
 import base64
+import io
 import json
 import mimetypes
 from pathlib import Path
@@ -16,6 +17,9 @@ from jinja2 import (
 )
 from markupsafe import Markup
 from numpy.typing import ArrayLike
+from PIL import Image
+
+_DOTS = 96.0  # of a page for each inch
 
 HERE = Path(__file__).parent
 _CAPTIONS = {
@@ -62,6 +66,13 @@ def data_address(content: bytes, name: str) -> str:
     """
     kind = mimetypes.guess_type(name)[0] or "application/octet-stream"
     return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def width(picture: bytes) -> int:
+    """The physical width of a picture in the page's dots; a file without one has a page's dots."""
+    with Image.open(io.BytesIO(picture)) as opened:
+        dots = opened.info.get("dpi", (_DOTS, _DOTS))[0]
+        return round(opened.width * _DOTS / float(dots))
 
 
 def download(name: str, content: bytes) -> dict[str, str]:

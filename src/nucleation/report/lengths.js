@@ -38,7 +38,7 @@ const Lengths = (() => {
 
   // The same with those of two materials, of which mu* is M, where slip hardly changes the normal stress.
   function all(p, limits) {
-    const { modulus, beta } = Stability.pair(p);
+    const { modulus, beta } = Tables.pair(p);
     const ofTwo = ofOneMaterial({ ...p, mu: modulus, nu: 0 }, limits);
     const valid = p.f * Math.abs(beta) < limits.negligible;
     const named = Object.entries(ofTwo).map(([key, length]) => [`${key}_two_materials`, valid ? length : NaN]);

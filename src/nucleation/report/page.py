@@ -35,6 +35,7 @@ class Content(NamedTuple):
     provenance: dict[str, str]  # from nucleation.datasets.provenance.attributes
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
+    patch_tables: Path  # of the calculator
     claims: list[dict[str, Any]] | None = None
     own: summary.OwnStudies | None = None  # the first section, if the studies are the user's
 
@@ -48,6 +49,7 @@ def write(
     datasets: Sequence[xr.Dataset],
     dataset_names: Sequence[str],
     claims: Sequence[Path],
+    patch_tables: Path,
     page_files: Sequence[Path],
     studies: dict[str, str],
     warnings: dict[str, list[str]],
@@ -76,6 +78,8 @@ def write(
         Their names.
     claims : sequence of Path
         The claims as JSON, or nothing.
+    patch_tables : Path
+        Tables of L_run and W_c for the calculator.
     page_files : sequence of Path
         Templates and scripts. They are sources of the page, so that a change makes it again.
     studies : dict
@@ -118,6 +122,7 @@ def write(
         provenance=dict(origin),
         results=results,
         pictures=pictures,
+        patch_tables=patch_tables,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
         own=summary.OwnStudies(studies, warnings) if leads else None,
     )
@@ -148,7 +153,7 @@ def build(content: Content) -> str:
         groups[catalogue.PAPER].remove(pictures["figure_3"])
     printed = {claim["id"]: claim["paper"] for claim in claims}
     return encode.template("template.html").render(
-        calculator.shown(content.fault),
+        calculator.shown(content.patch_tables, content.fault),
         level=3,
         answer=answer,
         printed=printed.get("length-shown"),
@@ -170,11 +175,13 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
     groups: dict[str, list[dict[str, Any]]] = {}
     for picture in content.pictures:
         shown = picture.files[0]
+        content_of_file = shown.read_bytes()
         own = {
             "name": picture.name,
             "title": picture.entry.title,
             "moves": shown.suffix == ".gif",
-            "image": encode.data_address(shown.read_bytes(), shown.name),
+            "image": encode.data_address(content_of_file, shown.name),
+            "width": encode.width(content_of_file),
             "caption": Markup(encode.caption_html(picture.caption, picture.params)),
             "downloads": _downloads(picture, content.results),
         }

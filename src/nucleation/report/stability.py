@@ -4,24 +4,20 @@ With constant a and b, L_s over L_c depends on few numbers. On a rigid base thes
 Poisson's ratio, f, and ``h = (1 - nu) b sigma0 H/(mu D)``, the height over the friction length. For
 two identical layers that are free to bend they are the same except f. For two half-spaces,
 ``zeta sigma0 L_s/(pi M D)`` depends only on zeta/a and f beta. The logarithms are tabulated at
-Chebyshev nodes of log(zeta/a), nu, f, f beta and ``t = (r - 1)/(r + 1)``, ``r = (h/CENTRE)^POWER``;
-the page interpolates them by a polynomial. Beyond both ends of h the ratio is nearly constant.
+Chebyshev nodes of log(zeta/a), nu, f, f beta and the place of h (:mod:`.tabulated`); the page
+interpolates them by a polynomial. Beyond both ends of h the ratio is nearly constant.
 """
 
-from collections.abc import Callable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..theory.arrays import critical_length
 from ..theory.creep.lengths import stability_length
 from ..types import Array
-from .encode import float32
+from .tabulated import CENTRE, HEIGHTS, PLACES, POWER, Table, height_at, tabulate
 
-HEIGHTS = (1e-3, 1e3)  # h
-CENTRE = 2.0  # h where the ratio changes most
-POWER = 0.7  # how fast t changes with h
 PRECISION = 0.01
 """Relative error of L_s in the page, against
 :func:`~nucleation.theory.creep.lengths.stability_length`; tested for random faults."""
@@ -50,12 +46,11 @@ def _identical_layers(place: Array, zeta_over_a: Array, nu: Array) -> Array:
 
 
 def _ratio(place: Array, zeta_over_a: Array, nu: Array, **more: Any) -> Array:
-    height = CENTRE * ((1.0 + place) / (1.0 - place)) ** (1.0 / POWER)
     fault: dict[str, Any] = {
         **_FAULT,
         "poisson_ratio": nu,
         "a": _B / (1.0 + zeta_over_a),
-        "height": height * _FRICTION_LENGTH / (1.0 - nu),
+        "height": height_at(place) * _FRICTION_LENGTH / (1.0 - nu),
         **more,
     }
     return np.asarray(stability_length(**fault) / critical_length(**fault))
@@ -78,27 +73,13 @@ def _half_spaces(zeta_over_a: Array, coupling: Array) -> Array:
     return np.asarray(stability_length(**fault) / scale)
 
 
-class _Table(NamedTuple):
-    """A tabulated function, the range of each argument and its number of nodes."""
-
-    values: Callable[..., Array]
-    ends: dict[str, tuple[float, float]]
-    nodes: tuple[int, ...]
-
-
-def _place(height: float) -> float:
-    ratio = (height / CENTRE) ** POWER
-    return (ratio - 1.0) / (ratio + 1.0)
-
-
-_PLACE = (_place(HEIGHTS[0]), _place(HEIGHTS[1]))
 _WEAKENING = (0.4, 50.0)
 _POISSON = (0.0, 0.49)
-_LAYERS = {"place": _PLACE, "zeta_over_a": _WEAKENING, "nu": _POISSON}
+_LAYERS = {"place": PLACES, "zeta_over_a": _WEAKENING, "nu": _POISSON}
 TABLES = {
-    "rigid_base": _Table(_rigid_base, {**_LAYERS, "f": (0.0, 1.0)}, (16, 6, 3, 3)),
-    "identical_layers": _Table(_identical_layers, _LAYERS, (16, 6, 3)),
-    "half_spaces": _Table(
+    "rigid_base": Table(_rigid_base, {**_LAYERS, "f": (0.0, 1.0)}, (16, 6, 3, 3)),
+    "identical_layers": Table(_identical_layers, _LAYERS, (16, 6, 3)),
+    "half_spaces": Table(
         _half_spaces,
         {"zeta_over_a": _WEAKENING, "coupling": (-0.5, 0.5)},
         (6, 9),
@@ -115,25 +96,5 @@ def in_page() -> dict[str, Any]:
         "centre": CENTRE,
         "power": POWER,
         "precision": PRECISION,
-        "tables": {name: _tabulated(table) for name, table in TABLES.items()},
+        "tables": {name: tabulate(table) for name, table in TABLES.items()},
     }
-
-
-def _tabulated(table: _Table) -> dict[str, Any]:
-    nodes = {}
-    for (name, ends), number in zip(table.ends.items(), table.nodes, strict=True):
-        interval = np.log(ends) if name == "zeta_over_a" else np.array(ends)
-        nodes[name] = _chebyshev(interval, number)
-    grids = np.meshgrid(*nodes.values(), indexing="ij")
-    places = dict(zip(nodes, grids, strict=True))
-    places["zeta_over_a"] = np.exp(places["zeta_over_a"])
-    return {
-        "ends": table.ends,
-        "nodes": {name: node.tolist() for name, node in nodes.items()},
-        "logs": float32(np.log(table.values(**places))),
-    }
-
-
-def _chebyshev(ends: Array, number: int) -> Array:
-    roots = np.cos(np.pi * (np.arange(number) + 0.5) / number)
-    return ends.mean() + 0.5 * np.diff(ends) * roots

@@ -8,6 +8,8 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations
 from ..analysis.rows import rows_of, without_event
+from ..claims import phrases
+from ..claims.phrases import span
 from ..configuration.roles import JUDGED, PAPERS
 from .tables import RUN_COLUMNS, run_rows
 
@@ -38,8 +40,9 @@ def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
         For the lowest block: ``height``, ``length`` at the drop with its range ``low`` and
         ``high`` over the definitions of edge and drop, ``theory`` (L_c) and ``stability`` (L_s),
         all in m. For all runs: ``thickest``, the largest height (m); ``ratios``, the range of
-        length over L_c by role; ``creep``, the range of L_s/L_c. ``declared``: the same fault with
-        a declared perturbation, its ``kind`` and relative ``strength`` (%), or None.
+        length over L_c by role; ``creep``, the range of L_s/L_c; ``mesh`` in words, and the
+        ``caution`` that a coarse one needs. ``declared``: the same fault with a declared
+        perturbation, its ``kind``, relative ``strength`` (%) and ``mesh``, or None.
     """
     rows = _with_event(rows_of(over_realisations(lengths)))
     paper = [row for row in rows if row["role"] == PAPERS]
@@ -57,6 +60,7 @@ def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
         "declared": _numbers(declared[0]) if declared else None,
         "ratios": ratios,
         "creep": _over_theory(paper, "stability_length"),
+        "caution": phrases.caution(paper),
     }
 
 
@@ -67,6 +71,7 @@ def _with_event(rows: Iterable[Row]) -> list[Row]:
 def _numbers(row: Row) -> dict[str, str]:
     return {
         "height": f"{row['height']:g}",
+        "mesh": phrases.mesh([row]),
         "kind": row["kind"].replace("_", " "),
         "strength": f"{100.0 * row['strength']:g}",
         "length": f"{row['length']:.3g}",
@@ -116,22 +121,12 @@ def _answer(rows: list[Row]) -> dict[str, str] | None:
     if not rows:
         return None
     return {
-        "length": _range((row["length"] for row in rows), ".3g"),
-        "critical": _range((row["critical_length"] for row in rows), ".3g"),
-        "stability": _range((row["stability_length"] for row in rows), ".3g"),
+        "length": span((row["length"] for row in rows), ".3g"),
+        "critical": span((row["critical_length"] for row in rows), ".3g"),
+        "stability": span((row["stability_length"] for row in rows), ".3g"),
         "ratio": _over_theory(rows, "length"),
     }
 
 
 def _over_theory(rows: list[Row], column: str) -> str:
-    return _range((row[column] / row["critical_length"] for row in rows), ".2f")
-
-
-def _range(values: Iterable[float], form: str) -> str:
-    """The smallest and the largest finite value; one of them if both look the same."""
-    known = [value for value in values if np.isfinite(value)]
-    if not known:
-        return ""
-    low = format(min(known), form)
-    high = format(max(known), form)
-    return low if low == high else f"{low} to {high}"
+    return span((row[column] / row["critical_length"] for row in rows), ".2f")

@@ -75,11 +75,12 @@ def contact_kept(evidence: Evidence) -> Result:
     unit = evidence.loading.normal_stress
     runs = evidence.each(PAPERS)
     creep = max(run["largest_normal_stress"] / unit for run in runs)
-    note = (
-        f"Up to the onset it is {creep:.3g}. The runs that continue into the rupture have the "
-        "aging law; a quiet one with the slip law on a finer mesh loses contact in its rupture "
-        "(results: Tension)."
-    )
+    note = f"Up to the onset it is {creep:.3g}."
+    if {run["evolution"] for run in runs if _has_rupture(run)} == {"aging"}:
+        note += (
+            " The runs that continue into the rupture have the aging law; a quiet one with the "
+            "slip law on a finer mesh loses contact in its rupture (results: Tension)."
+        )
     stresses = [run["largest_normal_stress_ever"] / unit for run in runs]
     return Result(stresses, note=note)
 
@@ -110,7 +111,7 @@ def _changes_by_length(rows: list[Row]) -> list[Estimate]:
 
 
 def _of_papers(column: str) -> Computation:
-    """A column of the study on the paper's mesh."""
+    """A column of the study with the role :data:`PAPERS`."""
     return lambda evidence: [row[column] for row in evidence.rows(PAPERS)]
 
 

@@ -125,6 +125,7 @@ def slip_law_approximation(evidence: Evidence) -> Result:
     return Result(
         [run[column] for run in converged],
         on_papers_mesh=[run[column] for run in papers],
+        mesh=evidence.papers_mesh,
     )
 
 
@@ -143,6 +144,7 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
     return Result(
         [_strengthened(evidence, run) for run in converged],
         on_papers_mesh=[_strengthened(evidence, run) for run in papers],
+        mesh=evidence.papers_mesh,
         note=note,
     )
 

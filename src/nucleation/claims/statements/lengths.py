@@ -12,6 +12,7 @@ from ...theory.creep.thin import thin_limit
 from ..claim import Computation, Result, Row
 from ..evidence import Evidence, on_both
 from ..expected import Estimate, holds, number, words
+from ..phrases import span
 
 HEIGHT_OF_FIGURE_S2 = 0.005  # m
 _ONSET_OF_FIGURE_S2 = number("13")  # s
@@ -60,11 +61,12 @@ def _of_figure_s2(column: str) -> Callable[[Evidence], Result]:
 def onset_time(evidence: Evidence) -> Result:
     row = evidence.row(JUDGED, "aging", HEIGHT_OF_FIGURE_S2)
     distance = abs(_ONSET_OF_FIGURE_S2.high - row["onset_time"])
+    runs = int(row["realisations"])
+    mean = f"the mean of {runs} realisations" if runs > 1 else "one realisation"
     note = (
         f"The verdict depends on the kind of noise. This one is {row['kind']} of "
-        f"{row['strength']:g}: the mean of {row['realisations']} realisations, "
-        f"{distance:.2f} s from the bound. With a fluctuating state the "
-        "force drops later than the bound (results: Onset and length for H = 0.005 m)."
+        f"{row['strength']:g}: {mean}, {distance:.2f} s from the bound. With a fluctuating "
+        "state the force drops later than the bound (results: Onset and length for H = 0.005 m)."
     )
     result = _of_figure_s2("onset_time")(evidence)
     return dataclasses.replace(result, note=note)
@@ -73,9 +75,10 @@ def onset_time(evidence: Evidence) -> Result:
 def length_shown(evidence: Evidence) -> Result:
     row = evidence.row(JUDGED, "aging", HEIGHT_OF_FIGURE_S2)
     lengths = [run["length"] for run in row["members"]]
+    runs = f"all {len(lengths)} realisations are" if len(lengths) > 1 else "the one realisation is"
     note = (
-        f"With one definition, the edge at 0.01 V, all {len(lengths)} realisations are "
-        f"{min(lengths):.4f} to {max(lengths):.4f} m. The range over the definitions decides."
+        f"With one definition, the edge at 0.01 V, {runs} {span(lengths, '.4f')} m. "
+        "The range over the definitions decides."
     )
     result = _of_figure_s2("length")(evidence)
     return dataclasses.replace(result, note=note)
@@ -90,10 +93,10 @@ def _over_theory(evidence: Evidence, role: str) -> list[Estimate]:
 def theory_agreement(evidence: Evidence) -> Result:
     result = on_both(_over_theory)(evidence)
     ratios = _over_theory(evidence, JUDGED)
-    note = f"Over the heights the ratio is {_summary(ratios)}."
-    if result.on_papers_mesh is not None:
+    note = f"Over the heights the ratio is {_summary(ratios)}." if len(ratios) > 1 else ""
+    if note and result.on_papers_mesh is not None:
         papers = _over_theory(evidence, PAPERS)
-        note += f" On the paper's mesh it is {_summary(papers)}."
+        note += f" On {result.mesh} it is {_summary(papers)}."
     return dataclasses.replace(result, note=note)
 
 
@@ -102,7 +105,7 @@ def _summary(ratios: list[Estimate]) -> str:
     quarter = words("expected")
     values = [ratio.value for ratio in ratios]
     near = [value for value in values if holds(quarter, Estimate.exactly(value))]
-    return f"{min(values):.2f} to {max(values):.2f}, {len(near)} of {len(values)} within 25 %"
+    return f"{span(values, '.2f')}, {len(near)} of {len(values)} within 25 %"
 
 
 def _heights(evidence: Evidence, role: str) -> list[Row]:
@@ -183,10 +186,10 @@ def stability_lost_at_length(evidence: Evidence) -> Result:
     ratios = []
     for row in evidence.rows(JUDGED):
         ratios.append(_stability_length(evidence, row) / row["critical_length"])
-    least, largest = 2.0 * min(ratios), 2.0 * max(ratios)
+    halves = span((2.0 * ratio for ratio in ratios), ".2f")
     thin = [f"{thin_limit(weakening).length_ratio:.2f}" for weakening in _WEAKENINGS]
     note = (
-        f"Over half of that wavelength it is {least:.2f} to {largest:.2f} "
+        f"Over half of that wavelength it is {halves} "
         "(results: Where the patch becomes unstable). It depends on the weakening: in a thin "
         f"layer the theory of the patch gives {', '.join(thin)} for "
         rf"$\zeta/a$ = {', '.join(map(str, _WEAKENINGS))}. So from 0.2 to 0.4 the whole wavelength "

@@ -64,7 +64,11 @@ def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
             yield Image.fromarray(pixels).convert("RGB")
 
 
-def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
+def save(
+    images: Iterable[Image.Image],
+    path: str | os.PathLike[str],
+    still: int = 0,
+) -> None:
     """Write a GIF that repeats for ever, completely or not at all.
 
     Parameters
@@ -73,8 +77,12 @@ def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
         The frames.
     path : path
         The file; an older one is replaced.
+    still : int
+        Number of the frame that comes first, then all follow: on paper and where pictures don't
+        move it is the only one.
     """
     images = list(images)
+    images.insert(0, images[still])
     palette = images[-1].quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)  # keeps white white
     first, *others = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     pauses = [_PAUSE] * len(others) + [_LAST_PAUSE]
@@ -219,5 +227,8 @@ def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Callable
     dict
         It is called with the path.
     """
-    images = frames(film, row(lengths, id))
-    return {".gif": lambda path: save(images, path)}
+    run = row(lengths, id)
+    images = frames(film, run)
+    after = np.abs(film["time"].values - float(run["onset_time"]))
+    onset = int(np.nanargmin(after)) if np.isfinite(after).any() else 0
+    return {".gif": lambda path: save(images, path, onset)}
