@@ -10,7 +10,6 @@ PYTHON = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rgl
 IMPORTED = {
     "snakemake.exceptions.WorkflowError",
     "snakemake.logging.logger",
-    "snakemake.settings.enums.Quietness",
     "snakemake.utils.min_version",
     "snakemake_interface_logger_plugins.common.LogEvent",
 }

@@ -211,8 +211,8 @@ def runaway_length(**fault: Values) -> Any:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`; the patch is pushed at its edge, and a
-        and b are constant.
+        The parameters of :class:`~nucleation.api.fault.Fault`; the patch is pushed at its edge,
+        and a and b are constant.
 
     Returns
     -------
