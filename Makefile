@@ -90,7 +90,7 @@ bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by it
 
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
-	literature.csv weakening.csv weakening_patches.csv patch_tables.json \
+	literature.csv weakening.csv other_faults.csv weakening_patches.csv patch_tables.json \
 	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
 
@@ -98,7 +98,7 @@ reference: $(DEV_STAMP) ## Make the committed reference set again, from the resu
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
 		patch_tables animation figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
-		figure_weakening_patches \
+		figure_weakening_patches other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/

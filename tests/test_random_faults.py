@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from nucleation.api import (
+    Fault,
     Friction,
     Geometry,
     Loading,
@@ -25,7 +26,6 @@ from nucleation.api import (
     specimen_fit,
     stability_length,
 )
-from nucleation.fault import Fault
 from nucleation.model.friction.constants import full_law
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
 from nucleation.theory.arrays import reason_of_stability

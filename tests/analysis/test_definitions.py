@@ -85,3 +85,13 @@ def test_a_rise_by_a_tenth_of_the_fall_after_it_ends_the_drop(rise, belongs):
     force = np.array([1.4, 1.5, 1.0 - rise, 1.0, 0.5, 0.0])
     onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.99)
     assert force[onset.start] == (1.5 if belongs else 1.0)
+
+
+@pytest.mark.parametrize("ruptured", [[], [4, 5, 6, 7]])
+def test_a_force_that_a_rupture_raises_is_past_its_onset(ruptured):
+    """It falls a little from 1.5, is raised to 2 by the rupture, and falls to 1."""
+    force = np.array([1.4, 1.5, 1.49, 1.48, 1.48, 1.7, 2.0, 1.0])
+    ruptures = np.isin(np.arange(force.size), ruptured)
+    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.4, ruptures=ruptures)
+    assert force[onset.start] == (1.5 if ruptured else 2.0)
+    assert onset.start <= onset.steep <= onset.end == force.size - 1

@@ -13,7 +13,7 @@ from two_bodies import Body, transfer_functions
 from nucleation.answers import formulas
 from nucleation.answers.in_use import LENGTHS, expanding_length, lengths_in_use
 from nucleation.answers.length import TWO_MATERIALS
-from nucleation.fault import Fault
+from nucleation.api import Fault
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError

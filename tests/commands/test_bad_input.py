@@ -79,7 +79,6 @@ SIMULATE = [
     (["new.nc", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
     (["new.nc", "--seed", "3"], ["seed = 3", "none"]),
     (["new.nc", "--strength", "1e-5"], ["strength = ", "none"]),
-    (["new.nc", "--second-body", "25GPa,0.25,inf"], ["second_body.height = inf m is not allowed"]),
     (["new.nc", "--length-over-critical", "0.5"], ["length_over_critical = 0.5", "(1, 1000)"]),
     (["new.nc", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),
     (["new.nc", "--memory", "1 GPa"], ["memory", "MB is needed"]),

@@ -139,15 +139,57 @@ def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_pat
     assert twice.code == 2 and "height is given twice" in twice.err
 
 
-@pytest.mark.parametrize("command", ["drop", "simulate"])
-def test_a_half_space_is_answered_with_a_block(nucleation, law, tmp_path, command):
-    """As an option and in a file."""
+OWN = (
+    *("--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa"),
+    *("--a", "0.01", "--b", "0.015", "--slip-distance", "5um", "--friction", "0.6"),
+    *("--velocity", "1um/s"),
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "high"),
+    [
+        ((), 4.0),
+        (("--second-body", "60GPa,0.3"), 4.0),
+        (("--second-body", "rigid"), 4.0),
+        (("--plane", "antiplane"), 4.0),
+        (("--height", "20cm", "--second-body", "60GPa,0.3,inf"), math.nan),
+    ],
+)
+def test_half_spaces_are_blocks_of_a_stated_size_and_effect(nucleation, words, high):
+    """L_s of the half-spaces is that of `length`, with the law that both commands have."""
+    words = (*OWN, *(() if "--height" in words else ("--height", "inf")), *words)
+    found = json.loads(nucleation("drop", *words, "--json").out)
+    length = json.loads(nucleation("length", *words, "--json").out)["theory"]
+    blocks = found["half_spaces"]
+    assert blocks["stability_length"] == pytest.approx(length["stability_length"], rel=1e-9)
+    difference = found["stability_length"] / blocks["stability_length"] - 1.0
+    assert blocks["difference"] == pytest.approx(difference, abs=1e-6)
+    assert abs(difference) < 0.02
+    if not math.isnan(high):
+        assert blocks["height"] == pytest.approx(high * length["critical_length"], rel=1e-3)
+    assert f"computed as blocks {blocks['height']:.4g} m high" in " ".join(found["system"])
+
+
+def test_a_simulation_of_half_spaces_resolves_the_process_zone(nucleation, tmp_path):
+    """From a file too; the mesh is chosen unless it is given."""
     file = tmp_path / "fault.yaml"
     file.write_text("height: .inf\n")
-    output = [tmp_path / "run.nc"] if command == "simulate" else []
-    for words in (["--height", "inf"], ["--parameters", file]):
-        ended = nucleation(command, *output, *words)
-        assert ended.code == 2 and "4 L_c in height and 30 L_c in length" in ended.err
+    output = tmp_path / "run.nc"
+    own = ("simulate", output, *OWN, "--memory", "10GB", "--dry-run")
+    ended = nucleation(*own, "--parameters", file)
+    assert ended.code == 0 and "Half-spaces: computed as blocks" in ended.out
+    assert "mesh too coarse" not in ended.err
+    coarse = nucleation(*own, "--height", "inf", "--n-x", "60")
+    assert "mesh too coarse" in coarse.err
+
+
+def test_uncertain_half_spaces(nucleation):
+    words = [word for word in OWN if word not in ("--slip-distance", "5um")]
+    uncertain = ("--slip-distance", "5um (3 to 10)", "--height", "inf", "--draws", "20")
+    text = nucleation("drop", *words, *uncertain).out
+    assert "Each draw has its own." in text and "length at the drop L" in text
 
 
 @pytest.mark.slow

@@ -1,12 +1,14 @@
 """What studies are for: roles with their requirements, and names that say nothing."""
 
 import copy
+import re
 
 import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
 from nucleation.configuration.load import configure, load
 from nucleation.configuration.roles import PAIRS, REFINEMENTS, ROLES
+from nucleation.configuration.schema import build
 from nucleation.figures import catalogue
 
 TALL = {"height": 0.1}
@@ -94,7 +96,9 @@ def test_figures_stand_on_roles_that_there_are():
     assert catalogue.drawable(found) == list(catalogue.FIGURES)
 
 
-def test_page_has_every_role():
-    page = DOCS.read_text("utf-8")
+def test_page_names_every_role_and_the_schema_has_its_purpose():
+    page = DOCS.read_text("utf-8").partition("## What a study is for")[2].partition("\n## ")[0]
+    assert set(re.findall(r"`(\w+)`", page)) >= set(ROLES)
+    description = build()["$defs"]["study"]["properties"]["role"]["description"]
     for name, role in ROLES.items():
-        assert f"| `{name}` | {role.purpose} |" in page, name
+        assert f"{name}: {role.purpose}" in description, name

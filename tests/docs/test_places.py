@@ -19,7 +19,7 @@ ROLE = re.compile(r"[:{](?:mod|class|exc|func|meth|attr|data|obj)[:}]`(?:[^`<]*<
 DOTTED = re.compile(r"(?<![\w./-])nucleation(?!\.(?:sif|tar))(?:\.[A-Za-z_]\w*)+(?![\w*/])")
 FILE = re.compile(
     r"(?<![\w/.{}<>~:-])((?:[\w.-]+/)+[\w-][\w.-]*\.(?:py|smk|edp|html|js|css|md|rst|yaml|sh)"
-    r"|\w+\.(?:py|smk|edp|js|css))\b(?![\w/*])"
+    r"|\w+\.(?:py|smk|edp|js|css))\b(?![\w/*]|\.in\b)"
 )
 """A file with its folder, or the bare name of a source."""
 OF_OTHERS = {"sitecustomize.py"}

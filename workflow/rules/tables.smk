@@ -39,6 +39,25 @@ rule gather_weakening:
         JOB
 
 
+rule gather_other_faults:
+    """Drops of faults that the expected drop was not fitted to"""
+    input:
+        drops=needed(lambda: table_of("other_faults"), "study with role: other_faults"),
+        recipe=recipe("gather_other_faults"),
+    output:
+        multiext(f"{RESULTS}/other_faults", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/other_faults.log",
+    params:
+        call="nucleation.patch.tables.other_faults:gather_other_faults",
+        loads=lambda wildcards: laws_of(runs_for("other_faults")),
+        runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
+    message:
+        "Drops of faults that the expected drop was not fitted to"
+    shell:
+        JOB
+
+
 rule floors:
     """Noise of meshes and steps"""
     input:

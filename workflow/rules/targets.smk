@@ -102,6 +102,12 @@ rule figure_weakening:
         rules.draw_figure_weakening.output,
 
 
+rule other_faults:
+    """Drops of faults that the expected drop was not fitted to"""
+    input:
+        rules.gather_other_faults.output,
+
+
 rule figure_weakening_patches:
     """Weakening patches among strengthening surroundings"""
     input:

@@ -1,8 +1,10 @@
 """Definitions: how the onset of the event and the length of the patch are read from a run.
 
 The onset is the start of the abrupt drop: the maximum from which ``|f_d|`` falls into the event.
-Small rises during the fall, as under a fluctuating load, belong to the fall. How far the patch
-extends is defined in :mod:`nucleation.simulation.patch`.
+Small rises during the fall, as under a fluctuating load, belong to the fall. A rupture may drive
+the front on before the force at the pushed edge falls, and may raise that force when it arrives
+there; the onset is then the maximum before the rupture. How far the patch extends is defined in
+:mod:`nucleation.simulation.patch`.
 """
 
 import dataclasses
@@ -16,6 +18,7 @@ from ..model.quantities import quantity
 from ..simulation.event import SLIPPING, DropWatch
 from ..types import Array
 
+RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
 
 
@@ -74,6 +77,7 @@ def find_onset(
     drop: float,
     fast: NDArray[np.bool_] | None = None,
     long_enough: NDArray[np.bool_] | None = None,
+    ruptures: NDArray[np.bool_] | None = None,
 ) -> Onset | None:
     """Find the first abrupt drop of the force in a run.
 
@@ -88,6 +92,8 @@ def find_onset(
         Whether the patch slips fast at these times; by default it always does.
     long_enough : ndarray of bool, shape (steps,), optional
         Whether the patch has been longer than a few elements by then; by default it always has.
+    ruptures : ndarray of bool, shape (steps,), optional
+        Whether the interface slips as fast as in a rupture; by default it never does.
 
     Returns
     -------
@@ -108,6 +114,9 @@ def find_onset(
     if end is None:
         return None
     start = _last_maximum(force, end)
+    if ruptures is not None and ruptures[start]:
+        (slower,) = np.nonzero(~ruptures[:start])
+        start = _last_maximum(force, int(slower[-1]))
     loading_rate = (force[start] - force[0]) / max(time[start] - time[0], 1e-300)
     during = slice(start, end + 1)
     falling = -np.diff(force[during]) / np.diff(time[during])

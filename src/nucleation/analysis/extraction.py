@@ -18,9 +18,9 @@ MEASURED = {
     "onset_time": Variable("s", "onset of the event", "t"),
     "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
     "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
-    "length": Variable("m", "critical nucleation length from the simulation", "L_c"),
-    "length_low": Variable("m", "smallest length over the definitions", "L_c"),
-    "length_high": Variable("m", "largest length over the definitions", "L_c"),
+    "length": Variable("m", "length at the drop", "L"),
+    "length_low": Variable("m", "smallest length over the definitions", "L"),
+    "length_high": Variable("m", "largest length over the definitions", "L"),
 }
 """Results of :func:`extract`."""
 

@@ -17,7 +17,7 @@ from ..simulation.event import WINDOW, Burst, PatchBursts, long_after
 from ..simulation.patch import patch_lengths
 from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
-from .definitions import ExtractionSettings, Onset, find_onset
+from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:
@@ -95,6 +95,7 @@ class Record:
             self.settings.drop,
             self._fast,
             self._long_enough,
+            self._ruptures,
         )
 
     @property
@@ -103,6 +104,13 @@ class Record:
         bursts = PatchBursts(self.parameters)
         steps = zip(self.step_time, self._largest_rate, self._fastest_position, strict=True)
         return np.array([bursts.at(*step) for step in steps])
+
+    @property
+    def _ruptures(self) -> NDArray[np.bool_] | None:
+        """Whether the interface ruptures at each step, where an edge is pushed."""
+        if self.parameters.loading.kind != "edge":
+            return None
+        return self._largest_rate > RUPTURE * self.velocity
 
     @property
     def _largest_rate(self) -> Array:

@@ -210,7 +210,7 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
         Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
         ``a/b < 0.1``.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`. The second body matters only to
+        The parameters of :class:`~nucleation.api.fault.Fault`. The second body matters only to
         the creeping patch and to the lengths of two materials, with keys that end with
         ``_two_materials``.
 

@@ -98,7 +98,7 @@ def specimen_fit(
         Range of the search, in SI units; by default all known values
         (:data:`nucleation.model.plausible.RANGES`).
     **fault
-        The other parameters of :class:`~nucleation.fault.Fault`, single numbers.
+        The other parameters of :class:`~nucleation.api.fault.Fault`, single numbers.
 
     Returns
     -------

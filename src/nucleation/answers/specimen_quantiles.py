@@ -73,7 +73,7 @@ def specimen_quantiles(
     progress : callable, optional
         Called with the number of finished draws and the total number.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`, some of them a
+        The parameters of :class:`~nucleation.api.fault.Fault`, some of them a
         :class:`~nucleation.answers.draws.Range`, its text, or samples of shape (n,).
 
     Returns

@@ -58,7 +58,7 @@ def length_statuses(
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`.
+        The parameters of :class:`~nucleation.api.fault.Fault`.
 
     Returns
     -------

@@ -92,7 +92,7 @@ def length_quantiles(
     progress : callable, optional
         Called with the number of finished draws and the total number.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`. A text such as
+        The parameters of :class:`~nucleation.api.fault.Fault`. A text such as
         ``"0.5um (0.3 to 1)"`` is a :class:`~nucleation.answers.draws.Range`: median, 5 and 95 %
         quantiles. Arrays of shape (n,) are joint samples.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..configuration.advice import changing_friction
-from ..configuration.single_run import merged, merged_parameters, single_run
+from ..configuration.single_run import merged, merged_parameters, single_run, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
@@ -93,8 +93,8 @@ def command(
       nucleation drop --height 2cm --perturbation normal_load --strength 1e-4
     """
     base, given = sourced(file, run_id, config, paper, options, ranges=True)
-    values = merged(base, USUAL | given if base is None else given)
-    if values["perturbation"] == "none":
+    declared = given.get("perturbation", USUAL["perturbation"] if base is None else "")
+    if declared == "none":
         raise ParameterError(
             "perturbation = 'none' is not allowed: without one the drop depends on round-off; it "
             f"must be one of {', '.join(KINDS[1:])}"
@@ -102,6 +102,8 @@ def command(
     uncertain = uncertain_of(given, samples)
     if uncertain:
         return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
+    fixed, blocks = without_half_spaces(base, USUAL | given if base is None else given)
+    values = merged(base, fixed)
     parameters = merged_parameters(None, values)
     fault = fault_of_run(parameters)
     critical = float(critical_length(**fault))
@@ -111,21 +113,27 @@ def command(
         code, status = STABLE, status_words.STABLE
         reason = reason_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
-        run = single_run(values, results="results")  # not used
+        # neither results nor a mesh are made
+        run = single_run(values, results="results", limits={"memory": 9e6})
         critical = run.critical_length
         # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
 
         try:
             found = expected_drop(run.parameters)
+            if blocks and blocks.doubt:
+                found = found._replace(doubt="; ".join(filter(None, (found.doubt, blocks.doubt))))
         except NoDrop as error:
             code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
             click.echo("\n".join(wrapped(f"Warning: {topic}: {text}", err=True)), err=True)
     system = system_of_run(parameters, base, given)
+    if blocks:
+        system.append(blocks.in_words())
     if as_json:
         known = {
             "system": system,
+            "half_spaces": blocks and blocks._asdict(),
             "status": status,
             "reason": reason,
             "theory": {"critical_length": critical, "plane": parameters.material.plane},

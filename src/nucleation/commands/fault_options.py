@@ -111,8 +111,8 @@ def fault_values(
     Returns
     -------
     values : dict
-        The parameters of :class:`~nucleation.fault.Fault`, with the friction law of `simulate` and
-        `drop`.
+        The parameters of :class:`~nucleation.api.fault.Fault`, with the friction law
+        of `simulate` and `drop`.
     papers : list of str
         The parameters that are not given and therefore the paper's, in a line.
 

@@ -69,11 +69,12 @@ def option(
     """
 
     def value_of(text: str) -> Any:
+        if means_half_space(key, text):
+            return math.inf
         try:
             value = read(key, text, entry)
         except ParameterError as error:
-            remark = remark_on_half_space(key, text, entry)
-            raise click.BadParameter(f"{error}{remark}") from None
+            raise click.BadParameter(str(error)) from None
         if isinstance(value, float):
             note_typed(value, text, entry.unit)
         return value
@@ -115,29 +116,10 @@ def _help(entry: Quantity, note: str) -> str:
     return "; ".join(parts)
 
 
-HALF_SPACE = (
-    "; a simulation and its drop are those of a block: one of 4 L_c in height and 30 L_c in length "
-    "has an L_s within 2 % of that of a half-space"
-)
-
-
-def remark_on_half_space(key: str, text: str, entry: Quantity) -> str:
-    """The block in place of a half-space, where a height must be finite.
-
-    Parameters
-    ----------
-    key, text : str
-        Name of the parameter, and the value that is refused.
-    entry : Quantity
-        Declaration of the parameter.
-
-    Returns
-    -------
-    str
-        Addition to a message; empty for other parameters and values.
-    """
-    is_height = key in ("height", "second_height") and math.isfinite(entry.high)
-    return HALF_SPACE if is_height and "inf" in text.lower() else ""
+def means_half_space(key: str, value: object) -> bool:
+    """Whether the value of a height, by its name in studies, is that of a half-space."""
+    text = str(value).strip().lower().removesuffix("m").strip()
+    return key in ("height", "second_height") and text in ("inf", ".inf", "infinity")
 
 
 def together(*options: Decorator) -> Decorator:

@@ -13,7 +13,7 @@ import numpy as np
 from ..answers.draws import Draws, with_default_unit
 from ..answers.specimen import SPECIMEN
 from ..configuration.installed import require
-from ..configuration.single_run import merged_parameters
+from ..configuration.single_run import merged_parameters, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity
@@ -246,8 +246,10 @@ def _system_lines(
     """The system in the middle of the picture, and the parameters that vary."""
     own = completed(given, base is not None or paper)
     defaults = USUAL if base is None else {}
-    parameters = merged_parameters(base, {**defaults, **own})
-    lines = system_of_run(parameters, base, own)
+    fixed, blocks = without_half_spaces(base, {**defaults, **own})
+    lines = system_of_run(merged_parameters(base, fixed), base, own)
+    if blocks:
+        lines.append(f"{blocks.in_words()} Each point has its own.")
     for axis in axes:
         units = "" if axis.units == "1" else f" {axis.units}"
         low, high = axis.values[0], axis.values[-1]

@@ -14,7 +14,7 @@ from ..configuration.advice import advise
 from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
-from ..configuration.single_run import STUDY, flat, merged, single_run
+from ..configuration.single_run import STUDY, flat, merged, single_run, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
@@ -79,7 +79,8 @@ def command(
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
     require_writable(output, force)
     base, given = sourced(file, run_id, config, paper, options)
-    values = merged(base, given)
+    fixed, blocks = without_half_spaces(base, given)
+    values = merged(base, fixed)
     if "seed" in given and values["perturbation"] == "none":
         raise ParameterError(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
@@ -92,6 +93,8 @@ def command(
         results=str(output.absolute().parent),
     )
     lines = system_of_run(run.parameters, base, given)
+    if blocks:
+        lines.append(blocks.in_words())
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)

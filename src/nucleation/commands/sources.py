@@ -1,5 +1,6 @@
 """The parameters of a command: from options, a file, a dataset, a configuration or the paper."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from ..model.quantities import ParameterError, check
 from ..model.synonyms import hint
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
-from .options import remark_on_half_space
+from .options import means_half_space
 from .unit_text import note_typed
 
 _SECOND_BODY = ("second_shear_modulus", "second_poisson_ratio", "second_height")
@@ -191,18 +192,16 @@ def _value_in_file(key: str, value: Any) -> Any:
     """One value of a file in SI units; the second body is a text, as in its option."""
     if key == "second_body":
         return str(value)
+    if means_half_space(key, value):
+        return math.inf
     entry = study_parameters()[key]
-    try:
-        if isinstance(value, str):
-            found = parse_range(key, value, entry)
-            if isinstance(found, float):
-                note_typed(found, value, entry.unit)
-            return found
+    if not isinstance(value, str):
         check(key, value, entry)
-    except ParameterError as error:
-        remark = remark_on_half_space(key, str(value), entry)
-        raise ParameterError(f"{error}{remark}") from None
-    return value
+        return value
+    found = parse_range(key, value, entry)
+    if isinstance(found, float):
+        note_typed(found, value, entry.unit)
+    return found
 
 
 def _with_second_body(given: dict[str, Any]) -> dict[str, Any]:

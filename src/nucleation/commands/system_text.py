@@ -51,34 +51,52 @@ def plane_in_words(plane: str) -> str:
 
 def _system_line(fault: FaultParameters, sought: str) -> str:
     """Bodies, far sides, loading and plane."""
-    names = ("shear_modulus", "poisson_ratio", "height", "far_side")
-    first = [getattr(fault, name) for name in names]
-    second = [getattr(fault, f"second_{name}") for name in names]
-    alike = first == second
-    if sought == "shear_modulus":
-        first[0] = math.nan
+    first, second = _body(fault, "", sought), _body(fault, "second_", "")
     if math.isinf(number(fault, "second_shear_modulus")):
-        bodies = f"{_body(*first)} on a rigid one"
-    elif alike:
-        bodies = f"two identical bodies, each {_body(*first)}"
+        bodies = f"{first} on a rigid one"
+    elif _body(fault, "", "") == second:
+        bodies = f"two identical bodies, each {first}"
     else:
-        bodies = f"{_body(*first)} on {_body(*second)}"
+        bodies = f"{first} on {second}"
+    if fault.has_zone:
+        bodies += f"; {_zone(fault)} beside the fault"
     return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
 
 
+def _zone(fault: FaultParameters) -> str:
+    """The zone of other stiffness in words."""
+    names = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
+    thickness, modulus, ratio = (float(number(fault, name)) for name in names)
+    material = _material(modulus, ratio, fault.plane)
+    return f"a zone of {in_unit(thickness, 'm')} {material} in each deformable body"
+
+
 def _body(
-    modulus: float,
-    ratio: float,
-    height: float,
-    far_side: str,
+    fault: FaultParameters,
+    prefix: str,
+    sought: str,
 ) -> str:
-    """One body in words; a shear modulus of NaN is the one to find."""
-    value = _SOUGHT if math.isnan(float(modulus)) else in_unit(modulus, "Pa")
-    material = f"(mu = {value}, nu = {float(ratio):.4g})"
-    if math.isinf(float(height)):
+    """The first body in words, or with the prefix ``second_`` the other one."""
+    names = ("shear_modulus", "poisson_ratio", "height")
+    modulus, ratio, height = (float(number(fault, prefix + name)) for name in names)
+    if sought == "shear_modulus":
+        modulus = math.nan
+    material = _material(modulus, ratio, fault.plane)
+    if math.isinf(height):
         return f"a half-space {material}"
+    far_side = getattr(fault, f"{prefix}far_side")
     side = _FAR_SIDES.get(far_side, far_side)
     return f"a layer {in_unit(height, 'm')} high with its far side {side} {material}"
+
+
+def _material(
+    modulus: float,
+    ratio: float,
+    plane: str,
+) -> str:
+    """Moduli in words; a shear modulus of NaN is the one to find, and antiplane shear has no nu."""
+    value = _SOUGHT if math.isnan(modulus) else in_unit(modulus, "Pa")
+    return f"(mu = {value})" if plane == ANTIPLANE else f"(mu = {value}, nu = {ratio:.4g})"
 
 
 def _friction_line(fault: FaultParameters, sought: str) -> str:

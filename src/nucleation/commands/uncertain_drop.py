@@ -12,7 +12,7 @@ import numpy as np
 
 from ..answers.draws import Draws, draw
 from ..configuration.samples import read_samples
-from ..configuration.single_run import merged, merged_parameters, single_run
+from ..configuration.single_run import merged, merged_parameters, single_run, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
@@ -112,8 +112,10 @@ def print_drop_quantiles(
     middle = {name: float(np.median(value)) for name, value in uncertain.items()}
     own = completed(fixed | middle, base is not None or paper)
     defaults = usual if base is None else {}
-    parameters = merged_parameters(base, {**defaults, **own})
-    system = system_of_run(parameters, base, own)
+    fixed, blocks = without_half_spaces(base, {**defaults, **own})
+    system = system_of_run(merged_parameters(base, fixed), base, own)
+    if blocks:
+        system.append(f"{blocks.in_words()} Each draw has its own.")
     if as_json:
         click.echo(to_json(_described(system, found, uncertain, invalid)))
     else:
@@ -240,12 +242,13 @@ def case_of(
         plain[name] = float(value) if isinstance(value, np.floating) else value
     own = completed(plain, complete)
     defaults = usual if base is None else {}
-    values = merged(base, {**defaults, **own})
+    fixed, _ = without_half_spaces(base, {**defaults, **own})
+    values = merged(base, fixed)
     parameters = merged_parameters(None, values)
     critical = float(critical_length(**fault_of_run(parameters)))
     if math.isnan(critical):
         return parameters  # for a stable fault the theory has no length of the block
-    return single_run(values, results="results").parameters
+    return single_run(values, results="results", limits={"memory": 9e6}).parameters
 
 
 def _described(

@@ -99,6 +99,10 @@ ROLES = {
         several=True,
         one_by_one=False,
     ),
+    "other_faults": _Role(
+        "faults that the expected drop was not fitted to, for `other_faults`",
+        one_by_one=False,
+    ),
     "weakening_patches": _Role(
         "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
         runs=(_REMOTE, _ZETA_VARIES),

@@ -16,6 +16,7 @@ from ..model.linearised import InterfaceState
 from ..model.quantities import Quantity, declarations
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
+from .roles import ROLES
 from .settings import FigureSettings, Limits, StudySettings
 from .study_names import RANGE, other_names, study_parameters
 
@@ -140,6 +141,8 @@ def _study() -> _Node:
     entry_of_runs = _mapping("a value, a list of values or a range for any parameter", varied)
 
     keys = {key: _value(entry) for key, entry in declarations(StudySettings).items()}
+    purposes = [f"{name}: {role.purpose}" for name, role in ROLES.items()]
+    keys["role"]["description"] += f". {'; '.join(purposes)}"
     keys["defaults"] = _mapping(
         "values for all runs of the study that do not give their own",
         single,

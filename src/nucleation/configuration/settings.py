@@ -19,7 +19,7 @@ class StudySettings(Checked):
         default="a set of simulations",
     )
     role: str = quantity(
-        "use in figures, tables and verdicts (docs/studies.md); own: it has its own",
+        "use in figures, tables and verdicts",
         choices=tuple(ROLES),
         default=OWN,
     )

@@ -62,7 +62,7 @@ def plot_length(over: str, **fault: Any) -> Figure:
         The parameter with several values in `fault`, such as ``"height"``. If there are many
         values, L_s is computed for some of them.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`.
+        The parameters of :class:`~nucleation.api.fault.Fault`.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def plot_spectrum(**fault: Any) -> Figure:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`, of a single unstable fault.
+        The parameters of :class:`~nucleation.api.fault.Fault`, of a single unstable fault.
 
     Returns
     -------

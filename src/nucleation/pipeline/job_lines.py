@@ -2,8 +2,10 @@
 
 import logging
 import time
+from collections.abc import Collection
+from enum import Enum
+from typing import Any
 
-from snakemake.settings.enums import Quietness
 from snakemake_interface_logger_plugins.common import LogEvent
 
 _NEEDLESS = (
@@ -20,8 +22,9 @@ class JobLines(logging.Filter):
     Errors, warnings and the table of jobs stay as they are.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, quietness: Enum) -> None:
         super().__init__()
+        self._quietness = quietness
         self._done = 0
         self._all = 0
 
@@ -48,19 +51,21 @@ class JobLines(logging.Filter):
         record.msg = f"{time.strftime('%H:%M:%S')} [{self._done}/{self._all}] {job}"
         # Snakemake's own form of such a record has several lines
         del facts["event"]
-        facts["quietness"] = Quietness.RULES
+        facts["quietness"] = self._quietness
 
 
-def shorten(logger: logging.Logger, quiet: set[Quietness]) -> None:
+def shorten(logger: logging.Logger, quiet: Collection[Enum]) -> None:
     """Print one line for each job, unless the reasons of jobs are asked for.
 
     Parameters
     ----------
     logger : logging.Logger
         Snakemake's.
-    quiet : set of Quietness
+    quiet : collection of Enum
         What Snakemake does not print.
     """
     is_short = any(isinstance(one, JobLines) for one in logger.filters)
-    if Quietness.REASON in quiet and not is_short:
-        logger.addFilter(JobLines())
+    reasons = [one for one in quiet if one.name == "REASON"]
+    if reasons and not is_short:
+        kinds: Any = type(reasons[0])
+        logger.addFilter(JobLines(kinds.RULES))

@@ -108,7 +108,7 @@ def shown(
     patch_tables : Path
         JSON of :func:`.patch_tables.files`.
     given : mapping, optional
-        The first fault on a rigid base, parameters as of :class:`~nucleation.fault.Fault`.
+        The first fault on a rigid base, parameters as of :class:`~nucleation.api.fault.Fault`.
         Without it the page reads the fault from its address, and writes it there.
 
     Returns

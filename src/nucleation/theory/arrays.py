@@ -46,7 +46,7 @@ def critical_length(**fault: Values) -> Any:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`.
+        The parameters of :class:`~nucleation.api.fault.Fault`.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def critical_mode(**fault: Values) -> CriticalMode:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`, with the `velocity`.
+        The parameters of :class:`~nucleation.api.fault.Fault`, with the `velocity`.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`, with the `velocity`.
+        The parameters of :class:`~nucleation.api.fault.Fault`, with the `velocity`.
 
     Returns
     -------
@@ -166,7 +166,7 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`; those of friction have no effect
+        The parameters of :class:`~nucleation.api.fault.Fault`; those of friction have no effect
         and are optional.
 
     Returns

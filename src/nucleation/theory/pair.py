@@ -74,6 +74,10 @@ class LayerPair(NamedTuple):
         """The pair with other heights and thicknesses (m), a function of the present ones."""
         return LayerPair(*(body and body.with_heights(heights) for body in self))
 
+    def with_zones_at_least(self, thickness: float) -> LayerPair:
+        """The pair with zones of at least a thickness (m), which resist long waves alike."""
+        return LayerPair(*(body and body.with_zone_at_least(thickness) for body in self))
+
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Stiffness of the pair in series, over :attr:`modulus`, at a wavenumber (1/m)."""
         upper, lower = (body and body.stiffness(wavenumber) for body in self)

@@ -239,6 +239,10 @@ class Layers(NamedTuple):
         """The height (m) alone, as there is no zone beside the interface."""
         return [self.height]
 
+    def with_zone_at_least(self, thickness: float) -> Layers:
+        """The same layers: they have no zone."""
+        return self
+
     @property
     def contrast(self) -> float:
         """1, as there is no other material."""

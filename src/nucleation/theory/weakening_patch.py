@@ -154,7 +154,7 @@ def weakening_patch_length(
     outside_a : array_like or DataArray, optional
         Direct effect of the surroundings; that of the patch by default.
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`; `a`, `zeta` and `b` are those of
+        The parameters of :class:`~nucleation.api.fault.Fault`; `a`, `zeta` and `b` are those of
         the patch, all others those of patch and surroundings.
 
     Returns

@@ -80,11 +80,12 @@ class Zone(NamedTuple):
         """The same with other thicknesses (m), a function of the present ones."""
         return Zone(self.layer.with_heights(heights), self.body.with_heights(heights))
 
-    def at_least(self, thickness: float) -> Zone:
-        """The zone, or a thicker one that resists long waves alike.
+    def with_zone_at_least(self, thickness: float) -> Zone:
+        """The body with its zone, or with one of a thickness (m) that resists long waves alike.
 
         A soft zone adds ``h (1/mu_zone - 1/mu)`` to the compliance, a stiff one ``h (mu_zone -
-        mu)`` to the resistance against stretching. The thicker zone adds as much.
+        mu)`` to the resistance against stretching. The thicker zone adds as much, and the body
+        becomes lower by as much as the zone becomes thicker.
         """
         layer = self.layer
         thick = np.maximum(layer.height, thickness)
@@ -93,7 +94,11 @@ class Zone(NamedTuple):
         stiff = 1.0 + share * (1.0 / self.ratio - 1.0)
         changed = self.body.shear_modulus * np.where(self.ratio > 1.0, soft, stiff)
         modulus = np.where(share < 1.0, changed, layer.shear_modulus)
-        return self._replace(layer=layer._replace(height=thick, shear_modulus=modulus))
+        added = np.minimum(thick - layer.height, 0.5 * self.body.height)
+        return Zone(
+            layer=layer._replace(height=thick, shear_modulus=modulus),
+            body=self.body._replace(height=self.body.height - added),
+        )
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness at a wavenumber (1/m), over the body's modulus."""

@@ -1,13 +1,22 @@
 """L_run by theory: the thin limit by an independent route, and what it must not depend on."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from nucleation.api import critical_length, runaway_length, stability_length
+from nucleation.api import (
+    Friction,
+    Geometry,
+    Parameters,
+    critical_length,
+    runaway_length,
+    stability_length,
+)
 from nucleation.theory.creep import runaway
+from nucleation.theory.creep.patches import Patches
 
 THIN = {
     "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "normal_stress": 1e6, "a": 0.0068,
@@ -100,6 +109,18 @@ def test_any_pair():
     found = runaway_length(**fault)
     assert np.isnan(found[0])
     assert found[1] > 1.2 * stability_length(**fault)[1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("evolution", ["aging", "slip"])
+def test_a_law_with_far_scales_has_constant_a_and_b(evolution):
+    law = Friction(law="dieterich_ruina", evolution=evolution, regularisation_slip_rate=1e-14)
+    friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0034)
+    parameters = Parameters(friction=friction, geometry=Geometry(height=0.02, length=4.0))
+    own = Patches.of(parameters)
+    constant = dataclasses.replace(own, law=None)
+    found = runaway.runaway_point(own, 1.0)
+    assert found == pytest.approx(runaway.runaway_point(constant, 1.0, evolution), rel=0.01)
 
 
 @pytest.mark.slow

@@ -34,7 +34,7 @@ def draw(table: xr.Dataset) -> Figure:
 
 def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     """L_s/L_c over zeta/a: the thin limit, and simulations by their height."""
-    curve = table["curve_length"]
+    curve = table["curve_stability"]
     axes.semilogx(
         table["curve_ratio"],
         curve,

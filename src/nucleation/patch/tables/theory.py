@@ -46,7 +46,7 @@ COLUMNS = {
 
 DRAWN = {
     "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
-    "curve_length": Variable("1", "L_s over L_c of a thin layer", "L_s/L_c"),
+    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
     "shown_beta": Variable("1", "friction times bimaterial contrast", "f beta"),
     "shown_x": Variable("1", "distance from the edge over L_s", "x/L_s"),
     "shown_rate": Variable("1", "slip rate of the creep over V", "v/V"),
@@ -95,7 +95,7 @@ def gather_theory(
     drawn = xr.Dataset(
         {
             "curve_ratio": ("curve", CURVE),
-            "curve_length": ("curve", length_ratios),
+            "curve_stability": ("curve", length_ratios),
             **_profiles(rows, by_name),
         }
     )

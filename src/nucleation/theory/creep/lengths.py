@@ -129,8 +129,8 @@ def stability_length(**fault: Values) -> Any:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`. Each fault has the friction law with its
-        own f, a, zeta and D.
+        The parameters of :class:`~nucleation.api.fault.Fault`. Each fault has the friction law with
+        its own f, a, zeta and D.
 
     Returns
     -------

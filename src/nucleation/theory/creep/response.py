@@ -115,7 +115,7 @@ def _slimness(
     one: Systems,
     length: float,
 ) -> float:
-    """Patch length (m) over the height of the lower of the layers."""
+    """Patch length (m) over the height of the lower of the bodies."""
     return length / min(float(body.height[0]) for body in one.pair.deformable)
 
 
@@ -176,8 +176,12 @@ def _resolved(
     number: int,
     even: bool,
 ) -> PatchResponse:
-    """The same of layers that are not slimmer than the tables reach."""
-    slim = _slimness(one, length)
+    """The same of layers that are not slimmer than the tables reach.
+
+    A slimmer zone beside the fault is replaced by a thicker one that resists long waves alike.
+    """
+    one = one._replace(pair=one.pair.with_zones_at_least(length / SLIMMEST))
+    slim = length / min(float(thickness[0]) for thickness in one.pair.thicknesses)
     reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
     modes = mirror_modes(number, reach, even)
     used = np.searchsorted(modes.kappa, CUT * slim)

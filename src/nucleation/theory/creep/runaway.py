@@ -12,11 +12,13 @@ A patch of fixed length in steady creep ``v_c(x)`` with the whole logarithmic la
 with the compression s over sigma0 and the stiffness of :mod:`.response`. It is integrated from a
 small perturbation of the state; L_run is the shortest L at which the slip rate grows without bound.
 In a thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor
-is 1 where the strain energy released by a patch equals the fracture energy of its front.
+is 1 where the strain energy released by a patch equals the fracture energy of its front. A friction
+law has its own a and b at each slip rate and state, if the patches are given with it.
 """
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +46,48 @@ RELATIVE_TOLERANCE = 1e-5  # of the integration, of the logarithms
 ABSOLUTE_TOLERANCE = 1e-6
 
 
+class _Slopes(NamedTuple):
+    """Friction's slopes at each place: df/dlog(v), df/dlog(phi), and dlog(phi)/dt over V/D."""
+
+    by_rate: Array | float
+    by_state: Array | float
+    aging: Array
+
+
+def _constant(
+    a: float,
+    zeta: float,
+    evolution: str,
+) -> Callable[[Array, Array], _Slopes]:
+    """The slopes for constant a and b, by v/V and log(phi V/D)."""
+    law = Friction(evolution=evolution, slip_distance=1.0)
+    evolve = law.evolution_law.growth
+
+    def slopes(v: Array, log_state: Array) -> _Slopes:
+        aging = evolve(v * np.exp(log_state)) * np.exp(-log_state)
+        return _Slopes(a, a + zeta, aging)
+
+    return slopes
+
+
+def _of_law(
+    law: Friction,
+    velocity: float,
+) -> Callable[[Array, Array], _Slopes]:
+    """The slopes of a friction law at V (m/s), by v/V and log(phi V/D)."""
+    memory = law.slip_distance / velocity
+    evolve = law.evolution_law.growth
+
+    def slopes(v: Array, log_state: Array) -> _Slopes:
+        rate = velocity * v
+        _, by_rate, by_state = law.coefficient_and_slopes(rate, log_state + math.log(memory))
+        state = np.exp(log_state)
+        aging = evolve(state * law.slip_speed(rate) / velocity) / state
+        return _Slopes(rate * by_rate, by_state, aging)
+
+    return slopes
+
+
 def runs_away(
     patches: Patches,
     length: float,
@@ -54,11 +98,11 @@ def runs_away(
     Parameters
     ----------
     patches : Patches
-        Of one fault with constant a and b.
+        Of one fault, with constant a and b or with its friction law.
     length : float
         Patch length (m).
     evolution : {"aging", "slip"}
-        Evolution of the state.
+        Evolution of the state, if a and b are constant; a law has its own.
 
     Returns
     -------
@@ -76,8 +120,11 @@ def runs_away(
     stiffness = response.coupled(friction)[:, 1:] @ response.modes.inverse
     stiffness = stiffness / creep.normal_stress[:, None]
     count = steady.size
-    law = Friction(evolution=evolution, slip_distance=1.0)
-    evolve = law.evolution_law.growth
+    log_state = -np.log(steady)
+    slopes_at = _constant(a, zeta, evolution)
+    if patches.law is not None:
+        slopes_at = _of_law(patches.law, patches.velocity)
+        log_state = -np.log(patches.law.slip_speed(patches.velocity * steady) / patches.velocity)
 
     def rates(
         _: float,
@@ -85,10 +132,10 @@ def runs_away(
     ) -> Array:
         """Rates of log(v) and log(phi)."""
         v = np.exp(logs[:count])
-        log_state = logs[count:]
-        aging = evolve(v * np.exp(log_state)) * np.exp(-log_state)
-        accelerating = (-stiffness @ (v - steady) - (a + zeta) * aging) / a
-        return np.concatenate([accelerating, aging])
+        slopes = slopes_at(v, logs[count:])
+        strengthening = slopes.by_state * slopes.aging
+        accelerating = (-stiffness @ (v - steady) - strengthening) / slopes.by_rate
+        return np.concatenate([accelerating, slopes.aging])
 
     def event(
         _: float,
@@ -97,7 +144,7 @@ def runs_away(
         return float(logs[:count].max() - math.log(FAST))
 
     event.terminal = True  # type: ignore[attr-defined]
-    start = np.concatenate([np.log(steady), -np.log(steady)])
+    start = np.concatenate([np.log(steady), log_state])
     place = np.cos(response.modes.theta)
     start[count:] += PERTURBATION * np.sin(np.pi * place)
     found = solve_ivp(
@@ -122,11 +169,11 @@ def runaway_point(
     Parameters
     ----------
     patches : Patches
-        Of the fault, with constant a and b.
+        Of the fault, with constant a and b or with its friction law.
     critical : float
         L_c (m) of the fault.
     evolution : {"aging", "slip"}
-        Evolution of the state.
+        Evolution of the state, if a and b are constant; a law has its own.
 
     Returns
     -------
@@ -164,8 +211,8 @@ def runaway_length(**fault: Values) -> Any:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.fault.Fault`; the patch is pushed at its edge, and a
-        and b are constant.
+        The parameters of :class:`~nucleation.api.fault.Fault`; the patch is pushed at its edge,
+        and a and b are constant.
 
     Returns
     -------

@@ -25,7 +25,7 @@ COLUMNS = {
     **some(LENGTHS, "id", "height", "n_x", "n_y", "onset_time"),
     "onset_time_freefem": Variable("s", "onset of the event, by FreeFem++", "t"),
     "length": LENGTHS["length"],
-    "length_freefem": Variable("m", "critical nucleation length, by FreeFem++", "L_c"),
+    "length_freefem": Variable("m", "length at the drop, by FreeFem++", "L"),
     "patch_length_rms": Variable("1", "relative difference of L(t), root mean square"),
     "patch_length_largest": Variable("1", "relative difference of L(t), largest"),
     "patch_length_elements": Variable("1", "largest difference of L(t) over the element's length"),

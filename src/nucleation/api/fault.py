@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from .answers.in_use import lengths_in_use
-from .model.friction.law import Friction
-from .model.own_fault import follows_from
-from .model.parameters import Parameters
-from .model.quantities import ParameterError, plain
-from .theory import arrays
-from .theory.fault import FaultParameters
-from .theory.of_runs import fault_of_run
-from .theory.stiffness import FAR_SIDES
-from .theory.values import ZONE, Values
+from ..answers.in_use import lengths_in_use
+from ..model.friction.law import Friction
+from ..model.own_fault import follows_from
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError, plain
+from ..theory import arrays
+from ..theory.fault import FaultParameters
+from ..theory.of_runs import fault_of_run
+from ..theory.stiffness import FAR_SIDES
+from ..theory.values import ZONE, Values
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .answers.specimen import Fit
-    from .patch.expected_drop import ExpectedDrop
+    from ..answers.specimen import Fit
+    from ..patch.expected_drop import ExpectedDrop
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -74,13 +74,13 @@ class Fault(FaultParameters):
 
     def stability_length(self) -> Any:
         """L_s (m), :func:`nucleation.api.stability_length`."""
-        from .theory.creep.lengths import stability_length
+        from ..theory.creep.lengths import stability_length
 
         return stability_length(**self)
 
     def runaway_length(self) -> Any:
         """L_run (m), :func:`nucleation.api.runaway_length`."""
-        from .theory.creep.runaway import runaway_length
+        from ..theory.creep.runaway import runaway_length
 
         return runaway_length(**self)
 
@@ -99,7 +99,7 @@ class Fault(FaultParameters):
         ndarray or DataArray
             Broadcast shape.
         """
-        from .theory.weakening_patch import weakening_patch_length
+        from ..theory.weakening_patch import weakening_patch_length
 
         return weakening_patch_length(outside_zeta=outside_zeta, outside_a=outside_a, **self)
 
@@ -109,7 +109,7 @@ class Fault(FaultParameters):
 
     def length_statuses(self, **options: Any) -> xr.Dataset:
         """All lengths with reasons, :func:`nucleation.api.length_statuses`."""
-        from .answers.status import length_statuses
+        from ..answers.status import length_statuses
 
         return length_statuses(**options, **self)
 
@@ -129,7 +129,7 @@ class Fault(FaultParameters):
         -------
         Fit
         """
-        from .answers.specimen import specimen_fit
+        from ..answers.specimen import specimen_fit
 
         others = {name: value for name, value in dict(self).items() if name != unknown}
         return specimen_fit(unknown, length, criterion, **others)
@@ -141,7 +141,8 @@ class Fault(FaultParameters):
         ----------
         **changes
             Other parameters by their names in studies, in SI units: ``n_x``, ``perturbation``,
-            ``block_length``, ... By default the block is 6 L_c long.
+            ``block_length``, ... By default the block is 6 L_c long. Half-spaces become blocks that
+            are 4 L_c high and 35 L_c long, which changes L_s by 2 % or less.
 
         Returns
         -------
@@ -152,10 +153,11 @@ class Fault(FaultParameters):
         ParameterError
             If the fault is an array, lacks V or f, or can't be simulated.
         """
-        from .configuration.single_run import merged, single_run
+        from ..configuration.single_run import merged, single_run, without_half_spaces
 
         given = self._by_study_names() | changes
-        return single_run(merged(None, given | follows_from(given))).parameters
+        fixed, _ = without_half_spaces(None, given | follows_from(given))
+        return single_run(merged(None, fixed)).parameters
 
     def expected_drop(self, **perturbation: Any) -> ExpectedDrop:
         """L_s, L_run and L under a perturbation, :func:`nucleation.api.expected_drop`.
@@ -170,7 +172,7 @@ class Fault(FaultParameters):
         -------
         ExpectedDrop
         """
-        from .patch.expected_drop import expected_drop
+        from ..patch.expected_drop import expected_drop
 
         usual = {"perturbation": "normal_load", "strength": 1e-4}
         return expected_drop(self.parameters(**usual | perturbation))
@@ -187,7 +189,7 @@ class Fault(FaultParameters):
         -------
         Dataset
         """
-        from .simulation.progress import simulate
+        from ..simulation.progress import simulate
 
         return simulate(self.parameters(**changes))
 

@@ -8,7 +8,7 @@
 array([2.51327412, 1.25663706])
 
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
-:class:`~nucleation.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
+:class:`~nucleation.api.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions; with a DataArray among the
 parameters the result is a DataArray. A length that does not exist is NaN, and ``length_statuses``
 has the reason: sliding is stable, the length exceeds the range of the search, or a formula is not
@@ -29,42 +29,42 @@ import importlib
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .answers.in_use import lengths_in_use
-from .configuration.installed import MissingExtra, require, require_own
-from .fault import Fault
-from .model.friction.law import Friction
-from .model.heterogeneity import Heterogeneity
-from .model.material import Material
-from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
-from .model.perturbation import Perturbation
-from .model.quantities import ParameterError
-from .model.recording import Recording
-from .model.second_body import SecondBody
-from .theory.arrays import (
+from ..answers.in_use import lengths_in_use
+from ..configuration.installed import MissingExtra, require, require_own
+from ..model.friction.law import Friction
+from ..model.heterogeneity import Heterogeneity
+from ..model.material import Material
+from ..model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from ..model.perturbation import Perturbation
+from ..model.quantities import ParameterError
+from ..model.recording import Recording
+from ..model.second_body import SecondBody
+from ..theory.arrays import (
     CriticalMode,
     critical_length,
     critical_mode,
     spectrum,
     transfer_functions,
 )
+from .fault import Fault
 
 if TYPE_CHECKING:
-    from .analysis.definitions import ExtractionSettings
-    from .analysis.extraction import extract
-    from .answers.specimen import specimen_fit
-    from .answers.specimen_quantiles import specimen_quantiles
-    from .answers.status import length_statuses
-    from .answers.uncertainty import length_quantiles
-    from .configuration.samples import read_samples
-    from .datasets.netcdf import read, write
-    from .figures.overview import film, plot_length, plot_run, plot_spectrum
-    from .patch.drop_quantiles import drop_quantiles
-    from .patch.expected_drop import NoDrop, expected_drop
-    from .simulation.progress import simulate
-    from .simulation.run import run
-    from .theory.creep.lengths import stability_length
-    from .theory.creep.runaway import runaway_length
-    from .theory.weakening_patch import weakening_patch_length
+    from ..analysis.definitions import ExtractionSettings
+    from ..analysis.extraction import extract
+    from ..answers.specimen import specimen_fit
+    from ..answers.specimen_quantiles import specimen_quantiles
+    from ..answers.status import length_statuses
+    from ..answers.uncertainty import length_quantiles
+    from ..configuration.samples import read_samples
+    from ..datasets.netcdf import read, write
+    from ..figures.overview import film, plot_length, plot_run, plot_spectrum
+    from ..patch.drop_quantiles import drop_quantiles
+    from ..patch.expected_drop import NoDrop, expected_drop
+    from ..simulation.progress import simulate
+    from ..simulation.run import run
+    from ..theory.creep.lengths import stability_length
+    from ..theory.creep.runaway import runaway_length
+    from ..theory.weakening_patch import weakening_patch_length
 
 __all__ = [
     "CriticalMode",
@@ -113,22 +113,22 @@ __all__ = [
 require_own()
 
 _LATER = {
-    ".analysis.definitions": ("ExtractionSettings",),
-    ".analysis.extraction": ("extract",),
-    ".simulation.progress": ("simulate",),
-    ".configuration.samples": ("read_samples",),
-    ".datasets.netcdf": ("read", "write"),
-    ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
-    ".patch.drop_quantiles": ("drop_quantiles",),
-    ".patch.expected_drop": ("NoDrop", "expected_drop"),
-    ".simulation.run": ("run",),
-    ".theory.creep.lengths": ("stability_length",),
-    ".theory.creep.runaway": ("runaway_length",),
-    ".theory.weakening_patch": ("weakening_patch_length",),
-    ".answers.specimen": ("specimen_fit",),
-    ".answers.specimen_quantiles": ("specimen_quantiles",),
-    ".answers.status": ("length_statuses",),
-    ".answers.uncertainty": ("length_quantiles",),
+    "nucleation.analysis.definitions": ("ExtractionSettings",),
+    "nucleation.analysis.extraction": ("extract",),
+    "nucleation.simulation.progress": ("simulate",),
+    "nucleation.configuration.samples": ("read_samples",),
+    "nucleation.datasets.netcdf": ("read", "write"),
+    "nucleation.figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
+    "nucleation.patch.drop_quantiles": ("drop_quantiles",),
+    "nucleation.patch.expected_drop": ("NoDrop", "expected_drop"),
+    "nucleation.simulation.run": ("run",),
+    "nucleation.theory.creep.lengths": ("stability_length",),
+    "nucleation.theory.creep.runaway": ("runaway_length",),
+    "nucleation.theory.weakening_patch": ("weakening_patch_length",),
+    "nucleation.answers.specimen": ("specimen_fit",),
+    "nucleation.answers.specimen_quantiles": ("specimen_quantiles",),
+    "nucleation.answers.status": ("length_statuses",),
+    "nucleation.answers.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
@@ -147,7 +147,7 @@ def __getattr__(name: str) -> Any:
             require(extra)
     except MissingExtra as missing:
         return _without_extra(name, str(missing))
-    return getattr(importlib.import_module(_MODULES[name], __package__), name)
+    return getattr(importlib.import_module(_MODULES[name]), name)
 
 
 def _without_extra(name: str, message: str) -> Callable[..., Any]:
