@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..theory import arrays
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from ..theory.stiffness import FAR_SIDES
-from ..theory.values import ZONE, Values
+from ..theory.values import OF_THEORY, ZONE, Values
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,6 +56,34 @@ class Fault(FaultParameters):
         0.328
         """
         return cls(**fault_of_run(parameters))
+
+    @classmethod
+    def from_file(cls, path: Path | str) -> Self:
+        """The fault in a file of parameters.
+
+        Parameters
+        ----------
+        path : Path or str
+            YAML or JSON, by the names of the commands' options, with values in SI units or with
+            units. Without ``second_body`` the bodies are alike.
+
+        Returns
+        -------
+        Fault
+            With the friction law of `nucleation drop` and `simulate`, if its constants are known.
+
+        Raises
+        ------
+        ParameterError
+            If a name or a value is wrong, or a parameter is missing.
+        """
+        from ..configuration.given_fault import fault_from
+        from ..configuration.parameter_files import read_parameters, with_second_body
+
+        given = {"second_body": "deformable"} | with_second_body(read_parameters(Path(path)))
+        of_theory = {name: given.pop(name) for name in OF_THEORY if name in given}
+        completed = given | follows_from(given)
+        return cls(**fault_from(completed), **of_theory)
 
     def critical_length(self) -> Any:
         """L_c (m), :func:`nucleation.api.critical_length`."""
@@ -211,10 +240,10 @@ class Fault(FaultParameters):
                 f"side of a simulated block is {needed}"
             )
         found["second_body"] = "deformable"
-        if math.isinf(found["second_shear_modulus"]):
+        if math.isinf(found.get("second_shear_modulus", 0.0)):
             found["second_body"] = "rigid"
             found = {name: x for name, x in found.items() if not name.startswith(_SECOND)}
-        elif found["second_far_side"] == "traction":
+        elif found.get("second_far_side") == "traction":
             found["second_far_side"] = "free"
         law = found.pop("friction_law", None)
         if law is not None:

@@ -1,22 +1,17 @@
 """Options for the parameters of a fault of the linear theory, and the fault that they define."""
 
-import contextlib
 import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..answers.draws import Range, parse_range
+from ..answers.draws import parse_range
+from ..configuration.given_fault import IN_STUDIES, fault_from, sets_law
 from ..configuration.single_run import merged_parameters
-from ..model.friction.constants import CONSTANTS
-from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS, law_declarations
 from ..model.parameters import names
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, required
-from ..theory.of_runs import fault_of_run
 from ..theory.values import OF_THEORY
 from .options import (
     Decorator,
@@ -41,13 +36,6 @@ _NOTES = {
     "plane": "strain if left out",
 }
 """Additions to the help of options."""
-
-_LAW_IN_STUDIES = {names().short(f"friction.{name}") for name in law_declarations()}
-_FRICTION = {"velocity", "evolution", *CONSTANTS, *_LAW_IN_STUDIES}
-"""Names in studies of the parameters of friction laws, and of their constants at V."""
-
-IN_STUDIES = tuple(name for name in QUANTITIES if name not in OF_THEORY)
-"""The parameters of a fault that simulations have too, under the same names."""
 
 _SCALES = (
     "regularisation_slip_rate",
@@ -130,16 +118,11 @@ def fault_values(
         of_theory["second_far_side"] = own.pop("second_far_side")
     base, given = sourced(file, run_id, config, paper, own, ranges)
 
-    if base or paper or _sets_law(given):
-        parameters = merged_parameters(base, given)
-        values = fault_of_run(parameters)
-        papers = [] if base else papers_lines(parameters.friction, given)
-    else:
-        values = _of_study(given)
-        law = _law_of(values, given)
-        if law is not None and values.get("loading", "edge") == "edge":
-            values["friction_law"] = law
-        papers = []
+    of_theory |= {name: given.pop(name) for name in OF_THEORY if name in given}
+    values = fault_from(given, base, paper)
+    papers = []
+    if not base and (paper or sets_law(given)):
+        papers = papers_lines(merged_parameters(None, given).friction, given)
     values |= of_theory
 
     for name in required(values.get("plane", "strain")):
@@ -149,32 +132,3 @@ def fault_values(
                 "other parameters from the paper by --paper"
             )
     return values, papers
-
-
-def _sets_law(given: Mapping[str, Any]) -> bool:
-    """Whether parameters of a friction law are given that a, b and f would determine."""
-    return any(given.keys() & Friction(law=law).set_by_expansion for law in LAWS)
-
-
-def _law_of(values: Mapping[str, Any], given: Mapping[str, Any]) -> Friction | None:
-    """The friction law of the user's own fault, if its constants are known."""
-    for name in ("velocity", "friction", "a", "slip_distance"):
-        value = values.get(name)
-        if not isinstance(value, float) or isinstance(value, Range):
-            return None
-    of_friction = {name: value for name, value in given.items() if name in _FRICTION}
-    with contextlib.suppress(ParameterError):
-        return merged_parameters(None, of_friction).friction
-    return None
-
-
-def _of_study(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The parameters of a fault, from values by their names in studies."""
-    found = {name: given[name] for name in IN_STUDIES if name in given}
-    if "zeta_over_a" in given and "a" in found:
-        if {"zeta", "b"} & found.keys():
-            raise ParameterError("zeta_over_a is not allowed together with zeta or b")
-        found["zeta"] = given["zeta_over_a"] * found["a"]
-    if given["second_body"] == "rigid":
-        found["second_shear_modulus"] = math.inf
-    return found

@@ -10,6 +10,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from ..answers.draws import parse_range
+from ..configuration.parameter_files import means_half_space
 from ..configuration.single_run import flat
 from ..configuration.study_names import study_parameters
 from ..model.friction.law import Friction
@@ -114,12 +115,6 @@ def _help(entry: Quantity, note: str) -> str:
     if note:
         parts.append(note)
     return "; ".join(parts)
-
-
-def means_half_space(key: str, value: object) -> bool:
-    """Whether the value of a height, by its name in studies, is that of a half-space."""
-    text = str(value).strip().lower().removesuffix("m").strip()
-    return key in ("height", "second_height") and text in ("inf", ".inf", "infinity")
 
 
 def together(*options: Decorator) -> Decorator:

@@ -13,6 +13,7 @@ import numpy as np
 from ..answers.draws import Draws, with_default_unit
 from ..answers.specimen import SPECIMEN
 from ..configuration.installed import require
+from ..configuration.parameter_files import name_in_studies
 from ..configuration.single_run import merged_parameters, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
@@ -25,7 +26,7 @@ from . import DONE, EXIT_CODES, STABLE
 from .drop import COUNTING, USUAL
 from .options import option, parameter_options, source_options
 from .progress import Progress
-from .sources import name_in_studies, sourced
+from .sources import keys_of_command, sourced
 from .system_text import system_of_run
 from .text import require_writable, to_json, wrapped
 from .uncertain_drop import case_of, cases_of, completed, draw_in_studies, uncertain_of
@@ -174,7 +175,7 @@ def _axis(
     parts = _OVER.fullmatch(text)
     if parts is None:
         raise ParameterError(f"--over = {text!r} is not allowed: it must be NAME=LOW:HIGH")
-    name = name_in_studies(parts[1].replace("-", "_"))
+    name = name_in_studies(parts[1].replace("-", "_"), keys_of_command())
     entry = study_parameters()[name]
     if entry.worded or entry.kind == "int" or name not in COUNTING:
         raise ParameterError(f"--over = {text!r} is not allowed: {name} has no range to draw over")

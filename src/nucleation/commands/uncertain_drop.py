@@ -11,6 +11,7 @@ import click
 import numpy as np
 
 from ..answers.draws import Draws, draw
+from ..configuration.given_fault import IN_STUDIES
 from ..configuration.samples import read_samples
 from ..configuration.single_run import merged, merged_parameters, single_run, without_half_spaces
 from ..configuration.study_names import study_parameters
@@ -20,7 +21,6 @@ from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length
 from ..theory.of_runs import fault_of_run
 from . import DONE, STABLE
-from .fault_options import IN_STUDIES
 from .progress import Progress
 from .system_text import system_of_run
 from .text import table, to_json, wrapped

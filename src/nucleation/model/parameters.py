@@ -310,9 +310,8 @@ ALIASES = {
     "height": "geometry.height",
     "n_y": "mesh.n_y",
     "grading": "mesh.grading",
-    **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
     "second_bottom": "second_body.far_side",
-    "second_far_side": "second_body.far_side",
+    **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
     "second_body": "second_body.kind",
 }
 """Short names; of several for one parameter the last is the standard one.

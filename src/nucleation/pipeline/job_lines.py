@@ -16,7 +16,7 @@ _NEEDLESS = (
 """Beginnings of lines without news."""
 
 
-class JobLines(logging.Filter):
+class _JobLines(logging.Filter):
     """Prints a job as it starts: the time, how many jobs are done, what it makes, its rule.
 
     Errors, warnings and the table of jobs stay as they are.
@@ -64,8 +64,8 @@ def shorten(logger: logging.Logger, quiet: Collection[Enum]) -> None:
     quiet : collection of Enum
         What Snakemake does not print.
     """
-    is_short = any(isinstance(one, JobLines) for one in logger.filters)
+    is_short = any(isinstance(one, _JobLines) for one in logger.filters)
     reasons = [one for one in quiet if one.name == "REASON"]
     if reasons and not is_short:
         kinds: Any = type(reasons[0])
-        logger.addFilter(JobLines(kinds.RULES))
+        logger.addFilter(_JobLines(kinds.RULES))

@@ -29,7 +29,7 @@ SPACING = 2.0  # of q, in which Bessel functions are integrated by GAUSS points
 GAUSS = 12
 
 
-class PatchBasis(NamedTuple):
+class _PatchBasis(NamedTuple):
     """Legendre polynomials on a patch and the weights of the integral over q."""
 
     wavenumber: Array  # q, (points,)
@@ -58,7 +58,7 @@ class PatchBasis(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def patch_basis(number: int) -> PatchBasis:
+def patch_basis(number: int) -> _PatchBasis:
     """The basis of a number of polynomials."""
     octaves = [_octave(number, power) for power in range(*OCTAVES)]
     wavenumber = np.concatenate([points for points, _ in octaves])
@@ -73,7 +73,7 @@ def patch_basis(number: int) -> PatchBasis:
     # i^(n - m) is real where n - m is even, and i times a real number where it is odd
     even = np.where(power % 2 == 0, (-1.0) ** (power // 2), 0.0)
     odd = np.where(power % 2 == 1, (-1.0) ** (power // 2), 0.0)
-    return PatchBasis(
+    return _PatchBasis(
         wavenumber,
         weights * even.ravel(),
         weights * odd.ravel(),

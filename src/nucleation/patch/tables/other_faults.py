@@ -32,7 +32,7 @@ SIMULATED = {
     "length": LENGTHS["length"],  # the mean of the realisations
     "length_least": Variable("m", "least length at the drop of a realisation", "L"),
     "length_largest": Variable("m", "largest length at the drop of a realisation", "L"),
-    "reached_length": Variable("m", "largest patch length of a realisation, at its end", "L(t)"),
+    "reached_length": LENGTHS["reached_length"],  # the largest of the realisations
     "inside": Variable("1", "number of realisations in the expected range"),
 }
 

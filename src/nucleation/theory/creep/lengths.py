@@ -41,7 +41,7 @@ PRECISION = 1e-9  # relative, of L_s for a given number of modes
 STEP = 1e-3  # of log L, in the derivative of the growth rate
 
 
-class StabilityPoint(NamedTuple):
+class _StabilityPoint(NamedTuple):
     """Where the creeping patch turns unstable; V is the slip rate of its fastest place."""
 
     length: float  # L_s (m)
@@ -53,7 +53,7 @@ class StabilityPoint(NamedTuple):
 def stability_point(
     patches: Patches,
     critical: float,
-) -> StabilityPoint:
+) -> _StabilityPoint:
     """L_s of one fault.
 
     Parameters
@@ -65,7 +65,7 @@ def stability_point(
 
     Returns
     -------
-    StabilityPoint
+    _StabilityPoint
         L_s, its mode and its error.
 
     Raises
@@ -101,7 +101,7 @@ def stability_point(
 def _point(
     patches: Patches,
     length: float,
-) -> StabilityPoint:
+) -> _StabilityPoint:
     """The pair of modes that begins to grow at a length (m)."""
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]
@@ -112,7 +112,7 @@ def _point(
     with_fewer_modes = patches.rate_near(length, rate, 3 * patches.number // 4).real
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
     error += extrapolation_error(patches.one, length)
-    return StabilityPoint(length, rate.imag, slope, error)
+    return _StabilityPoint(length, rate.imag, slope, error)
 
 
 def _guess(patches: Patches) -> float:

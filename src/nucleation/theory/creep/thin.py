@@ -24,7 +24,7 @@ LOWEST = 1e-3  # angular frequency over V/D at which the search begins
 PRECISION = 1e-12  # relative, of the frequency
 
 
-class ThinLimit(NamedTuple):
+class _ThinLimit(NamedTuple):
     """The patch of a thin layer where it turns unstable."""
 
     length_ratio: float  # L_s over L_c of Eq. (11)
@@ -60,7 +60,7 @@ def _longest_wave(
 def thin_limit(
     zeta_over_a: float,
     degree: int = DEGREE,
-) -> ThinLimit:
+) -> _ThinLimit:
     """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
 
     Parameters
@@ -72,7 +72,7 @@ def thin_limit(
 
     Returns
     -------
-    ThinLimit
+    _ThinLimit
         L_s over L_c, and the frequency of its mode over V/D.
 
     Raises
@@ -92,4 +92,4 @@ def thin_limit(
             high = middle
     found = _longest_wave(zeta_over_a, high, degree)
     ratio = 1.0 / (2.0 * np.pi * np.sqrt(found.real))
-    return ThinLimit(float(ratio), high)
+    return _ThinLimit(float(ratio), high)
