@@ -90,7 +90,7 @@ def test_both_solvers_agree_on_the_block(pair):
     assert np.abs(edges[1] - edges[0]).max() < dx
     assert edges[0][-1] > 10.0 * dx
     own, theirs = pair
-    stresses = dict.fromkeys(("shear_stress", "normal_stress"), 0.01)
+    stresses = dict.fromkeys(("shear_stress", "sigma_yy"), 0.01)
     for name, tolerance in ({"slip_rate": 0.03, "slip": 0.02, "state": 0.03} | stresses).items():
         first, second = at_end(own, name)[2:9], at_end(theirs, name)[2:9]
         np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
@@ -100,7 +100,7 @@ def test_both_solvers_agree_on_the_block(pair):
 def has_friction_of(record, friction):
     """Whether shear over normal stress is a friction law of this project at every node."""
     last = record.isel(time=-1)
-    found = -last["shear_stress"] / last["normal_stress"]
+    found = -last["shear_stress"] / last["sigma_yy"]
     coefficient = friction.coefficient(last["slip_rate"], last["state"])
     return np.allclose(found, coefficient, rtol=1e-6, atol=1e-9)
 
@@ -122,7 +122,7 @@ def test_every_parameter_reaches_the_other_solver(tmp_path):
     assert at_end(theirs, "state")[0] == pytest.approx(changed.memory_time, rel=1e-3)  # D/V
     ahead = slice(40, 70)  # nothing happens there
     assert at_end(theirs, "state")[ahead] == pytest.approx(3.5, rel=0.01)  # it ages
-    assert at_end(theirs, "normal_stress")[ahead] == pytest.approx(-8e5, rel=1e-3)
+    assert at_end(theirs, "sigma_yy")[ahead] == pytest.approx(-8e5, rel=1e-3)
 
 
 SHAKEN = PARAMETERS.replaced({"n_x": 80, "n_y": 4, "end_time": 0.4})
@@ -181,8 +181,8 @@ def test_both_solvers_agree_on_a_pair(tmp_path, loading, bottom, rms):
     )
     own, theirs = simulate(parameters), solved_by_freefem(tmp_path, parameters)
     assert rms_of(difference_of_forces((own, theirs), np.linspace(0.2, end, 100))) < rms
-    for name, tolerance in {"slip_rate": 0.1, "slip": 0.1, "normal_stress": 0.04}.items():
-        if loading == "edge" or name == "normal_stress":
+    for name, tolerance in {"slip_rate": 0.1, "slip": 0.1, "sigma_yy": 0.04}.items():
+        if loading == "edge" or name == "sigma_yy":
             first, second = at_end(own, name)[4:10], at_end(theirs, name)[4:10]
             np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
     assert has_friction_of(theirs, parameters.friction)

@@ -98,7 +98,7 @@ def table(
             lines += wrapped(row)
             continue
         parts = [
-            textwrap.wrap(cell, width, break_on_hyphens=False) or [""]
+            textwrap.wrap(cell, width, break_long_words=False, break_on_hyphens=False) or [""]
             for cell, width in zip(row, widths, strict=True)
         ]
         for line in zip_longest(*parts, fillvalue=""):
