@@ -90,6 +90,7 @@ def table(
     -------
     list of str
     """
+    rows = [row if isinstance(row, str) else [with_addresses(cell) for cell in row] for row in rows]
     cells = [row for row in rows if not isinstance(row, str)]
     widths = _column_widths(cells)
     lines = []
