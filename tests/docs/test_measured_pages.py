@@ -3,13 +3,11 @@
 Their rows, to copy: ``PYTHONPATH=src:tests python tests/docs/test_measured_pages.py``.
 """
 
-import re
-from fnmatch import fnmatch
-
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from docs.prose import says, span
 from docs.samples import DOCS, ROOT
 
 from nucleation.answers.finite_patch import loaded_patch_factor
@@ -19,7 +17,6 @@ from nucleation.patch.tables.pairs import over_realisations
 from nucleation.theory.arrays import critical_length
 
 RESULTS = (DOCS / "results.md").read_text(encoding="utf-8")
-CONTRASTS = (-0.38, -0.2, 0.0, 0.2, 0.38)
 
 
 def reference(name):
@@ -99,25 +96,22 @@ def digit(value):
     return "" if np.isnan(value) else f"{value:.0e}".replace("e-0", "e-")
 
 
-def sensitivity_rows():
-    """One row for each variation that changes anything: L, L over L_c and onset, by height."""
-    changes = ["length_change", "ratio_change", "onset_change"]
-    runs = reference("sensitivity")
-    table = runs.pivot_table(index="variation", columns="height", values=changes, dropna=False)
-    for variation in runs["variation"].drop_duplicates():
-        own = 100.0 * table.loc[variation]
-        heights = own[changes[0]].index
-        cells = [[signed(own[name, height]) for name in changes] for height in heights]
-        moved = {cell for each in cells for cell in each} != {"0"}
-        if variation != "base" and moved:
-            yield line(f"`{variation}`", *map(", ".join, cells))
-
-
-def signed(value):
-    """A change in print, empty if there is none; no sign for what rounds to zero."""
-    if np.isnan(value):
-        return ""
-    return f"{value:+.1f}" if round(value, 1) else "0"
+def test_effects_of_parameters():
+    """The least and the largest changes (%) in sentences of results.md."""
+    table = reference("sensitivity").set_index("variation")
+    percent = 100.0 * table[["length_change", "ratio_change"]]
+    scales = percent[table.index.str.match(r"(D|sigma0) x (0.5|2)$")]
+    assert len(scales) == 8
+    length, ratio = scales["length_change"], scales["ratio_change"]
+    velocity = percent[table.index.str.match(r"V x ")]["length_change"].abs().max()
+    thin, thick = percent.loc["tau0 = 100000 Pa", "length_change"]
+    says(
+        "results.md",
+        rf"$D$ or $\sigma_0$ changes $L$ by {length.min():.0f} to {length.max():+.0f} %, "
+        f"but $L/L_c$ by {ratio.min():.0f} to {ratio.max():+.0f} %",
+        f"half or twice $V$ changes $L$ by {velocity:.1f} % or less",
+        f"makes $L$ {thin:.1f} % ($H = 0.02$ m) and {thick:.1f} % (0.1 m) longer",
+    )
 
 
 def test_all_declared_runs_are_refined_in_every_way():
@@ -130,37 +124,18 @@ def test_all_declared_runs_are_refined_in_every_way():
 # ---- docs/creeping_patch.md
 
 
-def percent(value, digits=2):
-    return f"{100.0 * value:+.{digits}f} %"
-
-
-def value_rows():
-    """L_s of each fault, what the paper's mesh changes, and what it is over the theory's length."""
-    both = reference("patch_stability").set_index(["evolution", "height", "initial_state"])
-    paper, declared = (both[both["study"] == name] for name in ("paper", "converged"))
-    for fault, row in paper.iterrows():
-        fine = declared.loc[fault]
-        change = percent(row["stability_length"] / fine["stability_length"] - 1.0, 1)
-        yield line(
-            fault[0], f"{fault[1]:g}", f"{fault[2]:g}", f"{fine['stability_length']:.4f}",
-            change.removesuffix(" %"), f"{fine['stability_ratio']:.3f}",
-            f"{fine['stability_frequency']:.1f}",
-        )  # fmt: skip
-
-
-def error_rows():
-    """What refinement of the declared run, and the paper's mesh, change of L_s."""
-    table = reference("patch_convergence")
-    base = table.query("study == 'converged'").iloc[0]
-    paper = reference("patch_stability").query(
-        "study == 'paper' and evolution == 'aging' and initial_state == 1"
+def test_the_measured_stability_length():
+    """Its range, what finer runs and the paper's mesh change, and where the force drops."""
+    both = reference("patch_stability")
+    declared = both[both["study"] == "converged"]["stability_ratio"]
+    changes = both[both["study"] == "paper"]["stability_change"].abs().max()
+    finer = reference("patch_convergence")["stability_change"].abs().max()
+    says(
+        "creeping_patch.md",
+        f"**$L_s$ is {span(declared)} of $L_c$**",
+        f"tolerances change $L_s$ by {100 * finer:.1f} % or less, and the paper's mesh by "
+        f"{100 * changes:.1f} % or less",
     )
-    for height, rows in table.query("study == 'patch_convergence'").groupby("height"):
-        finer = [rows["n_x"] > base["n_x"], rows["n_y"] > base["n_y"]]
-        finer.append(rows["tolerance"] < base["tolerance"])
-        changes = [percent(rows[chosen]["stability_change"].iloc[0]) for chosen in finer]
-        coarse = paper[paper["height"] == height]["stability_change"].iloc[0]
-        yield line(f"{height:g}", *changes, percent(coarse, 1))
 
 
 # ---- docs/drop.md, loadings.md and creeping_patch.md
@@ -193,18 +168,6 @@ def literature(length, ratio, late=True):
     table = reference("literature").dropna(subset=["difference"])
     same = (table["name"] == LITERATURE_ROWS[length]) & np.isclose(table["a_over_b"], ratio)
     return table[same & (np.isclose(table["read_at"], 1e3) if late else True)]
-
-
-def test_lengths_of_the_literature_are_those_of_the_reference():
-    """Of each a/b the first run is in the table."""
-    page = (DOCS / "loadings.md").read_text(encoding="utf-8")
-    section = page.partition("## The literature's lengths")[2].partition("## ")[0]
-    rows = re.findall(r"^\| ([a-z][^|]+) \| (0\.\d+) \| ([\d. |]+) \|$", section, re.MULTILINE)
-    assert len(rows) == 13
-    for length, ratio, values in rows:
-        same = literature(length, float(ratio), late=False)
-        first = same[same["id"] == same["id"].iloc[0]]["difference"] + 1.0
-        assert [f"{value:.2f}" for value in first] == values.split(" | "), (length, ratio)
 
 
 def test_numbers_about_the_literature_s_lengths_are_those_of_the_reference():
@@ -295,61 +258,19 @@ def patch_theory_rows():
         yield line(words, len(rows), *cells)
 
 
-FAR_FAULTS = {
-    r"$\zeta/a$ = 0.3, quiet, $H$ = 0.01 and 0.1 m": ["aging-H0.01*a0.3", "aging-H0.1*a0.3"],
-    r"$\zeta/a$ = 0.5, $H$ = 0.01 and 0.1 m": ["aging-H0.01-*1-*a0.5", "aging-H0.1-*1-*a0.5"],
-    r"$\zeta/a$ = 1, $H$ = 0.002, 0.01, 0.1, 1 m": [
-        f"aging-H{height}-phi1-*a1" for height in ("0.002", "0.01", "0.1", "1")
-    ],
-    r"$\zeta/a$ = 2.29, $H$ = 0.002, 0.01, 0.1, 1 m": [
-        f"aging-H{height}-phi1-*a2.2883" for height in ("0.002", "0.01", "0.1", "1")
-    ],
-    r"$\zeta/a$ = 10, $H$ = 0.01 and 0.1 m": ["aging-H0.01-*a10", "aging-H0.1-*a10"],
-    r"Dieterich-Ruina, $\zeta/a$ = 0.5, 1, 2.29, 10": [
-        f"*dieterich_ruina-*a{weakening}" for weakening in ("0.5", "1", "2.2883", "10")
-    ],
-    r"slip law, $\zeta/a$ = 0.5, 1, 2.29, 10": [
-        f"slip-*a{weakening}" for weakening in ("0.5", "1", "2.2883", "10")
-    ],
-    r"$v_*$ = 1e-6 m/s = $V$/10, $\zeta/a$ = 1, 2.29": ["*scale1e-6-*a1", "*scale1e-6-*a2.2883"],
-    r"$v_*$ = 1e-10 m/s, $\zeta/a$ = 1, 2.29": ["*scale1e-10-*a1", "*scale1e-10-*a2.2883"],
-    r"$V$ = 1e-6 and 1e-4 m/s (10 and 1000 $v_*$), $\zeta/a$ = 2.29": [
-        "*velocity1e-6*",
-        "*velocity0.0001*",
-    ],
-}
-"""Rows of the table of faults far from the paper's, and the runs of the study in each."""
-
-
-def far_fault_rows():
-    """One row for each group: simulated L_s/L_c, errors of both theories."""
-    table = patch_theory_errors()
-    table["ratio"] = table["stability_length"] / table["critical_length"]
-    names = table["id"].str.removeprefix("patch_theory-")
-    for words, patterns in FAR_FAULTS.items():
-        found = [np.flatnonzero([fnmatch(name, p) for name in names]) for p in patterns]
-        assert [rows.size for rows in found] == [1] * len(patterns), words
-        own = table.iloc[np.concatenate(found)]
-        errors = [", ".join(own[name].map("{:+.1f}".format)) + " %" for name in ("front", "creep")]
-        yield line(words, ", ".join(own["ratio"].map("{:.3f}".format)), *errors)
-
-
-def weakening_rows():
-    """One row for each friction of patch and surroundings: widths and largest slip rates."""
+def test_weakening_patches_creep_below_their_critical_width():
     table = reference("weakening_patches").query("outcome != 'theory'")
-    table["strengthening"] = table["strengthening"].round(2)
-    table["zeta_over_a"] = table["zeta_over_a"].round(1)
-    for (weakening, strengthening), own in table.groupby(["zeta_over_a", "strengthening"]):
-        assert (own["outcome"] == "creep").equals(own["width_ratio"] < 1.0)
-        assert (own["outcome"] == "event")[own["width_ratio"] > 1.25].all()
-        shown = own.sort_values("width_ratio")[["width_ratio", "fastest"]].to_numpy()
-        cells = [f"{width:.2f}: {slip_rate(fastest)}" for width, fastest in shown]
-        yield line(f"{weakening:g}", f"{strengthening:g}", *cells)
-
-
-def slip_rate(value):
-    """A slip rate over V: 1.3, or 3e4."""
-    return f"{value:.1f}" if value < 10.0 else f"{value:.0e}".replace("e+0", "e")
+    width = table["width_ratio"]
+    assert (table["outcome"] == "creep").equals(width < 1.0)
+    event = table["outcome"] == "event"
+    slow = width[~event & (width > 1.0)]
+    first = width[event].min()
+    always = width[width > slow.max()].min()
+    says(
+        "creeping_patch.md",
+        f"slow slip in limit cycles is found up to {slow.max():.2f} $W_c$, events (slip faster "
+        f"than 0.1 m/s) from {first:.2f} $W_c$ on, and in all from {always:.2f} $W_c$ on",
+    )
 
 
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
@@ -370,19 +291,16 @@ def faults():
     return rows[rows["n_x"] < 1600]
 
 
-def identical_rows():
-    """The table of identical blocks in docs/results.md."""
+def test_identical_blocks():
+    """The range of their lengths over the theory's."""
     own = faults().query("study == 'pairs_identical'").sort_values("height")
-    yield line("$L_c$, free far sides (m)", *own["critical_length"].map("{:.4f}".format))
-    yield line("$L_s/L_c$", *own["stability_ratio"].map("{:.2f}".format))
-    yield line("$L/L_c$", *with_range(own, "length_ratio"))
-
-
-def with_range(rows, name):
-    """Means of realisations with the least and the largest, 0.69 (0.67-0.70); none as a dash."""
-    for _, row in rows.iterrows():
-        low, high = row[f"{name}_low"], row[f"{name}_high"]
-        yield "–" if np.isnan(low) else f"{row[name]:.2f} ({low:.2f}-{high:.2f})"
+    lower, high = own["length_ratio"].iloc[:-1], own["length_ratio"].iloc[-1]
+    assert own["height"].iloc[-2:].tolist() == [0.2, 0.5]
+    says(
+        "results.md",
+        f"$L_s/L_c$ is {span(own['stability_ratio'])} for all heights. $L/L_c$ is {span(lower)} up "
+        f"to $H = 0.2$ m, and {high:.2f} for 0.5 m.",
+    )
 
 
 def contrasts(weakening):
@@ -398,14 +316,15 @@ def over_half_spaces(weakening):
     return own.filter(like="_ratio").mul(own["half_space_ratio"], axis=0)
 
 
-def contrast_rows():
-    """The table of both senses of a contrast in docs/results.md, lengths over L_c^M."""
-    for weakening in (10, 3, 1):
-        own = over_half_spaces(weakening).reindex(CONTRASTS)
-        stable = own["stability_ratio"]
-        unstable = ["–" if np.isnan(value) else f"{value:.2f}" for value in stable]
-        yield line(weakening, "$L$", *with_range(own, "length_ratio"))
-        yield line("", "$L_s$", *unstable).replace("|  |", "| |")
+def test_lengths_of_both_senses_of_a_contrast():
+    own = over_half_spaces(10)[["length_ratio", "stability_ratio"]]
+    below, same, above = (own.loc[contrast].map("{:.2f}".format) for contrast in (0.38, 0.0, -0.38))
+    says(
+        "results.md",
+        rf"for $\zeta/a = 10$ and $f\beta = 0.38$ to {below.iloc[0]} and {below.iloc[1]}, from "
+        f"{same.iloc[0]} and {same.iloc[1]} between identical bodies",
+        rf"they fall to {above.iloc[0]} and {above.iloc[1]} ($f\beta = -0.38$)",
+    )
 
 
 def test_strong_weakening_shortens_in_one_sense_and_lengthens_in_the_other():
@@ -430,14 +349,7 @@ def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
 
 TABLES = {
     "verification": (kind_rows, floor_rows),
-    "creeping_patch": (
-        value_rows,
-        error_rows,
-        patch_theory_rows,
-        far_fault_rows,
-        weakening_rows,
-    ),
-    "results": (identical_rows, contrast_rows, sensitivity_rows),
+    "creeping_patch": (patch_theory_rows,),
 }
 
 

@@ -12,6 +12,18 @@ On the far side ``y = H`` two perturbations vanish, those of the imposed stress 
 - ``clamped``: u_x and u_y, a layer glued to a rigid base;
 - ``roller``: u_y and sigma_xy, a layer on rollers, or half of one that is loaded from both faces.
 
+With ``kappa = 3 - 4 nu`` and ``Delta = 2 q^2 + kappa cosh 2q - 4 nu (3 - 2 nu) + 5`` A is
+
+    traction: A_xx = 4 (1-nu) (sinh 2q + 2q) / Delta,    A_yy = 4 (1-nu) (sinh 2q - 2q) / Delta,
+              A_xy = 4 [(1-2nu) sinh^2 q + q^2] / Delta
+    velocity: A_xx = 8 (1-nu) cosh^2 q / d,    A_yy = 8 (1-nu) sinh^2 q / d,
+              A_xy = 2 [(1-2nu) sinh 2q + 2q] / d    with d = kappa sinh 2q + 2q
+    roller:   A_xx = 8 (1-nu) sinh^2 q / d,    A_yy = 8 (1-nu) cosh^2 q / d,
+              A_xy = 2 [(1-2nu) sinh 2q - 2q] / d    with d = kappa sinh 2q - 2q
+    clamped:  A_xx = 2 (1-nu) (kappa sinh 2q - 2q) / d,
+              A_yy = 2 (1-nu) (kappa sinh 2q + 2q) / d,
+              A_xy = 2 [(1-2nu) kappa sinh^2 q - q^2] / d    with d = kappa^2 sinh^2 q - q^2
+
 In antiplane shear slip and displacement are along z, and one number replaces A: ``tanh q`` if the
 far side is free of traction, ``coth q`` if it is held. The normal stress does not change.
 
