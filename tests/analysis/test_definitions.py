@@ -95,3 +95,19 @@ def test_a_force_that_a_rupture_raises_is_past_its_onset(ruptured):
     onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.4, ruptures=ruptures)
     assert force[onset.start] == (1.5 if ruptured else 2.0)
     assert onset.start <= onset.steep <= onset.end == force.size - 1
+
+
+@pytest.mark.parametrize(
+    ("falls", "steep"),
+    [
+        ([0.05, 0.05, 0.15, 0.9], 6),  # the first fall by more than the load has risen in a step
+        ([0.05, 0.05, 0.9], 6),  # the last fall counts
+        ([0.09, 0.09, 0.09, 0.09, 0.9], 4),  # only falls up to the end of the drop count
+    ],
+)
+def test_the_steep_part_falls_faster_than_loading_has_raised_the_force(falls, steep):
+    """The force rises by 0.1 in a step up to the maximum, 1.4, which is step 4."""
+    rises = 1.0 + 0.1 * np.arange(5)
+    force = np.concatenate((rises, rises[-1] - np.cumsum(falls)))
+    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.25)
+    assert (onset.start, onset.steep) == (4, steep)

@@ -7,6 +7,7 @@ from analysis.made_up_patch import VELOCITY, synthetic_simulation
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
+from nucleation.model.parameters import Parameters
 from nucleation.simulation.patch import Extent
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
@@ -45,3 +46,46 @@ def test_an_abrupt_drop_takes_no_longer_than_the_memory_time(fall, abrupt):
     """A fall by 2.5 % counts if 2 % of it are within D/V, which is 0.05 s."""
     record = Record(synthetic_simulation(fall=fall * 0.05, size=0.025), SETTINGS)
     assert (record.onset is not None) == abrupt
+
+
+def test_frames_of_creep_end_with_the_start_of_the_drop():
+    """Not with its steepest part or its end: the drop takes several frames."""
+    record = Record(synthetic_simulation(fall=0.04, size=0.2), SETTINGS)
+    start, _, end = record.drop_times
+    during = (record.time > start) & (record.time <= end)
+    assert during.sum() > 1
+    assert record.time[record.creep[-1]] <= start
+
+
+@pytest.mark.parametrize(("kind", "time"), [("edge", 9.0), ("top", 10.0)])
+def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(kind, time):
+    """The interface slips at 1e4 V from 9 s on, and the force falls at 10 s."""
+    simulation = synthetic_simulation()
+    steps = simulation["step_time"].values
+    rates = np.where(steps < 9.0, VELOCITY, 1e4 * VELOCITY)
+    force = simulation["driving_force"].values.copy()
+    force[(steps > 8.99) & (steps < 9.5)] *= 0.999  # a small fall, then the rupture raises it
+    parameters = Parameters().replaced({"loading": kind})
+    changed = simulation.assign(
+        maximal_slip_rate=("step", rates), driving_force=("step", force)
+    ).assign_attrs(parameters=parameters.to_json())
+    assert Record(changed, SETTINGS).drop_times[0] == pytest.approx(time, abs=0.02)
+
+
+def test_fast_slip_after_the_start_of_the_drop_is_that_of_the_event():
+    """A burst elsewhere counts up to the start of the drop, not up to its end."""
+    simulation = synthetic_simulation(fall=0.04, size=0.2)
+    record = Record(simulation, SETTINGS)
+    start, _, end = record.drop_times
+    steps = record.step_time
+    far = 0.9 * float(record.x[-1])
+    for burst, found in ((start - 1.0, True), (0.5 * (start + end), False)):
+        at = int(np.abs(steps - burst).argmin())
+        places = np.zeros(steps.size)
+        places[at] = far
+        rates = simulation["maximal_slip_rate"].values.copy()
+        rates[at] = 1e3 * VELOCITY
+        changed = simulation.assign(
+            maximal_slip_rate=("step", rates), fastest_position=("step", places)
+        )
+        assert (Record(changed, SETTINGS).fastest_elsewhere is not None) == found
