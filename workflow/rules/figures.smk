@@ -334,7 +334,7 @@ rule draw_figure_verification:
 
 
 rule draw_figure_convergence:
-    """Critical length against mesh and steps"""
+    """Length at the drop against mesh and steps"""
     input:
         table=f"{RESULTS}/convergence.nc",
         recipe=recipe("draw_figure_convergence"),
@@ -351,7 +351,7 @@ rule draw_figure_convergence:
     params:
         call="nucleation.figures.checks.figure_convergence:draw",
     message:
-        "Critical length against mesh and steps"
+        "Length at the drop against mesh and steps"
     shell:
         JOB
 

@@ -139,7 +139,7 @@ rule figure_verification:
 
 
 rule figure_convergence:
-    """Critical length against mesh and steps"""
+    """Length at the drop against mesh and steps"""
     input:
         rules.draw_figure_convergence.output,
 

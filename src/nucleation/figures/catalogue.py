@@ -137,7 +137,7 @@ FIGURES: dict[str, Entry] = {
         data=(Data("literature"),),
     ),
     "figure_convergence": Entry(
-        "Critical length against mesh and steps",
+        "Length at the drop against mesh and steps",
         CHECKS,
         roles=("convergence", "convergence_quiet"),
         data=(Data("convergence"),),

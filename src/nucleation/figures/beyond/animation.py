@@ -142,7 +142,7 @@ def _clock(
 
 
 def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) -> _Update:
-    """The slip rate on a logarithmic axis from far below V, the critical length dashed."""
+    """The slip rate on a logarithmic axis from far below V, the length at the drop dashed."""
     lowest = _LOWEST_RATE * velocity
     x = film["x"].values
     values = np.maximum(film["slip_rate"].values, 1e-3 * lowest)
@@ -150,7 +150,7 @@ def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) ->
     if np.isfinite(length):
         axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9)
         up = axes.get_xaxis_transform()
-        axes.annotate("$L_c$", (length, 0.06), (4, 0), up, "offset points")
+        axes.annotate("$L$", (length, 0.06), (4, 0), up, "offset points")
     axes.set_yscale("log")
     axes.set_ylim(lowest, 3.0 * values.max())
     axes.set_xlim(x[0], x[-1])

@@ -1,4 +1,4 @@
-"""Sensitivity of the critical length to parameters and definitions."""
+"""Sensitivity of the length at the drop to parameters and definitions."""
 
 import re
 
@@ -19,18 +19,19 @@ SYMBOLS = {
     "sigma0": r"\sigma_0",
     "tau0": r"\tau_0",
     "phi0": r"\phi_0",
+    "L": r"\mathrm{block\ length}",
 }
-"""TeX of the declared symbols that are not single letters."""
+"""TeX of the declared symbols that are not single letters; L is the measured length here."""
 
 _PANELS = (
-    ("length_change", "(a) critical length $L_c$"),
-    ("ratio_change", "(b) $L_c$ over the theory's"),
+    ("length_change", "(a) length at the drop $L$"),
+    ("ratio_change", "(b) over the theory $L/L_c$"),
 )
 
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
-    """Draw relative changes of L_c, and of L_c over the theory's, one row for each variation.
+    """Draw relative changes of L, and of L over the theory's L_c, one row for each variation.
 
     Parameters
     ----------

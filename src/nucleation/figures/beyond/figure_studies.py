@@ -86,7 +86,7 @@ def draw(
         kinds = _kinds(varied, words, entries, table.sizes["run"])
         _draw_equality(figure, table, kinds, list(entries))
         label = "Theory's critical length (m)"
-    figure.axes[0].set_ylabel("Critical length $L_c$ (m)")
+    figure.axes[0].set_ylabel("Length at the drop $L$ (m)")
     figure.axes[-1].set_xlabel(label)
     set_scale(figure.axes[0], "y", _lengths(table))
     figure.axes[0].legend()

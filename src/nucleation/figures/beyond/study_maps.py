@@ -51,7 +51,7 @@ def draw_maps(
         (
             left,
             length,
-            "(a) Critical length of simulations (m)",
+            "(a) Length at the drop, simulated (m)",
             style.SEQUENCE,
         ),
         (right, ratio, "(b) Simulations over theory", _RATIO_MAP),

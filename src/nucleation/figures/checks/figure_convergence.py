@@ -71,13 +71,13 @@ def draw(table: xr.Dataset) -> Figure:
     perturbed = laws.where(table, table["kind"].values != "none")
     # the goals are in per cent
     _draw_differences(onset, perturbed, "onset_difference", "Onset apart (%)", 0.3)
-    _draw_differences(length, perturbed, "length_difference", "$L_c$ apart (%)", 0.5)
+    _draw_differences(length, perturbed, "length_difference", "$L$ apart (%)", 0.5)
     onset.tick_params(labelbottom=False)
     length.set_xlabel("Height $H$ (m), and what else differs")
     steps.sharey(meshes)
     _draw_lengths(meshes, table, "n_x")
     _draw_lengths(steps, table, "longest_step")
-    meshes.set_ylabel("$L_c$ over the theory's")
+    meshes.set_ylabel("Length over theory $L/L_c$")
     steps.tick_params(labelleft=False)
     steps.invert_xaxis()  # finer to the right, as in the other panel
     style.letters(onset, length, meshes, steps)
