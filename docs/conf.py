@@ -122,7 +122,23 @@ def redirects(app, error):
         Path(app.outdir, f"{old}.html").write_text(stub, encoding="utf-8")
 
 
+def links_from_source(app, env):
+    """Source pages lead back to where an object is described: its module's page, or the API's."""
+    objects = env.get_domain("py").objects
+    described = {name: place for name, place in objects.items() if not place.aliased}
+    modules = getattr(env, "_viewcode_modules", {})
+    for module, entry in modules.items():
+        if not entry:
+            continue
+        code, tags, used, also = entry
+        prefix = module if any(f"{module}.{name}" in described for name in used) else also
+        places = {name: described.get(f"{prefix}.{name}") for name in used}
+        pages = {name: place.docname for name, place in places.items() if place}
+        modules[module] = (code, tags, pages, prefix)
+
+
 def setup(app):
+    app.connect("env-check-consistency", links_from_source)
     app.connect("build-finished", calculator)
     app.connect("build-finished", redirects)
     app.connect("autodoc-process-docstring", formulas)

@@ -76,3 +76,13 @@ def test_addresses_of_pages_that_are_gone_lead_to_their_content(site):
         page, _, heading = new.partition("#")
         assert f'location.replace("{page}.html" + (location.hash || "#{heading}"))' in stub
         assert not heading or f'id="{heading}"' in (site / f"{page}.html").read_text(), new
+
+
+def test_source_pages_lead_back_to_the_description(site):
+    links = 0
+    for page in (site / "_modules").rglob("*.html"):
+        for link in re.findall(r'class="viewcode-back" href="([^"]+)"', page.read_text()):
+            path, _, anchor = link.partition("#")
+            assert f'id="{anchor}"' in (page.parent / path).read_text(), (page.name, link)
+            links += 1
+    assert links > 250
