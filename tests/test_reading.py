@@ -9,7 +9,8 @@ import re
 import tokenize
 from pathlib import Path
 
-SOURCE = Path(__file__).parents[1] / "src" / "nucleation"
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "nucleation"
 MODULES = sorted(SOURCE.rglob("*.py"))
 WITHOUT_MEANING = {
     tokenize.COMMENT,
@@ -28,6 +29,14 @@ WORDS = {
     ("whose", "which"): 12.0,
 }
 """Most occurrences of words in a thousand words of docstrings."""
+
+PHRASES = re.compile(
+    r"\b(what (is|has|was|are)|whose|of which|says?|said|tells?|told|asks?|stands|lies)\b",
+    re.IGNORECASE,
+)
+"""Relative clauses in place of a noun, and things that speak or stand."""
+QUOTED = ("What is stable", "time asked for after it")
+"""A heading, and the outcome of a run."""
 
 TOKENS_A_LINE = 8.0
 PUBLIC_CLASSES = 170
@@ -52,6 +61,29 @@ def test_docstrings_have_few_words_that_make_readers_stop():
     words = [word for _, text in docstrings() for word in re.findall(r"[a-z']+", text.lower())]
     found = {chosen: 1000.0 * sum(map(words.count, chosen)) / len(words) for chosen in WORDS}
     assert {k: v for k, v in found.items() if v > WORDS[k]} == {}
+
+
+def test_pages_have_no_phrase_that_makes_readers_stop():
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")]
+    found = [
+        f"{page.name}: {line}"
+        for page in pages
+        if "_build" not in page.parts
+        for line in page.read_text(encoding="utf-8").splitlines()
+        if PHRASES.search(line) and not any(words in line for words in QUOTED)
+    ]
+    assert len(pages) > 20 and found == []
+
+
+def test_messages_have_no_phrase_that_makes_readers_stop():
+    found = []
+    for path, tree in trees():
+        texts = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        for node in ast.walk(tree):
+            is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+            if is_text and id(node) not in texts and PHRASES.search(node.value):
+                found.append(f"{path.name}:{node.lineno}: {node.value}")
+    assert found == []
 
 
 def test_no_line_is_kept_from_the_formatter():

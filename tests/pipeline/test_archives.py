@@ -232,7 +232,7 @@ def test_files_and_their_checksums_are_the_same_set(tmp_path):
         with tarfile.open(tmp_path / name, "w") as tar:
             for entry, content in [*WHOLE, member("a.csv"), member(CHECKSUMS, content=text)]:
                 tar.addfile(entry, io.BytesIO(content))
-        with pytest.raises(BundleError, match=r"[ab]\.csv is not what was packed"):
+        with pytest.raises(BundleError, match=r"[ab]\.csv differs from the file that was packed"):
             bundle.restore(tmp_path / name, "results", tmp_path / "checkout")
 
 

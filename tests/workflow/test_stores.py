@@ -69,7 +69,7 @@ def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_p
     assert done.returncode == 0, done.stdout
     assert f"Not taken from {shared}" in done.stdout
     assert "holds the result of another key" in done.stdout
-    assert "is not what was written" in done.stdout
+    assert "differs from the file that was written" in done.stdout
     assert simulations(third).keys() == simulations(first).keys()
     assert all(read_note(shared / key, whole=True) for key in Store(shared).listed())
 

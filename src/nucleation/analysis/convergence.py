@@ -31,7 +31,7 @@ FIXED = (
 LENGTH_OVER_THEORY = Variable("1", "critical length over that of the linear theory")
 
 COLUMNS = {
-    "refinement": Variable("", "what is refined from level to level"),
+    "refinement": Variable("", "quantity that is refined from level to level"),
     **some(
         LENGTHS,
         "id",

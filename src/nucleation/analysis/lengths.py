@@ -73,7 +73,7 @@ COLUMNS = {
     "reached_length": Variable(
         "m", "patch length at the onset, or at the end of a run without an event", "L(t)"
     ),
-    "kind": Variable("", "what is perturbed"),
+    "kind": Variable("", "perturbed quantity"),
     "strength": Variable("1", "relative strength of the declared perturbation", "eps"),
     "seed": Variable("1", "seed of its realisation"),
     "correlation_length": Variable("m", "its correlation length along x"),

@@ -94,7 +94,7 @@ def build() -> _Node:
     for group in GROUPS:
         sections[group] = _group(group)
     sections["studies"] = {
-        "description": "named sets of simulations, whose roles give their use",
+        "description": "named sets of simulations, each with a role in figures and tables",
         "type": "object",
         "minProperties": 1,
         "propertyNames": {"type": "string", "pattern": f"^{STUDY_NAME}$"},

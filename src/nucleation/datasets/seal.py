@@ -88,7 +88,7 @@ def _read(file: BinaryIO) -> _Seal:
     file.seek(size)
     text = file.read(int(count))
     if _digest_of_text(digest, text) != digest_of_text:
-        raise ValueError("its seal is not what was written")
+        raise ValueError("it differs from the file that was written")
     return _Seal(digest, json.loads(text), size)
 
 

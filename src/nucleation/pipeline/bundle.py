@@ -209,7 +209,7 @@ def _check_checksums(tar: tarfile.TarFile, digests: Mapping[str, str]) -> None:
         packed[name] = digest
     found = {name: digest for name, digest in digests.items() if name != CHECKSUMS}
     for name, _ in sorted(packed.items() ^ found.items()):
-        raise StoreError(f"{name} is not what was packed")
+        raise StoreError(f"{name} differs from the file that was packed")
 
 
 def _check_note(

@@ -23,7 +23,7 @@ from .views import shows
 _HALF = "half a file of a run that was killed: delete it"
 LEFTOVERS = {
     ".*.tmp": _HALF,
-    "*.checkpoint.npz": "a run has begun here and goes on when it is requested again",
+    "*.checkpoint.npz": "a run has begun here and continues when it is requested again",
     "*.failed.nc": "the record of a run that failed",
 }
 OWN = {"store", "logs", "reference"}  # directories that show no results

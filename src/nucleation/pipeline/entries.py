@@ -118,7 +118,7 @@ def _check_file(entry: Path, name: str, size: int) -> None:
 
 def _check_content(path: Path, digest: str, key: str) -> None:
     if digest_of_file(path) != digest:
-        raise StoreError(f"{path} is damaged: it is not what was written")
+        raise StoreError(f"{path} is damaged: it differs from the file that was written")
     if path.suffix == ".nc" and seal.attributes(path).get("key") != key:
         raise StoreError(f"{path} is the result of another key")
 

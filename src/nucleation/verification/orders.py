@@ -42,7 +42,7 @@ ERRORS = {
 }
 COORDINATES = {
     "problem": Variable("", "elastodynamics alone, or with friction by an evolution law"),
-    "refinement": Variable("", "what is refined from level to level"),
+    "refinement": Variable("", "quantity that is refined from level to level"),
 }
 
 MATERIAL = Material()
