@@ -1,9 +1,21 @@
 """Tables of lengths: realisations of one fault."""
 
 import numpy as np
+import pytest
 import xarray as xr
+from made_up_runs import ONSET, PARAMETERS, changed, record
+from made_up_runs import run as made_up_run
 
-from nucleation.analysis.lengths import over_realisations, realisations, second_body
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.lengths import (
+    columns_csv,
+    lengths_table,
+    over_realisations,
+    realisations,
+    row,
+    second_body,
+)
+from nucleation.model.linearised import linearised
 from nucleation.model.parameters import Parameters
 
 
@@ -51,3 +63,64 @@ def test_rows_say_what_lies_below(table):
         "second_shear_modulus": 9e9,
         "second_poisson_ratio": pair.material.poisson_ratio,
     }
+
+
+RUN = {"status": "completed: made up", "steps": 3, "wall_seconds": 1.0, "peak_megabytes": 1.0}
+PERTURBED = {"perturbation": "normal_load", "strength": 1e-3, "seed": 3}
+
+
+def made_up_table(parameters, simulation):
+    """The table of one run with this record, of slip rates alone."""
+    parameters = parameters.replaced({"record": "lengths"})
+    interface = linearised(parameters.friction, parameters.loading)
+    own = made_up_run("mine", parameters) | {"study": "made_up", "role": "own"}
+    own |= {"interface": {name: getattr(interface, name) for name in ("friction", "a", "zeta")}}
+    simulation = simulation.assign_attrs(RUN | {"parameters": parameters.to_json()})
+    return lengths_table([own], [simulation], ExtractionSettings())
+
+
+@pytest.mark.parametrize(("given", "strength"), [({}, 0.0), (PERTURBED, 1e-3)])
+def test_strength_is_that_of_the_declared_perturbation(given, strength):
+    table = made_up_table(changed(**given), record())
+    assert table["strength"].item() == strength
+    assert table["simulated_time"].item() == pytest.approx(ONSET + 2e-3)
+    assert table["reached_length"].item() == table["length"].item()
+
+
+def test_a_run_without_an_event_has_the_length_that_it_reached():
+    quiet = record()
+    rising = -np.linspace(1.0, 2.0, quiet.sizes["step"])
+    table = made_up_table(PARAMETERS, quiet.assign(driving_force=("step", rising)))
+    last = np.flatnonzero(quiet["slip_rate"].values[-1] > 0.01 * PARAMETERS.loading.velocity)[-1]
+    assert np.isnan(table["length"].item())
+    assert table["reached_length"].item() == pytest.approx(float(quiet["x"][last]), abs=0.011)
+
+
+@pytest.mark.parametrize(
+    ("given", "known"),
+    [
+        ({}, True),
+        ({"varies": "normal_stress", "change": -0.1, "width": 0.3}, True),
+        ({"loading": "top", "varies": "friction", "change": -0.1, "width": 0.3}, True),
+        ({"loading": "top", "varies": "normal_stress", "change": -0.1, "width": 0.3}, False),
+    ],
+)
+def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):
+    parameters = changed(**given)
+    simulation = record()
+    if given.get("loading") == "top":
+        simulation = simulation.assign(
+            fastest_position=("step", np.zeros(simulation.sizes["step"]))
+        )
+    table = made_up_table(parameters, simulation)
+    assert (table["stability_status"].item() != "unknown") == known
+
+
+def test_the_row_of_a_run_is_found_by_its_id():
+    assert row(rows(), "b")["height"].item() == 0.2
+
+
+def test_the_columns_file_names_each_column_once():
+    head, *lines = columns_csv().splitlines()
+    assert head == "column,units,meaning,symbol"
+    assert len(lines) == len({line.partition(",")[0] for line in lines}) > 40

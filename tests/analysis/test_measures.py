@@ -74,6 +74,20 @@ def test_time_of_acceleration_is_from_ten_to_a_hundred_times_the_velocity():
     assert found["acceleration_time"] == pytest.approx(2e-3)
 
 
+@pytest.mark.parametrize(
+    ("slower", "faster", "time"),
+    [(9.9, 101.0, 2e-3), (10.1, 101.0, np.nan), (9.9, 99.0, np.nan)],
+)
+def test_ends_of_the_acceleration(slower, faster, time):
+    """From the onset on, which is two steps of 1 ms before the end."""
+    run = made_up()
+    fastest = run["maximal_slip_rate"].values.copy()
+    fastest[-3:] = VELOCITY * np.array([slower, 50.0, faster])
+    fastest[:-3] = VELOCITY
+    found = measure(Record(run.assign(maximal_slip_rate=("step", fastest))))
+    assert found["acceleration_time"] == pytest.approx(time, nan_ok=True)
+
+
 def test_slip_law_needs_the_regularisation_where_nothing_slips():
     """Ahead of the front v = 1e-11 m/s, a hundredth of v0; behind it v = 1e4 v0."""
     aging, slip = (measure(Record(made_up(law))) for law in ("aging", "slip"))
