@@ -50,7 +50,13 @@ def test_shooting_agrees(ratio):
 
 
 def test_strong_weakening():
-    """The closed forms of docs/creeping_patch.md, by quadrature."""
+    """The closed forms of docs/creeping_patch.md, by quadrature.
+
+    With ``e = a/zeta``, ``S = i sqrt(c/e)`` and ``zeta = 1``, Eq. (T) is ``u'' = lambda [-1 +
+    i sqrt(e) g + e h] u`` with ``g = sqrt(c)/y - y/sqrt(c)`` and ``h = y^2/c - 1``. At order zero
+    ``u = sin(pi y)`` and ``lambda = pi^2``. At order sqrt(e) the mean of g vanishes, which gives c;
+    at order e ``lambda = pi^2 (1 + e X)`` with ``X = h_11 + sum g_1n^2/(n^2 - 1)``.
+    """
     share = 1.0 / (2.0 * (np.euler_gamma + np.log(2.0 * np.pi) - sici(2.0 * np.pi)[1]))
 
     def projected(function, n):
