@@ -231,8 +231,6 @@ def test_the_solvers_agree_on_the_drop():
 
 
 QUANTITIES = {
-    "onset (s)": ("onset_time", "{:.3f}", 1.0),
-    "$L$ (m)": ("length", "{:.4f}", 1.0),
     "$L(t)$, rms difference": ("patch_length_rms", "{:.2f} %", 100.0),
     "$L(t)$, largest difference (elements)": ("patch_length_elements", "{:.2f}", 1.0),
     "$f_d(t)$, largest difference": ("driving_force_largest", "{:#.2g} %", 100.0),
