@@ -16,8 +16,6 @@ from nucleation.answers.in_use import lengths_in_use
 from nucleation.patch.tables.pairs import over_realisations
 from nucleation.theory.arrays import critical_length
 
-RESULTS = (DOCS / "results.md").read_text(encoding="utf-8")
-
 
 def reference(name):
     return pd.read_csv(ROOT / "results" / "reference" / f"{name}.csv")
@@ -107,7 +105,7 @@ def test_effects_of_parameters():
         "results.md",
         rf"$D$ or $\sigma_0$ changes $L$ by {length.min():.0f} to {length.max():+.0f} %, "
         f"but $L/L_c$ by {ratio.min():.0f} to {ratio.max():+.0f} %",
-        f"half or twice $V$ changes $L$ by {velocity:.1f} % or less",
+        f"Half or twice $V$ changes $L$ by {velocity:.1f} % or less",
         f"makes $L$ {thin:.1f} % ($H = 0.02$ m) and {thick:.1f} % (0.1 m) longer",
     )
 
@@ -144,8 +142,10 @@ def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
     table["ratio"] = table["law_length"] / table["length"]
     names = ["evolution", "height", "kind", "correlation_length", "strength"]
     means = table.groupby(names)["ratio"].mean().reset_index()
-    weak = means[means["strength"] < 2e-4]
-    assert len(weak) >= 27 and (weak["ratio"] - 1.0).abs().max() < 0.021
+    weak = means[means["strength"] < 2e-4]["ratio"] - 1.0
+    assert len(weak) >= 27 and weak.abs().max() < 0.021
+    rms = 100.0 * np.sqrt(np.mean(weak**2))
+    says("drop.md", f"({len(weak)} of them; {rms:.1f} % rms)")
     strong = means[np.isclose(means["strength"], 1e-3)]
     others = strong[(strong["kind"] != "normal_load") & (strong["correlation_length"] < 0.021)]
     smooth = others[~((others["kind"] == "strength") & (others["correlation_length"] > 0.015))]
@@ -319,9 +319,10 @@ def test_lengths_of_both_senses_of_a_contrast():
     below, same, above = (own.loc[contrast].map("{:.2f}".format) for contrast in (0.38, 0.0, -0.38))
     says(
         "results.md",
-        rf"for $\zeta/a = 10$ and $f\beta = 0.38$ to {below.iloc[0]} and {below.iloc[1]}, from "
-        f"{same.iloc[0]} and {same.iloc[1]} between identical bodies",
-        rf"they fall to {above.iloc[0]} and {above.iloc[1]} ($f\beta = -0.38$)",
+        rf"For $\zeta/a = 10$, $L$ and $L_s$ are {same.iloc[0]} and {same.iloc[1]} between "
+        f"identical bodies, grow to {below.iloc[0]} and {below.iloc[1]} with the stiffer body "
+        rf"below ($f\beta = 0.38$), and fall to {above.iloc[0]} and {above.iloc[1]} with it above "
+        r"($f\beta = -0.38$)",
     )
 
 
@@ -337,12 +338,20 @@ def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
     same = faults()[np.isclose(faults()["f_beta"], 0.0)]
     high = {2.288: same[same["height"] == 0.5].iloc[0]}
     high |= {weakening: contrasts(weakening).loc[0.0] for weakening in (3.0, 10.0)}
-    said = {2.288: (1.44, 1.39), 3.0: (1.35, 1.32), 10.0: (1.25, 1.24)}
-    for weakening, row in high.items():
-        factors = FINITE_PATCH, loaded_patch_factor(1.0 / (1.0 + weakening))
-        found = [row["stability_ratio"] * np.pi / factor for factor in factors]
-        assert found == pytest.approx(said[weakening], abs=0.0051)
-        assert all(f"{value:.2f}" in RESULTS for value in said[weakening])
+    asperity, pinned = (
+        [row["stability_ratio"] * np.pi / factor(weakening) for weakening, row in high.items()]
+        for factor in (
+            lambda weakening: FINITE_PATCH,
+            lambda weakening: loaded_patch_factor(1.0 / (1.0 + weakening)),
+        )
+    )
+    assert asperity == sorted(asperity, reverse=True) and pinned == sorted(pinned, reverse=True)
+    says(
+        "results.md",
+        rf"$L_s$ is {asperity[-1]:.2f} ($\zeta/a = 10$) to {asperity[0]:.2f} ($\zeta/a = 2.3$) "
+        f"times an asperity's length, and {pinned[-1]:.2f} to {pinned[0]:.2f} times a pinned "
+        "patch's.",
+    )
 
 
 TABLES = {

@@ -36,14 +36,15 @@ def test_half_spaces_as_eta():
 def test_thin_pairs_and_held_layers():
     thin = pairs().query("height == 0.02 and study in ['pairs_identical', 'pairs_far_sides']")
     held = pairs().query("far_side == 'clamped' and f_beta == 0.0").sort_values("height")
-    stable = [f"{value:.2f}" for value in held["stability_ratio"]]
+    stable = held["stability_ratio"]
     assert list(held["height"]) == [0.02, 0.05, 0.1, 0.2]
+    assert (held[["stability_ratio", "length_ratio"]].diff().iloc[1:] > 0.0).all(axis=None)
     says(
         "results.md",
         f"$L_s/L_c$ is {span(thin['stability_ratio'])} and $L/L_c$ {span(thin['length_ratio'])} "
         f"(means), while $L_c$ varies from {span(thin['critical_length'])} m",
-        f"$L_s/L_c$ = {', '.join(stable[:3])} and {stable[3]} for $H$ = 0.02, 0.05, 0.1 and "
-        f"0.2 m, and $L/L_c$ rises from {held['length_ratio'].iloc[0]:.2f} to "
+        f"from $H = 0.02$ to 0.2 m $L_s/L_c$ rises from {stable.iloc[0]:.2f} to "
+        f"{stable.iloc[-1]:.2f} and $L/L_c$ from {held['length_ratio'].iloc[0]:.2f} to "
         f"{held['length_ratio'].iloc[-1]:.2f}.",
     )
 
@@ -58,7 +59,7 @@ def test_weak_weakening_between_blocks_depends_on_their_height():
     says(
         "results.md",
         f"from {span(unstable, 1)} $L_c^M$ on",
-        f"the force drops at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}) "
+        f"it comes at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}) "
         f"and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}).",
     )
 
