@@ -40,7 +40,9 @@ ALWAYS = {
 
 MEASURES = {
     **ALWAYS,
-    "acceleration_time": Variable("s", "time in which the fastest slip rate grows from 10 to 100 V"),
+    "acceleration_time": Variable(
+        "s", "time in which the fastest slip rate grows from 10 to 100 V"
+    ),
     "growth_time": Variable("s", "time in which the patch would grow by its length at the onset"),
     "front_speed": Variable("m/s", "mean speed of the patch's edge before the onset"),
     "drop_time": Variable("s", "time from the steepest part of the force's drop to its end"),

@@ -158,7 +158,8 @@ _OF_ONE_MATERIAL = (
         formula="1.158 mu* D/(zeta sigma0)",
         source="Viesca and Garagash (2025), first scenario, by our derivation; "
         "Uenishi and Rice (2003)",
-        validity="patch in steady creep, in surroundings that creep at V; else W_c by --outside-zeta",
+        validity="patch in steady creep, in surroundings that creep at V; else W_c by "
+        "--outside-zeta",
         compute=lambda s: s.plane(formulas.FINITE_PATCH),
     ),
     Length(
