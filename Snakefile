@@ -153,9 +153,9 @@ rule paper:
     input:
         [f"{RESULTS}/figures/{name}.{kind}" for name in PAPERS_FIGURES for kind in ("png", "pdf")],
         rules.write_article.output,
-        rules.evaluate_claims.output,
+        rules.claims.output,
         rules.table_s1.output,
-        rules.gather_lengths.output,
+        rules.lengths.output,
 
 
 rule studies:
@@ -163,4 +163,4 @@ rule studies:
     default_target: DEFAULT == "studies"
     input:
         lambda wildcards: of_studies(filter(is_usable, settings.studies)),
-        rules.gather_lengths.output if SHARED else [],
+        rules.lengths.output if SHARED else [],

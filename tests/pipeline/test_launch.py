@@ -98,7 +98,7 @@ def test_a_file_without_studies_is_the_paper_for_make_and_for_snakemake_alone(tm
         )
         planned.append(dict(re.findall(r"^(\w+) +(\d+)$", done.stdout, re.MULTILINE)))
     assert planned[0] == planned[1]
-    assert planned[0]["draw_figure_3"] == "1"
+    assert planned[0]["figure_3"] == "1"
 
 
 def test_files_are_looked_at_as_snakemake_merges_them(tmp_path, monkeypatch):

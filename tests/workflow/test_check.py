@@ -99,8 +99,8 @@ def test_damage_leftovers_and_strangers_are_found(linked):
         "figures/figure_1.pdf": "damaged",
         "tables/table_s1.csv": "stale",
     }
-    made = {"theory", "draw_figure_2", "gather_lengths", "write_article", "draw_figure_1"}
-    of_these = {"draw_figure_3", "draw_figure_s1", "draw_figure_s2", "evaluate_claims", "extract"}
+    made = {"theory", "figure_2", "lengths", "write_article", "figure_1"}
+    of_these = {"figure_3", "figure_s1", "figure_s2", "claims", "extract"}
     assert linked.planned() == {"simulate": 2, **dict.fromkeys(made | of_these, 1)}
     assert states(linked)[f"store/{run.name}"] == "foreign", "a dry run moves no entry"
     done = linked()

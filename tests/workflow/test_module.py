@@ -80,7 +80,7 @@ def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
     (tmp_path / "profiles").symlink_to(ROOT / "profiles")
     configure(tmp_path, 1)
     other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
-    expected = {"fault_simulate": 2, "fault_extract": 1, "fault_gather_lengths": 1}
+    expected = {"fault_simulate": 2, "fault_extract": 1, "fault_lengths": 1}
     assert other.planned("every") == expected
 
 

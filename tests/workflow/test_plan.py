@@ -14,8 +14,8 @@ from nucleation.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 
-DRAWN = ("draw_figure_1", "draw_figure_2", "draw_figure_3", "draw_figure_s1", "draw_figure_s2")
-CLAIMING = ("dispersion", "evaluate_claims", "write_article")
+DRAWN = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
+CLAIMING = ("dispersion", "claims", "write_article")
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def test_default_target_is_the_whole_paper(paper):
     studies = ("paper", "converged", "long_blocks")
     batches = {run.batch for study in studies for run in config.runs_of(study)}
     assert len(batches) == 7
-    once = ("theory", "gather_lengths", "table_s1", *DRAWN, *CLAIMING)
+    once = ("theory", "lengths", "table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
         "extract": 2,
         "follow_patches": 1,
@@ -40,19 +40,19 @@ def test_default_target_is_the_whole_paper(paper):
 @pytest.mark.parametrize(
     ("target", "expected"),
     [
-        ("figure_1 table_s1", {"draw_figure_1": 1, "table_s1": 1}),
-        ("figure_2 figure_s1", {"theory": 1, "draw_figure_2": 1, "draw_figure_s1": 1}),
+        ("figure_1 table_s1", {"figure_1": 1, "table_s1": 1}),
+        ("figure_2 figure_s1", {"theory": 1, "figure_2": 1, "figure_s1": 1}),
         ("simulations", {"simulate": 6}),
-        ("lengths", {"simulate": 6, "extract": 2, "gather_lengths": 1}),
-        ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "gather_lengths": 1,
-                      "draw_figure_3": 1}),
-        ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
+        ("lengths", {"simulate": 6, "extract": 2, "lengths": 1}),
+        ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "lengths": 1,
+                      "figure_3": 1}),
+        ("figure_s2", {"simulate": 5, "extract": 1, "figure_s2": 1}),
         ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
-                    "evaluate_claims": 1}),
+                    "claims": 1}),
         ("results/quick/figures/study_drop.png",
          {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
         ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
-                        "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
+                        "figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],
 )  # fmt: skip
 def test_targets(workflow, target, expected, freefem_program):
@@ -201,7 +201,7 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
         "alone": {"defaults": defaults, "table": "own", "runs": [{"height": 0.01}]},
     }
     planned = workflow.configured({"studies": studies}).planned()
-    once = {"extract": 2, "gather_lengths": 1, "draw_study": 2}
+    once = {"extract": 2, "lengths": 1, "draw_study": 2}
     assert planned == {"simulate": 3, **once}
 
 
@@ -211,7 +211,7 @@ def test_studies_that_all_have_their_own_table_can_be_built(workflow):
     for target in ((), ("studies",)):
         planned = own.planned(*target)
         assert planned.items() >= {"simulate": 1, "extract": 1, "draw_study": 1}.items()
-        assert "gather_lengths" not in planned
+        assert "lengths" not in planned
 
 
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
@@ -220,7 +220,7 @@ def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
     assert len(modules) > 9
     assert modules == {name for name in texts if name.startswith("figure_")}
-    assert {"paper", "lengths", "report", "simulate", "draw_figure_3"} <= texts.keys()
+    assert {"paper", "lengths", "report", "simulate", "figure_3"} <= texts.keys()
     rules = "".join(path.read_text() for path in ROOT.glob("workflow/rules/*.smk"))
     rules += (ROOT / "Snakefile").read_text()
     assert set(re.findall(r"^rule (\w+):$", rules, re.M)) == texts.keys()
@@ -228,7 +228,7 @@ def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
 
 def test_article_on_paper_has_the_figures_beyond(workflow):
     planned = workflow.planned("replication")
-    made = {"write_article", "draw_figure_3", "draw_figure_drop", "draw_figure_map"}
+    made = {"write_article", "figure_3", "figure_drop", "figure_map"}
     assert planned["print_article"] == 1 and made <= planned.keys()
 
 

@@ -16,7 +16,7 @@ from nucleation.model.parameters import Parameters
 from nucleation.pipeline.keys import key_in
 
 ROOT = Path(__file__).parents[2]
-CLAIMING = {"evaluate_claims", "write_article"}
+CLAIMING = {"claims", "write_article"}
 
 
 def shared_runs(config):
@@ -89,10 +89,10 @@ def test_table_of_lengths(quick, results):
 @pytest.mark.parametrize(
     ("section", "values", "expected"),
     [
-        ("extraction", {"edge_threshold": 0.2}, {"extract", "gather_lengths", "draw_figure_3",
-                                                 "draw_figure_s2", "follow_patches", *CLAIMING}),
-        ("curves", {"zeta_over_a": [1.0]}, {"theory", "draw_figure_2", "draw_figure_3",
-                                           "draw_figure_s1", *CLAIMING}),
+        ("extraction", {"edge_threshold": 0.2}, {"extract", "lengths", "figure_3",
+                                                 "figure_s2", "follow_patches", *CLAIMING}),
+        ("curves", {"zeta_over_a": [1.0]}, {"theory", "figure_2", "figure_3",
+                                           "figure_s1", *CLAIMING}),
         ("limits", {"memory": 1999.0}, set()),
     ],
 )  # fmt: skip
@@ -121,12 +121,12 @@ WORDS = {
     "workflow/rules/simulations.smk": "\n# a remark\n",
 }
 OF_SOLVER = {"simulate", "follow_patches", "dispersion"}
-OF_LENGTHS = {"extract", "gather_lengths", "draw_figure_3", "draw_figure_s2", *CLAIMING}
+OF_LENGTHS = {"extract", "lengths", "figure_3", "figure_s2", *CLAIMING}
 EDITS = {
     "words": (WORDS, set()),
     "solver": ({"src/nucleation/fem/kernels.py": SPARE}, OF_SOLVER | OF_LENGTHS),
     "extraction": ({"src/nucleation/analysis/lengths.py": SPARE}, OF_LENGTHS),
-    "figure": ({"src/nucleation/figures/paper/figure_2.py": SPARE}, {"draw_figure_2"}),
+    "figure": ({"src/nucleation/figures/paper/figure_2.py": SPARE}, {"figure_2"}),
 }
 
 

@@ -11,7 +11,7 @@ import pytest
 RUN = {"height": [0.05, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
 FILES = ("lengths.csv", "lengths.nc", "lengths/s.csv", "figures/study_s.png", "figures/study_s.pdf")
 SAME = "made again: the same as in the store, which is kept"
-RULES = {"simulate", "extract", "gather_lengths", "draw_study"}
+RULES = {"simulate", "extract", "lengths", "draw_study"}
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +86,7 @@ def test_a_forced_file_and_all_of_them_compute_again(copied):
     (file, _) = sorted(copied.directory.glob("results/simulations/*.nc"))
     printed(copied, str(file.relative_to(copied.directory)), "-f")
     assert logs(copied).count(SAME) == 1
-    assert copied.planned("lengths", "-F") == {"simulate": 2, "extract": 1, "gather_lengths": 1}
+    assert copied.planned("lengths", "-F") == {"simulate": 2, "extract": 1, "lengths": 1}
     printed(copied, "lengths", "--forceall")
     assert logs(copied).count(SAME) == 4, (
         "the file, then both simulations and the lengths of the study"

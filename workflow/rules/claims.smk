@@ -11,14 +11,14 @@ def statements():
     return read_yaml(Path(SOURCE, "nucleation", "claims", "claims.yaml"))
 
 
-rule evaluate_claims:
+rule claims:
     """A verdict on every statement of the paper"""
     input:
         theory=f"{RESULTS}/theory.nc",
         dispersion=f"{RESULTS}/dispersion.nc",
         lengths=lambda wildcards: lengths_of(*CLAIMED),
         after=lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))],
-        recipe=recipe("evaluate_claims"),
+        recipe=recipe("claims"),
     output:
         multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),
     log:

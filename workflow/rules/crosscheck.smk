@@ -84,13 +84,13 @@ rule compare_crosscheck:
         JOB
 
 
-rule draw_figure_crosscheck:
+rule figure_crosscheck:
     """Patch length and driving force by both solvers"""
     input:
         own=crosschecked("own"),
         freefem=crosschecked("freefem"),
         table=f"{RESULTS}/crosscheck.nc",
-        recipe=recipe("draw_figure_crosscheck"),
+        recipe=recipe("figure_crosscheck"),
     output:
         multiext(f"{RESULTS}/figures/figure_crosscheck", ".png", ".pdf"),
     log:

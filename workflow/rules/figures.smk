@@ -1,9 +1,9 @@
 # One rule draws each figure, from datasets alone. The names of a rule's inputs are the arguments of
 # the function that draws.
-rule draw_figure_1:
+rule figure_1:
     """Figure 1: the two set-ups"""
     input:
-        recipe=recipe("draw_figure_1"),
+        recipe=recipe("figure_1"),
     output:
         report(
             f"{RESULTS}/figures/figure_1.png",
@@ -22,11 +22,11 @@ rule draw_figure_1:
         JOB
 
 
-rule draw_figure_2:
+rule figure_2:
     """Figure 2: bimaterial interfaces"""
     input:
         theory=f"{RESULTS}/theory.nc",
-        recipe=recipe("draw_figure_2"),
+        recipe=recipe("figure_2"),
     output:
         report(
             f"{RESULTS}/figures/figure_2.png",
@@ -45,13 +45,13 @@ rule draw_figure_2:
         JOB
 
 
-rule draw_figure_3:
+rule figure_3:
     """Figure 3: critical length against height"""
     input:
         theory=f"{RESULTS}/theory.nc",
         lengths=f"{RESULTS}/lengths.nc",
         after=lambda wildcards: batches([inset_run()]),
-        recipe=recipe("draw_figure_3"),
+        recipe=recipe("figure_3"),
     output:
         report(
             f"{RESULTS}/figures/figure_3.png",
@@ -72,11 +72,11 @@ rule draw_figure_3:
         JOB
 
 
-rule draw_figure_s1:
+rule figure_s1:
     """Figure S1: steady-state friction"""
     input:
         theory=f"{RESULTS}/theory.nc",
-        recipe=recipe("draw_figure_s1"),
+        recipe=recipe("figure_s1"),
     output:
         report(
             f"{RESULTS}/figures/figure_s1.png",
@@ -95,12 +95,12 @@ rule draw_figure_s1:
         JOB
 
 
-rule draw_figure_s2:
+rule figure_s2:
     """Figure S2: stress in space and time"""
     input:
         lengths=lambda wildcards: table_of("paper"),
         after=lambda wildcards: batches([space_time_run()]),
-        recipe=recipe("draw_figure_s2"),
+        recipe=recipe("figure_s2"),
     output:
         report(
             f"{RESULTS}/figures/figure_s2.png",
@@ -121,12 +121,12 @@ rule draw_figure_s2:
         JOB
 
 
-rule draw_figure_patch_stability:
+rule figure_patch_stability:
     """Stability of the creeping patch"""
     input:
         table=f"{RESULTS}/patch_stability.nc",
         after=lambda wildcards: patch_batches(*PATCH_TABLES["patch_stability"]),
-        recipe=recipe("draw_figure_patch_stability"),
+        recipe=recipe("figure_patch_stability"),
     output:
         report(
             f"{RESULTS}/figures/figure_patch_stability.png",
@@ -146,14 +146,14 @@ rule draw_figure_patch_stability:
         JOB
 
 
-rule draw_figure_3_extended:
+rule figure_3_extended:
     """Lengths of the drop and of the patch's stability"""
     input:
         theory=f"{RESULTS}/theory.nc",
         lengths=f"{RESULTS}/lengths.nc",
         table=f"{RESULTS}/patch_stability.nc",
         noisy=lambda wildcards: table_of("noisy"),
-        recipe=recipe("draw_figure_3_extended"),
+        recipe=recipe("figure_3_extended"),
     output:
         report(
             f"{RESULTS}/figures/figure_3_extended.png",
@@ -172,11 +172,11 @@ rule draw_figure_3_extended:
         JOB
 
 
-rule draw_figure_drop:
+rule figure_drop:
     """Where the force drops under a declared perturbation"""
     input:
         table=f"{RESULTS}/drop.nc",
-        recipe=recipe("draw_figure_drop"),
+        recipe=recipe("figure_drop"),
     output:
         report(
             f"{RESULTS}/figures/figure_drop.png",
@@ -195,11 +195,11 @@ rule draw_figure_drop:
         JOB
 
 
-rule draw_figure_weakening:
+rule figure_weakening:
     """Where slow slip ends: lengths over the weakening"""
     input:
         table=f"{RESULTS}/weakening.nc",
-        recipe=recipe("draw_figure_weakening"),
+        recipe=recipe("figure_weakening"),
     output:
         report(
             f"{RESULTS}/figures/figure_weakening.png",
@@ -218,11 +218,11 @@ rule draw_figure_weakening:
         JOB
 
 
-rule draw_figure_weakening_patches:
+rule figure_weakening_patches:
     """Weakening patches among strengthening surroundings"""
     input:
         table=f"{RESULTS}/weakening_patches.nc",
-        recipe=recipe("draw_figure_weakening_patches"),
+        recipe=recipe("figure_weakening_patches"),
     output:
         report(
             f"{RESULTS}/figures/figure_weakening_patches.png",
@@ -241,11 +241,11 @@ rule draw_figure_weakening_patches:
         JOB
 
 
-rule draw_figure_map:
+rule figure_map:
     """Lengths over height and weakening: a map"""
     input:
         grid=f"{RESULTS}/map.nc",
-        recipe=recipe("draw_figure_map"),
+        recipe=recipe("figure_map"),
     output:
         report(
             f"{RESULTS}/figures/figure_map.png",
@@ -264,11 +264,11 @@ rule draw_figure_map:
         JOB
 
 
-rule draw_figure_patch_theory:
+rule figure_patch_theory:
     """Stability of the creeping patch by theory"""
     input:
         table=f"{RESULTS}/patch_theory.nc",
-        recipe=recipe("draw_figure_patch_theory"),
+        recipe=recipe("figure_patch_theory"),
     output:
         report(
             f"{RESULTS}/figures/figure_patch_theory.png",
@@ -287,11 +287,11 @@ rule draw_figure_patch_theory:
         JOB
 
 
-rule draw_figure_dispersion:
+rule figure_dispersion:
     """Growth of single modes: simulation and theory"""
     input:
         dispersion=f"{RESULTS}/dispersion.nc",
-        recipe=recipe("draw_figure_dispersion"),
+        recipe=recipe("figure_dispersion"),
     output:
         report(
             f"{RESULTS}/figures/figure_dispersion.png",
@@ -310,11 +310,11 @@ rule draw_figure_dispersion:
         JOB
 
 
-rule draw_figure_verification:
+rule figure_verification:
     """Orders of convergence on manufactured solutions"""
     input:
         convergence=f"{RESULTS}/verification.nc",
-        recipe=recipe("draw_figure_verification"),
+        recipe=recipe("figure_verification"),
     output:
         report(
             f"{RESULTS}/figures/figure_verification.png",
@@ -333,11 +333,11 @@ rule draw_figure_verification:
         JOB
 
 
-rule draw_figure_convergence:
+rule figure_convergence:
     """Length at the drop against mesh and steps"""
     input:
         table=f"{RESULTS}/convergence.nc",
-        recipe=recipe("draw_figure_convergence"),
+        recipe=recipe("figure_convergence"),
     output:
         report(
             f"{RESULTS}/figures/figure_convergence.png",
@@ -356,11 +356,11 @@ rule draw_figure_convergence:
         JOB
 
 
-rule draw_figure_sensitivity:
+rule figure_sensitivity:
     """Sensitivity to parameters and definitions"""
     input:
         table=f"{RESULTS}/sensitivity.nc",
-        recipe=recipe("draw_figure_sensitivity"),
+        recipe=recipe("figure_sensitivity"),
     output:
         report(
             f"{RESULTS}/figures/figure_sensitivity.png",
@@ -393,11 +393,11 @@ def theory_of_identical_blocks():
     return found
 
 
-rule draw_figure_pairs:
+rule figure_pairs:
     """Two deformable bodies"""
     input:
         table=f"{RESULTS}/pairs.nc",
-        recipe=recipe("draw_figure_pairs"),
+        recipe=recipe("figure_pairs"),
     output:
         report(
             f"{RESULTS}/figures/figure_pairs.png",
@@ -417,12 +417,12 @@ rule draw_figure_pairs:
         JOB
 
 
-rule draw_figure_2_simulated:
+rule figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:
         table=f"{RESULTS}/pairs.nc",
         theory=f"{RESULTS}/theory.nc",
-        recipe=recipe("draw_figure_2_simulated"),
+        recipe=recipe("figure_2_simulated"),
     output:
         report(
             f"{RESULTS}/figures/figure_2_simulated.png",
@@ -441,11 +441,11 @@ rule draw_figure_2_simulated:
         JOB
 
 
-rule draw_figure_literature:
+rule figure_literature:
     """Lengths of the literature, simulated in their own settings"""
     input:
         table=f"{RESULTS}/literature.nc",
-        recipe=recipe("draw_figure_literature"),
+        recipe=recipe("figure_literature"),
     output:
         report(
             f"{RESULTS}/figures/figure_literature.png",
@@ -519,12 +519,12 @@ rule film:
         JOB
 
 
-rule draw_animation:
+rule animation:
     """Creep, nucleation and rupture"""
     input:
         film=f"{RESULTS}/film.nc",
         lengths=f"{RESULTS}/lengths.nc",
-        recipe=recipe("draw_animation"),
+        recipe=recipe("animation"),
     output:
         report(
             f"{RESULTS}/figures/animation.gif",

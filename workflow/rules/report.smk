@@ -77,7 +77,7 @@ rule patch_tables:
         JOB
 
 
-rule write_report:
+rule report:
     """Everything on one page"""
     input:
         figures=pictures,
@@ -93,7 +93,7 @@ rule write_report:
             for kind in ("html", "css", "js")
             for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
         ),
-        recipe=recipe("write_report"),
+        recipe=recipe("report"),
     output:
         f"{RESULTS}/report.html",
     log:

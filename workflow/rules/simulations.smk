@@ -122,11 +122,11 @@ rule join_batches:
         JOB
 
 
-rule gather_lengths:
+rule lengths:
     """Onset and critical length of every run of the studies that share the table"""
     input:
         tables=needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths"),
-        recipe=recipe("gather_lengths"),
+        recipe=recipe("lengths"),
     output:
         multiext(f"{RESULTS}/lengths", ".csv", ".nc", ".columns.csv"),
     log:

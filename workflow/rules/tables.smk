@@ -39,11 +39,11 @@ rule gather_weakening:
         JOB
 
 
-rule gather_other_faults:
+rule other_faults:
     """Drops of faults that the expected drop was not fitted to"""
     input:
         drops=needed(lambda: table_of("other_faults"), "study with role: other_faults"),
-        recipe=recipe("gather_other_faults"),
+        recipe=recipe("other_faults"),
     output:
         multiext(f"{RESULTS}/other_faults", ".csv", ".nc"),
     log:

@@ -20,23 +20,11 @@ rule simulations:
         shared(lambda names: batches(runs_in(*names))),
 
 
-rule lengths:
-    """Onset and critical length of each of them"""
-    input:
-        rules.gather_lengths.output,
-
-
-rule claims:
-    """A verdict on every statement of the paper"""
-    input:
-        rules.evaluate_claims.output,
-
-
 rule article:
     """The replication as a short article, with the paper's figures"""
     input:
         rules.write_article.output,
-        rules.evaluate_claims.output,
+        rules.claims.output,
         [f"{RESULTS}/figures/{name}.png" for name in PAPERS_FIGURES],
 
 
@@ -45,133 +33,6 @@ rule replication:
     input:
         rules.article.input,
         rules.print_article.output,
-
-
-rule figure_1:
-    """Figure 1: the two set-ups"""
-    input:
-        rules.draw_figure_1.output,
-
-
-rule figure_2:
-    """Figure 2: bimaterial interfaces"""
-    input:
-        rules.draw_figure_2.output,
-
-
-rule figure_3:
-    """Figure 3: critical length against height"""
-    input:
-        rules.draw_figure_3.output,
-
-
-rule figure_s1:
-    """Figure S1: steady-state friction"""
-    input:
-        rules.draw_figure_s1.output,
-
-
-rule figure_s2:
-    """Figure S2: stress in space and time"""
-    input:
-        rules.draw_figure_s2.output,
-
-
-rule figure_patch_stability:
-    """Stability of the creeping patch"""
-    input:
-        rules.draw_figure_patch_stability.output,
-        [f"{RESULTS}/patch_convergence.csv"] if in_role("patch_convergence") else [],
-
-
-rule figure_3_extended:
-    """Lengths of the drop and of the patch's stability"""
-    input:
-        rules.draw_figure_3_extended.output,
-
-
-rule figure_drop:
-    """Where the force drops under a declared perturbation"""
-    input:
-        rules.draw_figure_drop.output,
-
-
-rule figure_weakening:
-    """Where slow slip ends: lengths over the weakening"""
-    input:
-        rules.draw_figure_weakening.output,
-
-
-rule other_faults:
-    """Drops of faults that the expected drop was not fitted to"""
-    input:
-        rules.gather_other_faults.output,
-
-
-rule figure_weakening_patches:
-    """Weakening patches among strengthening surroundings"""
-    input:
-        rules.draw_figure_weakening_patches.output,
-
-
-rule figure_map:
-    """Lengths over height and weakening: a map"""
-    input:
-        rules.draw_figure_map.output,
-
-
-rule figure_patch_theory:
-    """Stability of the creeping patch by theory"""
-    input:
-        rules.draw_figure_patch_theory.output,
-
-
-rule figure_dispersion:
-    """Growth of single modes: simulation and theory"""
-    input:
-        rules.draw_figure_dispersion.output,
-
-
-rule figure_verification:
-    """Orders of convergence on manufactured solutions"""
-    input:
-        rules.draw_figure_verification.output,
-
-
-rule figure_convergence:
-    """Length at the drop against mesh and steps"""
-    input:
-        rules.draw_figure_convergence.output,
-
-
-rule figure_sensitivity:
-    """Sensitivity to parameters and definitions"""
-    input:
-        rules.draw_figure_sensitivity.output,
-
-
-rule figure_pairs:
-    """Two deformable bodies"""
-    input:
-        rules.draw_figure_pairs.output,
-
-
-rule figure_2_simulated:
-    """Figure 2 with simulations, in both senses of the contrast"""
-    input:
-        rules.draw_figure_2_simulated.output,
-
-
-rule figure_literature:
-    """Lengths of the literature, simulated in their own settings"""
-    input:
-        rules.draw_figure_literature.output,
-
-
-rule animation:
-    """Creep, nucleation and rupture"""
-    input:
-        rules.draw_animation.output,
 
 
 rule figure_studies:
@@ -194,23 +55,11 @@ rule patch_convergence:
         f"{RESULTS}/patch_convergence.csv",
 
 
-rule figure_crosscheck:
-    """Patch length and driving force by both solvers"""
-    input:
-        rules.draw_figure_crosscheck.output,
-
-
 rule crosscheck:
     """The same runs by an independent solver, and the figure of both"""
     input:
-        rules.draw_figure_crosscheck.output,
+        rules.figure_crosscheck.output,
         rules.compare_crosscheck.output,
-
-
-rule report:
-    """Everything on one page, results/report.html"""
-    input:
-        rules.write_report.output,
 
 
 # Checks of the results; they make no result.

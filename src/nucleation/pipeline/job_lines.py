@@ -54,18 +54,18 @@ class _JobLines(logging.Filter):
         facts["quietness"] = self._quietness
 
 
-def shorten(logger: logging.Logger, quiet: Collection[Enum]) -> None:
+def shorten(logger: logging.Logger, quiet: Collection[Enum] | None) -> None:
     """Print one line for each job, unless the reasons of jobs are asked for.
 
     Parameters
     ----------
     logger : logging.Logger
         Snakemake's.
-    quiet : collection of Enum
-        What Snakemake does not print.
+    quiet : collection of Enum, optional
+        Kinds of lines that Snakemake does not print; None without a profile.
     """
     is_short = any(isinstance(one, _JobLines) for one in logger.filters)
-    reasons = [one for one in quiet if one.name == "REASON"]
+    reasons = [one for one in quiet or () if one.name == "REASON"]
     if reasons and not is_short:
         kinds: Any = type(reasons[0])
         logger.addFilter(_JobLines(kinds.RULES))

@@ -1,4 +1,4 @@
-"""The page of the report (rule ``write_report``)."""
+"""The page of the report (rule ``report``)."""
 
 from __future__ import annotations
 

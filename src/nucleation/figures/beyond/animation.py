@@ -211,7 +211,7 @@ def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> _Upd
 
 
 def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Callable[[str], None]]:
-    """The GIF by suffix, as a function that writes it (rule ``draw_animation``).
+    """The GIF by suffix, as a function that writes it (rule ``animation``).
 
     Parameters
     ----------

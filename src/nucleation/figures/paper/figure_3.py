@@ -251,7 +251,7 @@ def draw_run(
     simulation: xr.Dataset,
     id: str,
 ) -> Figure:
-    """Draw the figure with one run in the inset (rule ``draw_figure_3``).
+    """Draw the figure with one run in the inset (rule ``figure_3``).
 
     Parameters
     ----------

@@ -266,7 +266,7 @@ def _label(
 
 
 def draw_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
-    """Draw the figure for one run of a table (rule ``draw_figure_s2``).
+    """Draw the figure for one run of a table (rule ``figure_s2``).
 
     Parameters
     ----------
