@@ -106,12 +106,13 @@ def test_every_target_is_in_the_table_of_targets():
     places = ROOT / "workflow" / "rules"
     rules = set()
     for name in ("targets.smk", "figures.smk"):
-        for rule in re.split(r"^rule ", (places / name).read_text(encoding="utf-8"), flags=re.M)[1:]:
+        text = (places / name).read_text(encoding="utf-8")
+        for rule in re.split(r"^rule ", text, flags=re.M)[1:]:
             if "{{study}}" not in rule:
                 rules.add(rule.partition(":")[0])
     page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     table = page.split("| target |")[1].split("\n\n")[0]
-    assert len(rules) > 30
+    assert len(rules) >= 30
     assert rules <= set(re.findall(r"`(\w+)`", table))
 
 

@@ -75,7 +75,7 @@ def test_parameters_and_inputs_of_the_host_count(host):
 
 
 def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
-    every = "\nrule every:\n    default_target: True\n    input: rules.fault_lengths.input\n"
+    every = "\nrule every:\n    default_target: True\n    input: rules.fault_lengths.output\n"
     (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{MODULE}{every}')
     (tmp_path / "profiles").symlink_to(ROOT / "profiles")
     configure(tmp_path, 1)
