@@ -18,9 +18,9 @@ def test_lengths_follow_every_frame():
     expected = 0.05 * np.sqrt(record.time) + 0.05 * np.log(10.0)
     np.testing.assert_allclose(record.lengths, expected, atol=1e-3)
     assert record.threshold == pytest.approx(0.1 * VELOCITY)
-    usual, high, low = record.all_lengths
-    assert usual is record.lengths
-    assert (high[1:] < usual[1:]).all() and (usual[1:] < low[1:]).all()
+    usual, high, low = record.lengths_at_drop
+    np.testing.assert_array_equal(usual, record.lengths[record.frames_at(record.drop_times)])
+    assert (high < usual).all() and (usual < low).all()
 
 
 def test_lengths_never_fall_and_are_those_of_a_run_that_is_going_on():
@@ -70,22 +70,3 @@ def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(ki
         maximal_slip_rate=("step", rates), driving_force=("step", force)
     ).assign_attrs(parameters=parameters.to_json())
     assert Record(changed, SETTINGS).drop_times[0] == pytest.approx(time, abs=0.02)
-
-
-def test_fast_slip_after_the_start_of_the_drop_is_that_of_the_event():
-    """A burst elsewhere counts up to the start of the drop, not up to its end."""
-    simulation = synthetic_simulation(fall=0.04, size=0.2)
-    record = Record(simulation, SETTINGS)
-    start, _, end = record.drop_times
-    steps = record.step_time
-    far = 0.9 * float(record.x[-1])
-    for burst, found in ((start - 1.0, True), (0.5 * (start + end), False)):
-        at = int(np.abs(steps - burst).argmin())
-        places = np.zeros(steps.size)
-        places[at] = far
-        rates = simulation["maximal_slip_rate"].values.copy()
-        rates[at] = 1e3 * VELOCITY
-        changed = simulation.assign(
-            maximal_slip_rate=("step", rates), fastest_position=("step", places)
-        )
-        assert (Record(changed, SETTINGS).fastest_elsewhere is not None) == found

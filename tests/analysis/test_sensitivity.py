@@ -3,13 +3,13 @@
 import made_up_runs
 import numpy as np
 import pytest
-from made_up_runs import PARAMETERS, changed, record, run
+from made_up_runs import changed, record, run
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
-from nucleation.analysis.sensitivity import COLUMNS, Case, sensitivity_table, variation
+from nucleation.analysis.sensitivity import COLUMNS, sensitivity_table, variation
 
-BASE = Case("base", PARAMETERS, 0.5, None)
+BASE = run("base")
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ BASE = Case("base", PARAMETERS, 0.5, None)
     ],
 )  # fmt: skip
 def test_variation_in_words(values, critical, expected):
-    assert variation(Case("run", changed(**values), critical, None), BASE) == expected
+    assert variation(run("run", changed(**values), critical), BASE) == expected
 
 
 @pytest.fixture(scope="module")

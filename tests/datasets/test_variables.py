@@ -113,7 +113,8 @@ def test_joined_tables_say_what_their_columns_are():
 
 
 def test_columns_of_the_table_of_lengths_have_a_unit_and_a_meaning():
-    described = pd.read_csv(io.StringIO(lengths.columns_csv())).set_index("column")
+    files = lengths.of_studies([table([], COLUMNS)])
+    described = pd.read_csv(io.StringIO(files[".columns.csv"])).set_index("column")
     assert list(described.index) == list(lengths.COLUMNS | lengths.MEASURES)
     assert described.units["shear_modulus"] == "Pa" and described.units["length"] == "m"
     assert described.meaning.notna().all()

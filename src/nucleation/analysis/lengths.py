@@ -116,7 +116,7 @@ GIVEN = {
 
 
 def lengths_table(
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> xr.Dataset:
@@ -149,7 +149,7 @@ def lengths_table(
     return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
 
 
-def _stability(run: dict[str, Any]) -> Row:
+def _stability(run: Row) -> Row:
     """L_s (m) of the run's fault and its status (docs/creeping_patch.md).
 
     Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
@@ -206,7 +206,7 @@ def _first(values: Array) -> Any:
     return values[0]
 
 
-def description(run: dict[str, Any]) -> Row:
+def description(run: Row) -> Row:
     """The columns with the run's parameters, and the theory's length for them."""
     parameters = Parameters.from_dict(run["parameters"])
     interface = run["interface"]
@@ -247,7 +247,7 @@ def second_body(parameters: Parameters) -> Row:
 
 
 def _row(
-    run: dict[str, Any],
+    run: Row,
     simulation: xr.Dataset,
     settings: ExtractionSettings,
 ) -> Row:
@@ -283,13 +283,9 @@ def row(table: xr.Dataset, id: str) -> xr.Dataset:
     return table.isel(run=int(index))
 
 
-def columns_csv() -> str:
-    """Unit and meaning of every column of the table, as comma-separated text."""
+def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
+    """The table of several studies, and unit and meaning of its columns, by the file's ending."""
     columns = COLUMNS | MEASURES
     described = [{"column": name, **column._asdict()} for name, column in columns.items()]
-    return pd.DataFrame(described).rename(columns={"long_name": "meaning"}).to_csv(index=False)
-
-
-def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
-    """The table of several studies, and the meaning of its columns, by the file's ending."""
-    return {".nc": join(tables), ".columns.csv": columns_csv()}
+    meanings = pd.DataFrame(described).rename(columns={"long_name": "meaning"})
+    return {".nc": join(tables), ".columns.csv": meanings.to_csv(index=False)}

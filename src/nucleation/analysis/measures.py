@@ -70,44 +70,31 @@ def measure(record: Record) -> dict[str, float]:
     given = record.parameters
     if given.loading.kind != "edge" or not given.recording.covers("interface"):
         return {}
-    fastest = record.simulation["maximal_slip_rate"].values
     sizes = record.simulation["step_size"].values[1:]
     normal = record.simulation["sigma_yy"].values
     found = dict.fromkeys(MEASURES, math.nan)
     found |= {
-        "rupture_time": float(sizes[fastest[1:] > RUPTURE].sum()),
-        "largest_rate": float(fastest.max()),
+        "rupture_time": float(sizes[record.fastest[1:] > RUPTURE].sum()),
+        "largest_rate": float(record.fastest.max()),
         "usual_step": float(np.median(sizes)),
         "largest_normal_stress_ever": float(normal.max()),
     }
     if record.onset is None:
         return found
-    event = _event(record, record.onset.start, fastest, sizes)
-    return found | event | _patch(record)
-
-
-def _event(
-    record: Record,
-    start: int,
-    fastest: Array,
-    sizes: Array,
-) -> dict[str, float]:
-    """How fast the event is that starts with a step."""
+    start = record.onset.start
     _, steep, end = record.drop_times
-    return {
-        "acceleration_time": _acceleration_time(record, start, fastest[start:]),
+    found |= {
+        "acceleration_time": _acceleration_time(record, start),
         "drop_time": float(end - steep),
-        "onset_rate": float(fastest[start]),
+        "onset_rate": float(record.fastest[start]),
         "shortest_step": float(sizes[start:].min()),
     }
+    return found | _patch(record)
 
 
-def _acceleration_time(
-    record: Record,
-    start: int,
-    rates: Array,
-) -> float:
+def _acceleration_time(record: Record, start: int) -> float:
     """Time (s) in which the largest slip rate grows from 10 V to 100 V after a step."""
+    rates = record.fastest[start:]
     hundred = int(np.argmax(rates > 100.0 * record.velocity))  # zero also if it is never so fast
     slower = np.flatnonzero(rates[:hundred] < 10.0 * record.velocity)
     if not slower.size:

@@ -11,11 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import DatasetError
-from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import WINDOW, Burst, PatchBursts, long_after
+from ..simulation.event import WINDOW, PatchBursts, long_after
 from ..simulation.patch import patch_lengths
-from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
@@ -60,11 +58,6 @@ class Record:
                 f"{self.parameters.recording.record}; simulate with interface or everything"
             )
 
-    @cached_property
-    def grid(self) -> Grid:
-        """The mesh of the run's block."""
-        return Grid.of(self.parameters.geometry, self.parameters.mesh)
-
     @property
     def velocity(self) -> float:
         """The imposed velocity V (m/s)."""
@@ -98,11 +91,19 @@ class Record:
             self._ruptures,
         )
 
+    @cached_property
+    def fastest(self) -> Array:
+        """Largest slip rate (m/s) at each step."""
+        return self.simulation["maximal_slip_rate"].values
+
     @property
     def _fast(self) -> NDArray[np.bool_]:
-        """Whether the patch slips fast at each step."""
+        """Whether the patch slips fast at each step; another solver records no position."""
         bursts = PatchBursts(self.parameters)
-        steps = zip(self.step_time, self._largest_rate, self._fastest_position, strict=True)
+        places = np.zeros(self.step_time.size)
+        if "fastest_position" in self.simulation:
+            places = self.simulation["fastest_position"].values
+        steps = zip(self.step_time, self.fastest, places, strict=True)
         return np.array([bursts.at(*step) for step in steps])
 
     @property
@@ -110,39 +111,13 @@ class Record:
         """Whether the interface ruptures at each step, where an edge is pushed."""
         if self.parameters.loading.kind != "edge":
             return None
-        return self._largest_rate > RUPTURE * self.velocity
-
-    @property
-    def _largest_rate(self) -> Array:
-        return self.simulation["maximal_slip_rate"].values
-
-    @property
-    def _fastest_position(self) -> Array:
-        """Position (m) of the largest slip rate at each step; zero from another solver."""
-        if "fastest_position" not in self.simulation:
-            return np.zeros(self.step_time.size)
-        return self.simulation["fastest_position"].values
+        return self.fastest > RUPTURE * self.velocity
 
     @property
     def _long_enough(self) -> NDArray[np.bool_]:
         """Whether the patch has been longer than a few elements by each step."""
         rates = self.simulation["slip_rate"].values
         return self.step_time > long_after(self.parameters, self.x, self.time, rates)
-
-    @property
-    def fastest_elsewhere(self) -> Burst | None:
-        """Time (s), slip rate (m/s) and position (m) of the fastest burst outside the patch.
-
-        None if all fast slip, up to the onset of an event, belongs to the patch.
-        """
-        until = np.inf if self.onset is None else float(self.drop_times[0])
-        return fastest_elsewhere(
-            self.parameters,
-            self.step_time,
-            self._largest_rate,
-            self._fastest_position,
-            until,
-        )
 
     @property
     def drop_times(self) -> Array:
@@ -178,16 +153,11 @@ class Record:
         return self._lengths(self.settings.edge_threshold)
 
     @cached_property
-    def all_lengths(self) -> tuple[Array, Array, Array]:
-        """The same for the usual threshold, the largest and the smallest of the error bar."""
+    def lengths_at_drop(self) -> Array:
+        """Those (m) by usual, high and low edge, and by start, steepest part and end, (3, 3)."""
         high = self._lengths(self.settings.edge_threshold_high)
         low = self._lengths(self.settings.edge_threshold_low)
-        return self.lengths, high, low
-
-    @cached_property
-    def lengths_at_drop(self) -> Array:
-        """Those (m) by edge, and by start, steepest part and end of the drop, (3, 3)."""
-        return np.array(self.all_lengths)[:, self.frames_at(self.drop_times)]
+        return np.array([self.lengths, high, low])[:, self.frames_at(self.drop_times)]
 
     def _lengths(self, share: float) -> Array:
         """Largest length (m) so far, for an edge at this share of V."""

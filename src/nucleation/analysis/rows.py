@@ -11,8 +11,7 @@ from ..datasets.variables import Variable
 from ..simulation.event import NEAR
 
 Row = dict[str, Any]
-LengthsRow = Mapping[str, Any]
-"""A row of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`)."""
+"""A row of a table: values by column."""
 
 RATIOS = {
     "length_ratio": ("length", "critical_length"),
@@ -62,7 +61,7 @@ def ratios(columns: Mapping[Any, Any]) -> Row:
     return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
 
 
-def without_event(rows: Iterable[LengthsRow]) -> list[str]:
+def without_event(rows: Iterable[Row]) -> list[str]:
     """Count the runs without an event, and give the reason for each in a line."""
     rows = list(rows)
     quiet = [row for row in rows if not math.isfinite(row["onset_time"])]
@@ -72,7 +71,7 @@ def without_event(rows: Iterable[LengthsRow]) -> list[str]:
     return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
 
 
-def remarked(rows: Iterable[LengthsRow]) -> list[str]:
+def remarked(rows: Iterable[Row]) -> list[str]:
     """A line for each run with remarks in its status: reasons to doubt its event."""
     lines = []
     for row in rows:
@@ -82,7 +81,7 @@ def remarked(rows: Iterable[LengthsRow]) -> list[str]:
     return lines
 
 
-def why(row: LengthsRow) -> str:
+def why(row: Row) -> str:
     """Why a run had no event, as far as its row shows."""
     status = str(row["status"])
     if not status.startswith("completed"):

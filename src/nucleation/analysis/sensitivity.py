@@ -8,7 +8,6 @@ import dataclasses
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -56,20 +55,14 @@ sooner, a faster front needs shorter steps."""
 
 SAME_LENGTH = 1e-2  # block lengths over the theory's differ by less through rounding
 
+Case = tuple[Row, xr.Dataset]
+"""A run with the status at its end, and its record."""
+
 Varied = tuple[str, str]
 """Names of the varied parameters, and how they are varied, in words."""
 
 
-class Case(NamedTuple):
-    """One run with its parameters and the theory's length for them."""
-
-    id: str
-    parameters: Parameters
-    critical_length: float  # m
-    simulation: xr.Dataset = xr.Dataset()
-
-
-def variation(case: Case, base: Case) -> Varied:
+def variation(run: Row, base: Row) -> Varied:
     """The parameters that a run varies against its base.
 
     The block's length counts if it is another multiple of the theory's critical length. The start
@@ -78,24 +71,24 @@ def variation(case: Case, base: Case) -> Varied:
 
     Parameters
     ----------
-    case, base : Case
-        The run, and its base.
+    run, base : dict
+        The run and its base, from :meth:`nucleation.configuration.runs.Run.to_dict`.
 
     Returns
     -------
     names, words : str
         The names, separated by commas, and how the parameters are varied; :data:`BASE` if none is.
     """
-    values = case.parameters.named()
-    usual = base.parameters.named()
+    values = Parameters.from_dict(run["parameters"]).named()
+    usual = Parameters.from_dict(base["parameters"]).named()
     varied = {
         name
         for name, value in values.items()
         if value != usual.get(name, value) and name not in (*NOT_PHYSICAL, "geometry.length")
     }
-    own = case.parameters.geometry.length
-    others = base.parameters.geometry.length
-    ratio = own / case.critical_length * base.critical_length / others
+    own = run["parameters"]["geometry"]["length"]
+    others = base["parameters"]["geometry"]["length"]
+    ratio = own / run["critical_length"] * base["critical_length"] / others
     if abs(ratio - 1.0) > SAME_LENGTH:
         varied.add("geometry.length")
     if "loading.initial_stress" in varied:
@@ -158,9 +151,8 @@ def sensitivity_table(
     """
     heights: dict[float, list[Case]] = defaultdict(list)
     for run, simulation in zip(runs, simulations, strict=True):
-        parameters = Parameters.from_dict(run["parameters"])
-        case = Case(run["id"], parameters, run["critical_length"], simulation)
-        heights[parameters.geometry.height].append(case)
+        case = run | {"status": simulation.attrs["status"]}, simulation
+        heights[run["parameters"]["geometry"]["height"]].append(case)
     rows: list[Row] = []
     for cases in heights.values():
         rows += _of_height(cases, settings)
@@ -169,17 +161,17 @@ def sensitivity_table(
 
 def _of_height(cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
     """The rows of one height; the first case is the base."""
-    base = cases[0]
-    usual = extract(base.simulation, settings)
-    for case in cases:
-        found = extract(case.simulation, settings)
-        yield _row(case, base, variation(case, base), found, usual)
-    for varied, found in _redefined(base, usual, settings):
+    base, simulation = cases[0]
+    usual = extract(simulation, settings)
+    for run, own in cases:
+        found = extract(own, settings)
+        yield _row(run, base, variation(run, base), found, usual)
+    for varied, found in _redefined(simulation, usual, settings):
         yield _row(base, base, varied, found, usual)
 
 
 def _redefined(
-    base: Case,
+    simulation: xr.Dataset,
     usual: dict[str, float],
     settings: ExtractionSettings,
 ) -> Iterator[tuple[Varied, dict[str, float]]]:
@@ -187,39 +179,39 @@ def _redefined(
     for threshold in EDGE_THRESHOLDS:
         changed = dataclasses.replace(settings, edge_threshold=threshold)
         varied = ("edge_threshold", f"edge at {threshold:g} V")
-        yield varied, extract(base.simulation, changed)
+        yield varied, extract(simulation, changed)
     for drop in DROPS:
         changed = dataclasses.replace(settings, drop=drop)
-        yield ("drop", f"drop by {drop:g}"), extract(base.simulation, changed)
+        yield ("drop", f"drop by {drop:g}"), extract(simulation, changed)
     end = usual["onset_time_high"]
     if math.isfinite(end):
-        record = Record(base.simulation, settings)
+        record = Record(simulation, settings)
         frame = record.frames_at(np.array([end]))[0]
         length = float(record.lengths[frame])
         yield ("instant", DROP_COMPLETE), {"length": length, "onset_time": end}
 
 
 def _row(
-    case: Case,
-    base: Case,
+    run: Row,
+    base: Row,
     varied: Varied,
     found: dict[str, float],
     usual: dict[str, float],
 ) -> Row:
-    """Numbers of a case beside the usual ones of the base."""
+    """Numbers of a run beside the usual ones of the base."""
     length = found["length"]
     change = length / usual["length"]
     return {
-        "id": case.id,
-        "height": case.parameters.geometry.height,
+        "id": run["id"],
+        "height": run["parameters"]["geometry"]["height"],
         "varied": varied[0],
         "variation": varied[1],
         "length": length,
         "length_change": change - 1.0,
-        "critical_length": case.critical_length,
-        "length_over_theory": length / case.critical_length,
-        "ratio_change": change * base.critical_length / case.critical_length - 1.0,
+        "critical_length": run["critical_length"],
+        "length_over_theory": length / run["critical_length"],
+        "ratio_change": change * base["critical_length"] / run["critical_length"] - 1.0,
         "onset_time": found["onset_time"],
         "onset_change": found["onset_time"] / usual["onset_time"] - 1.0,
-        "status": case.simulation.attrs["status"],
+        "status": run["status"],
     }

@@ -72,8 +72,7 @@ def zone_length(
     """
     x = simulation["x"].values
 
-    def width(frame: _Frame) -> float:
-        rates = frame.rates
+    def width(rates: Array, states: Array) -> float:
         threshold = definition.share * float(rates.max())
         if definition.between_tips:
             rates = _filled_between_tips(rates)
@@ -119,11 +118,11 @@ def far_ahead(
         stuck there.
     """
 
-    def far_slip_rate(frame: _Frame) -> float:
-        return float(frame.rates[_opposite(frame.rates)])
+    def far_slip_rate(rates: Array, states: Array) -> float:
+        return float(rates[_opposite(rates)])
 
-    def far_state(frame: _Frame) -> float:
-        return float(frame.states[_opposite(frame.rates)])
+    def far_state(rates: Array, states: Array) -> float:
+        return float(states[_opposite(rates)])
 
     rate = _when_passing(simulation, slip_rate, far_slip_rate)
     if not rate > 0.0:  # slip rates of a stuck fault are not recorded
@@ -137,19 +136,12 @@ def _opposite(rates: Array) -> int:
     return (int(rates.argmax()) + period // 2) % period
 
 
-class _Frame(NamedTuple):
-    """The interface of a period at one instant."""
-
-    rates: Array  # m/s
-    states: Array  # s
-
-
 def _when_passing(
     simulation: xr.Dataset,
     slip_rate: float,
-    measure: Callable[[_Frame], float],
+    measure: Callable[[Array, Array], float],
 ) -> float:
-    """The measure of a frame at the instant when the largest slip rate passes a value (m/s)."""
+    """The measure of slip rates (m/s) and states (s) when the fastest passes a value (m/s)."""
     rates = np.abs(simulation["slip_rate"].values.astype(float))
     states = simulation["state"].values
     fastest = rates.max(axis=1)
@@ -157,5 +149,5 @@ def _when_passing(
     if not above.size or above[0] == 0:
         return math.nan
     pair = [above[0] - 1, above[0]]
-    measured = [measure(_Frame(rates[i], states[i])) for i in pair]
+    measured = [measure(rates[i], states[i]) for i in pair]
     return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), measured))

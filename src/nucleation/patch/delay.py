@@ -79,20 +79,10 @@ class Growth:
     exponent: Array  # int Re Lambda dt
     per_period: Array  # growth of the patch in a period of the mode (m)
 
-    def length_at(self, amplitude: float) -> float:
-        """Length (m) at which the amplitude per strength last passes a value, or NaN."""
-        level = np.log(amplitude)
-        above = self.log_amplitude >= level
-        if not above[-1] or above.all():
-            return float("nan")
-        i = int(np.flatnonzero(~above)[-1])
-        amplitudes = self.log_amplitude[i : i + 2]
-        lengths = self.length[i : i + 2]
-        return float(np.interp(level, amplitudes, lengths))
-
     def drop(self, strength: float) -> Drop:
         """The expected drop at a relative strength; NaN where the law does not apply."""
-        if np.isnan(self.length_at(1.0 / (strength * ROOT_OF_MEDIAN))):
+        reached = self.log_amplitude >= np.log(1.0 / (strength * ROOT_OF_MEDIAN))
+        if reached.all() or not reached[-1]:
             return NO_DROP
         parts = self._dropped(strength)
         lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)

@@ -18,7 +18,6 @@ import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.record import Record
 from ..fem.bodies import body_of
 from ..fem.condensed import Operator
 from ..model.friction.law import Friction
@@ -166,25 +165,3 @@ class Freezer:
         if loading.kind != "edge":
             rate_over_v = float(slip_rate.max()) / loading.velocity
         return patch.oscillating(rate_over_v * OSCILLATING / self.parameters.memory_time)
-
-
-class Frames(Freezer):
-    """The frames of a recorded run up to its onset, and the frozen patch at each."""
-
-    def __init__(self, record: Record) -> None:
-        super().__init__(record.parameters, record.threshold)
-        names = ("slip_rate", "state", "sigma_yy")
-        self._fields = [record.simulation[name].values[record.creep] for name in names]
-        self.time = record.time[record.creep]
-        self.length = record.lengths[record.creep]
-
-    def fields(self, i: int) -> tuple[Array, Array, Array]:
-        """Slip rate (m/s), state (s) and nodal normal force (N/m) at a frame, at all nodes."""
-        rate, state, stress = (field[i] for field in self._fields)
-        return rate, state, -stress * self.grid.nodal_lengths
-
-    def patch(self, i: int) -> tuple[FrozenPatch, complex]:
-        """The frozen patch at a frame, and its oscillating mode."""
-        rate, state, force = self.fields(i)
-        patch = self.frozen(rate, state, force)
-        return patch, self.oscillating(patch, rate)

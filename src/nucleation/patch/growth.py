@@ -17,8 +17,9 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
 from ..datasets.variables import Variable, annotate
 from ..simulation.recorded import RECORDED
+from ..theory.creep.linearised import FrozenPatch
 from ..types import Array, ComplexArray
-from .frozen import Frames
+from .frozen import Freezer
 
 FEWEST_NODES = 8  # a shorter patch is not resolved
 SCANNED = 40  # instants that give the rough crossing
@@ -72,42 +73,47 @@ def follow_patch(
     spectra = _Spectra(Record(simulation, settings))
     frames = np.flatnonzero(spectra.length >= FEWEST_NODES * spectra.grid.dx)
     scanned = evenly(frames, spectra.length, SCANNED)
-    crossing = rough_crossing(spectra.length[scanned], spectra.fastest(scanned).real)
+    fastest, _ = spectra.rates(scanned)
+    crossing = rough_crossing(spectra.length[scanned], fastest.real)
     fit = dict.fromkeys(FITTED, float("nan"))
     near = frames
     for _ in range(REFITS):
         if np.isfinite(crossing):
             near = frames[np.abs(spectra.length[frames] / crossing - 1.0) < AROUND]
             near = evenly(near, spectra.length, NEAR)
-            fit = fitted_crossing(spectra.length[near], spectra.growth(near))
+            _, oscillating = spectra.rates(near)
+            fit = fitted_crossing(spectra.length[near], oscillating)
             crossing = fit["stability_length"]
     mode = np.zeros(spectra.grid.n_x + 1, dtype=complex)
     if np.isfinite(crossing):
         distance = np.abs(spectra.length[near] - crossing)
-        at = near[distance.argmin()]
-        patch, _ = spectra.patch(at)
-        (rate,) = spectra.growth([at])
+        patch, rate = spectra.patch(near[distance.argmin()])
         mode[patch.nodes], _ = patch.mode(rate)
-    found = spectra.dataset(fit, mode)
-    return found.assign_attrs(parameters=simulation.attrs["parameters"])
+    return spectra.dataset(fit, mode)
 
 
-class _Spectra(Frames):
-    """The frames of a run with their eigenvalues, each computed once."""
+class _Spectra(Freezer):
+    """The frozen patches of a recorded run up to its onset, their eigenvalues computed once."""
 
     def __init__(self, record: Record) -> None:
-        super().__init__(record)
+        super().__init__(record.parameters, record.threshold)
+        names = ("slip_rate", "state", "sigma_yy")
+        self._fields = [record.simulation[name].values[record.creep] for name in names]
+        self.time = record.time[record.creep]
+        self.length = record.lengths[record.creep]
         self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
 
-    def fastest(self, frames: Iterable[int]) -> ComplexArray:
-        """Eigenvalues (1/s) of the fastest growing mode at some frames, or NaN."""
-        rates = [self._rates(i) for i in frames]
-        return np.array([fastest for fastest, _ in rates], dtype=complex)
+    def patch(self, frame: int) -> tuple[FrozenPatch, complex]:
+        """The frozen patch at a frame, and its oscillating mode."""
+        rate, state, stress = (field[frame] for field in self._fields)
+        patch = self.frozen(rate, state, -stress * self.grid.nodal_lengths)
+        return patch, self.oscillating(patch, rate)
 
-    def growth(self, frames: Iterable[int]) -> ComplexArray:
-        """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
-        rates = [self._rates(i) for i in frames]
-        return np.array([pair for _, pair in rates], dtype=complex)
+    def rates(self, frames: Iterable[int]) -> tuple[ComplexArray, ComplexArray]:
+        """Eigenvalues (1/s) of the fastest growing mode and of the oscillating one, or NaN."""
+        rates = [self._rates(frame) for frame in frames]
+        fastest, oscillating = np.array(rates, dtype=complex).reshape(-1, 2).T
+        return fastest, oscillating
 
     def _rates(self, frame: int) -> tuple[complex, complex]:
         if frame not in self._known:
@@ -138,22 +144,18 @@ class _Spectra(Frames):
             The variables :data:`FOLLOWED` at all frames with known eigenvalues.
         """
         frames = sorted(self._known)
-        rates = [self._known[i] for i in frames]
-        fastest, pairs = np.array(rates).reshape(-1, 2).T
-        on_instant = {
-            "instant_time": self.time[frames],
-            "patch_length": self.length[frames],
-            "growth_rate": fastest.real,
-            "growth_frequency": np.abs(fastest.imag),
-            "oscillation_growth": pairs.real,
-            "oscillation_frequency": pairs.imag,
-        }
-        on_x = {"mode_real": mode.real, "mode_imaginary": mode.imag}
+        fastest, oscillating = self.rates(frames)
         found = xr.Dataset(
             {
-                **{name: ("instant", values) for name, values in on_instant.items()},
+                "instant_time": ("instant", self.time[frames]),
+                "patch_length": ("instant", self.length[frames]),
+                "growth_rate": ("instant", fastest.real),
+                "growth_frequency": ("instant", np.abs(fastest.imag)),
+                "oscillation_growth": ("instant", oscillating.real),
+                "oscillation_frequency": ("instant", oscillating.imag),
                 **fit,
-                **{name: ("x", values) for name, values in on_x.items()},
+                "mode_real": ("x", mode.real),
+                "mode_imaginary": ("x", mode.imag),
             },
             coords={"x": self.grid.x},
             attrs={"parameters": self.parameters.to_json()},
