@@ -1,7 +1,7 @@
 """Warnings about studies with allowed values that are unlikely to give the intended results.
 
 Each warning names the study, the runs concerned and the numbers. The limits are estimates from
-the linear theory and the thin block's statics; docs/studies.md has the criteria.
+the linear theory and the thin block's statics; docs/studies.md has those that a user plans with.
 """
 
 import math
