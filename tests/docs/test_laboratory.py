@@ -8,7 +8,7 @@ import yaml
 
 from nucleation.answers.specimen import SPECIMEN
 from nucleation.api import critical_length, stability_length
-from nucleation.model.quantities import Quantity
+from nucleation.model.quantities import declared
 from nucleation.model.units import parse
 from nucleation.theory.fault import QUANTITIES
 
@@ -17,8 +17,8 @@ FAULTS = yaml.safe_load(PAGE.read_text(encoding="utf-8"))
 OTHERS = {
     **dict.fromkeys(("fault_length", "thickness", "observed_length"), SPECIMEN),
     "young_modulus": dataclasses.replace(QUANTITIES["shear_modulus"], description="E"),
-    "density": Quantity("mass density", unit="kg/m^3", low=0.0, high=1e6),
-    "loading_rate": Quantity("rate of the shear stress", unit="Pa/s", low=0.0, high=1e15),
+    "density": declared("mass density", "(0.0, 1e6) kg/m^3"),
+    "loading_rate": declared("rate of the shear stress", "(0.0, 1e15) Pa/s"),
 }
 
 

@@ -4,10 +4,10 @@ import pytest
 
 from nucleation.model.names import Names
 from nucleation.model.parameters import GROUPS, Parameters, names
-from nucleation.model.quantities import ParameterError, Quantity
+from nucleation.model.quantities import ParameterError, declared
 from nucleation.theory.arrays import aliases
 
-HEIGHT = Quantity("height", unit="m")
+HEIGHT = declared("height", "(-inf, inf) m")
 TWO = Names(
     {"geometry.height": HEIGHT, "geometry.length": HEIGHT, "second_body.height": HEIGHT,
      "friction.evolution": HEIGHT, "friction.law": HEIGHT},

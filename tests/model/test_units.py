@@ -12,7 +12,7 @@ from nucleation.configuration import schema
 from nucleation.configuration.settings import Limits
 from nucleation.configuration.study_names import study_parameters
 from nucleation.model.material import Material
-from nucleation.model.quantities import ParameterError, Quantity, declarations
+from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import magnitude, parse, registry
 from nucleation.theory.fault import QUANTITIES
 
@@ -87,7 +87,7 @@ def test_units_cost_no_rounding(number):
 
 
 def test_integers():
-    entry = Quantity("number", low=2, high=10, closed="both", kind="int")
+    entry = declared("number", "[2, 10]", kind="int")
     assert parse("n", " 7 ", entry) == 7
     for text in ("7.0", "7 m", "1e1", "11", "1" * 5000, "", "0x7"):
         with pytest.raises(ParameterError, match=r"must be an integer in \[2, 10\]"):

@@ -34,29 +34,18 @@ class ExtractionSettings(Checked):
 
     edge_threshold: float = quantity(
         "slip rate at the edge of the creep patch over the imposed velocity",
-        low=0.0,
-        high=1.0,
-        closed="high",
+        "(0.0, 1.0]",
         default=SLIPPING,
     )
     edge_threshold_high: float = quantity(
-        "largest edge threshold of the error bar",
-        low=0.0,
-        high=1.0,
-        closed="high",
-        default=0.5,
+        "largest edge threshold of the error bar", "(0.0, 1.0]", default=0.5
     )
     edge_threshold_low: float = quantity(
-        "smallest edge threshold of the error bar",
-        low=0.0,
-        high=1.0,
-        closed="high",
-        default=1e-3,
+        "smallest edge threshold of the error bar", "(0.0, 1.0]", default=1e-3
     )
     drop: float = quantity(
         "abrupt drop of the driving force that makes an event, as a fraction",
-        low=0.0,
-        high=1.0,
+        "(0.0, 1.0)",
         default=EVENT_DROP,
     )
 

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.special import ndtri
 
-from ..model.quantities import ParameterError, Quantity, check
+from ..model.quantities import ParameterError, Quantity, check, declared
 from ..model.units import NUMBER, magnitude, parse
 from ..theory.values import QUANTITIES, checked, inside
 from ..types import Array
 from .in_use import WEAKENING_RATE
 
-DRAWS = Quantity("number of draws", low=20, high=1e6, closed="both", kind="int")
-_SEED = Quantity("seed", low=0, high=2**32, closed="both", kind="int")
+DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
+_SEED = declared("seed", "[0, 4294967296]", kind="int")
 SAMPLED = {name: entry for name, entry in QUANTITIES.items() if not entry.worded}
 SAMPLED["weakening_rate"] = WEAKENING_RATE
 """Declarations of the parameters that may be uncertain."""

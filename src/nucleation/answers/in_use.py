@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model.quantities import Quantity
+from ..model.quantities import declared
 from ..theory.arrays import fault_of
 from ..theory.fault import FaultParameters, takes_fault
 from ..theory.values import Numbers, Values, checked, labelled, where
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _FALL = "rate of linear slip weakening of the shear strength"
-WEAKENING_RATE = Quantity(_FALL, unit="Pa/m", low=0.0, high=1e25, symbol="W")
+WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
 
 
 def _stability_length(fault: FaultParameters) -> Numbers:

@@ -17,7 +17,7 @@ from ..configuration.parameter_files import name_in_studies
 from ..configuration.single_run import merged_parameters, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
-from ..model.quantities import ParameterError, Quantity
+from ..model.quantities import ParameterError, Quantity, declared
 from ..model.units import NUMBER, parse
 from ..patch.drop_quantiles import TITLES
 from ..patch.lengths_over import Axis, lengths_over
@@ -36,13 +36,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _ENDS = (".png", ".pdf")
-_POINTS = Quantity(
-    "number of values of each parameter",
-    low=3,
-    high=1000,
-    closed="both",
-    kind="int",
-)
+_POINTS = declared("number of values of each parameter", "[3, 1000]", kind="int")
 _CRITERIA = {
     "critical": "critical_length",
     "stability": "stability_length",

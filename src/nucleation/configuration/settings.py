@@ -25,8 +25,7 @@ class StudySettings(Checked):
     )
     length_over_critical: float = quantity(
         "block length over the theory's critical length, unless a run gives its length",
-        low=1.0,
-        high=1000.0,
+        "(1.0, 1000.0)",
         symbol="L/L_c",
         default=6.0,
     )
@@ -44,9 +43,7 @@ class StudySettings(Checked):
     )
     runs_per_job: int = quantity(
         "simulations that one job makes, one after another; more than one where runs take seconds",
-        low=1,
-        high=10000,
-        closed="both",
+        "[1, 10000]",
         default=1,
     )
     measure: str = quantity(
@@ -68,20 +65,10 @@ class FigureSettings(Checked):
     """Which simulations with the role ``paper`` the figures show."""
 
     inset_height: float = quantity(
-        "height of the simulation in the inset of Figure 3",
-        unit="m",
-        low=0.0,
-        high=1e6,
-        symbol="H",
-        default=0.1,
+        "height of the simulation in the inset of Figure 3", "(0.0, 1e6) m", symbol="H", default=0.1
     )
     space_time_height: float = quantity(
-        "height of the simulation in Figure S2",
-        unit="m",
-        low=0.0,
-        high=1e6,
-        symbol="H",
-        default=0.005,
+        "height of the simulation in Figure S2", "(0.0, 1e6) m", symbol="H", default=0.005
     )
 
 
@@ -89,20 +76,9 @@ class FigureSettings(Checked):
 class Limits(Checked):
     """Limits of one simulation; larger ones are refused before they start."""
 
-    memory: float = quantity(
-        "memory of one simulation",
-        unit="MB",
-        low=100.0,
-        high=1e7,
-        default=2000.0,
-    )
+    memory: float = quantity("memory of one simulation", "(100.0, 1e7) MB", default=2000.0)
     runtime: float = quantity(
-        "time after which a cluster may end a simulation",
-        unit="min",
-        low=1.0,
-        high=1e5,
-        closed="both",
-        default=60.0,
+        "time after which a cluster may end a simulation", "[1.0, 1e5] min", default=60.0
     )
 
 

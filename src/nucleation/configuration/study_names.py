@@ -13,16 +13,10 @@ from typing import Any
 import numpy as np
 
 from ..model.parameters import GROUPS, Parameters, names
-from ..model.quantities import ParameterError, Quantity
+from ..model.quantities import ParameterError, Quantity, declared
 
 RANGE: dict[str, Quantity] = {
-    "num": Quantity(
-        "number of values",
-        low=2,
-        high=10000,
-        closed="both",
-        kind="int",
-    ),
+    "num": declared("number of values", "[2, 10000]", kind="int"),
     "scale": Quantity(
         "spacing of the values",
         choices=("linear", "log"),

@@ -16,22 +16,8 @@ class Geometry(Checked):
     0.01
     """
 
-    height: float = quantity(
-        "block height",
-        unit="m",
-        low=0.0,
-        high=1e6,
-        symbol="H",
-        default=0.005,
-    )
-    length: float = quantity(
-        "block length",
-        unit="m",
-        low=0.0,
-        high=1e7,
-        symbol="L",
-        default=1.0,
-    )
+    height: float = quantity("block height", "(0.0, 1e6) m", symbol="H", default=0.005)
+    length: float = quantity("block length", "(0.0, 1e7) m", symbol="L", default=1.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,26 +31,10 @@ class Mesh(Checked):
     2000
     """
 
-    n_x: int = quantity(
-        "number of elements along x",
-        low=8,
-        high=100000,
-        closed="both",
-        symbol="N_x",
-        default=400,
-    )
-    n_y: int = quantity(
-        "number of elements along y",
-        low=2,
-        high=10000,
-        closed="both",
-        symbol="N_y",
-        default=150,
-    )
+    n_x: int = quantity("number of elements along x", "[8, 100000]", symbol="N_x", default=400)
+    n_y: int = quantity("number of elements along y", "[2, 10000]", symbol="N_y", default=150)
     grading: float = quantity(
         "height of the top row of elements over that of the bottom row",
-        low=1.0,
-        high=1000.0,
-        closed="both",
+        "[1.0, 1000.0]",
         default=1.0,
     )

@@ -50,24 +50,16 @@ class Heterogeneity(Checked):
     )
     centre: float | None = quantity(
         "position of the step's or the bump's middle; the block's middle if left out",
-        unit="m",
-        low=0.0,
-        high=1e7,
-        closed="low",
+        "[0.0, 1e7) m",
         default=None,
     )
     width: float = quantity(
-        "width of the step, or of the bump at half its height",
-        unit="m",
-        low=0.0,
-        high=1e7,
-        default=0.1,
+        "width of the step, or of the bump at half its height", "(0.0, 1e7) m", default=0.1
     )
     change: float = quantity(
         "change of the property within, over its value elsewhere; below -1 for zeta alone, which "
         "changes its sign there",
-        low=-1e3,
-        high=1e3,
+        "(-1e3, 1e3)",
         default=0.0,
     )
 

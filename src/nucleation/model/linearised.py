@@ -19,50 +19,21 @@ class InterfaceState(Checked):
     """
 
     friction: float = quantity(
-        "friction coefficient of steady sliding",
-        low=0.0,
-        high=10.0,
-        closed="low",
-        symbol="f",
-        default=0.41,
+        "friction coefficient of steady sliding", "[0.0, 10.0)", symbol="f", default=0.41
     )
-    a: float = quantity(
-        "direct-effect coefficient a",
-        low=0.0,
-        high=10.0,
-        symbol="a",
-        default=0.0068,
-    )
+    a: float = quantity("direct-effect coefficient a", "(0.0, 10.0)", symbol="a", default=0.0068)
     zeta: float = quantity(
         "velocity weakening zeta (negative: strengthening)",
-        low=-10.0,
-        high=10.0,
+        "(-10.0, 10.0)",
         symbol="zeta",
         default=0.016,
     )
     slip_length: float = quantity(
-        "slip length ell over which the state evolves",
-        unit="m",
-        low=0.0,
-        high=1e3,
-        symbol="ell",
-        default=5.0e-7,
+        "slip length ell over which the state evolves", "(0.0, 1e3) m", symbol="ell", default=5.0e-7
     )
-    velocity: float = quantity(
-        "sliding velocity",
-        unit="m/s",
-        low=0.0,
-        high=1e3,
-        symbol="V",
-        default=1.0e-5,
-    )
+    velocity: float = quantity("sliding velocity", "(0.0, 1e3) m/s", symbol="V", default=1.0e-5)
     normal_stress: float = quantity(
-        "compressive normal stress",
-        unit="Pa",
-        low=0.0,
-        high=1e13,
-        symbol="sigma0",
-        default=1.0e6,
+        "compressive normal stress", "(0.0, 1e13) Pa", symbol="sigma0", default=1.0e6
     )
 
 

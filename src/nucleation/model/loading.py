@@ -32,29 +32,17 @@ class Loading(Checked):
     """
 
     normal_stress: float = quantity(
-        "applied compressive normal stress",
-        unit="Pa",
-        low=0.0,
-        high=1e10,
-        symbol="sigma0",
-        default=1.0e6,
+        "applied compressive normal stress", "(0.0, 1e10) Pa", symbol="sigma0", default=1.0e6
     )
     velocity: float = quantity(
         "imposed velocity of the edge or the top that moves; with kind remote, where neither "
         "moves, the unit of slip rates",
-        unit="m/s",
-        low=0.0,
-        high=1.0,
+        "(0.0, 1.0) m/s",
         symbol="V",
         default=1.0e-5,
     )
     initial_state: float = quantity(
-        "initial state variable (age) of the interface",
-        unit="s",
-        low=0.0,
-        high=1e12,
-        symbol="phi0",
-        default=1.0,
+        "initial state variable (age) of the interface", "(0.0, 1e12) s", symbol="phi0", default=1.0
     )
     initial_stress: str = quantity(
         "initial static field: of an interface without slip, or of one that has slipped to the "
@@ -64,10 +52,7 @@ class Loading(Checked):
     )
     initial_shear_stress: float = quantity(
         "initial shear stress at the interface, if initial_stress is uniform_shear",
-        unit="Pa",
-        low=0.0,
-        high=1e10,
-        closed="low",
+        "[0.0, 1e10) Pa",
         symbol="tau0",
         default=0.0,
     )
@@ -79,10 +64,7 @@ class Loading(Checked):
     )
     stress_rate: float = quantity(
         "rate at which the far shear stress rises, with kind remote",
-        unit="Pa/s",
-        low=0.0,
-        high=1e15,
-        closed="low",
+        "[0.0, 1e15) Pa/s",
         symbol="dtau/dt",
         default=0.0,
     )

@@ -47,27 +47,13 @@ class Material(Checked):
     3333
     """
 
-    shear_modulus: float = quantity(
-        "shear modulus",
-        unit="Pa",
-        low=0.0,
-        high=1e13,
-        symbol="mu",
-        default=3.1e9,
-    )
+    shear_modulus: float = quantity("shear modulus", "(0.0, 1e13) Pa", symbol="mu", default=3.1e9)
     poisson_ratio: float = quantity(
-        "Poisson's ratio",
-        low=-1.0,
-        high=0.5,
-        symbol="nu",
-        default=1.0 / 3.0,
+        "Poisson's ratio", "(-1.0, 0.5)", symbol="nu", default=1.0 / 3.0
     )
     density: float = quantity(
         "mass density; zero makes the block quasi-static, without inertia",
-        unit="kg/m^3",
-        low=0.0,
-        high=1e6,
-        closed="low",
+        "[0.0, 1e6) kg/m^3",
         symbol="rho",
         default=1200.0,
     )

@@ -38,48 +38,28 @@ class Stepping(Checked):
     10.0
     """
 
-    end_time: float = quantity(
-        "simulated time",
-        unit="s",
-        low=0.0,
-        high=1e12,
-        symbol="t",
-        default=16.0,
-    )
+    end_time: float = quantity("simulated time", "(0.0, 1e12) s", symbol="t", default=16.0)
     time_after_event: float = quantity(
         "time simulated after the event's onset before the run may end",
-        unit="s",
-        low=0.0,
-        high=1e12,
-        closed="low",
+        "[0.0, 1e12) s",
         default=1e12 / 2,
     )
     event_drop: float = quantity(
         "fall of the driving force with which the event has begun, as a fraction; in the workflow "
         "extraction.drop if that is larger",
-        low=0.0,
-        high=1.0,
+        "(0.0, 1.0)",
         default=EVENT_DROP,
     )
     tolerance: float = quantity(
         "tolerance of the local error of log slip rate and log state per step",
-        low=0.0,
-        high=1.0,
+        "(0.0, 1.0)",
         default=1.0e-2,
     )
     longest_step: float = quantity(
-        "longest time step over the memory time D/V",
-        low=0.0,
-        high=1.0,
-        closed="high",
-        default=0.1,
+        "longest time step over the memory time D/V", "(0.0, 1.0]", default=0.1
     )
     shortest_step: float = quantity(
-        "shortest time step, below which the run ends as failed",
-        unit="s",
-        low=0.0,
-        high=1.0,
-        default=1.0e-12,
+        "shortest time step, below which the run ends as failed", "(0.0, 1.0) s", default=1.0e-12
     )
 
 

@@ -52,31 +52,18 @@ class Perturbation(Checked):
     kind: str = quantity("perturbed quantity", choices=KINDS, default="none")
     strength: float = quantity(
         "relative strength of the perturbation, its standard deviation",
-        low=0.0,
-        high=0.1,
-        closed="both",
+        "[0.0, 0.1]",
         symbol="eps",
         default=0.0,
     )
     correlation_time: float = quantity(
-        "correlation time of the perturbation over the memory time D/V",
-        low=0.0,
-        high=1e6,
-        default=1.0,
+        "correlation time of the perturbation over the memory time D/V", "(0.0, 1e6)", default=1.0
     )
     correlation_length: float = quantity(
-        "correlation length of the perturbation along x",
-        unit="m",
-        low=0.0,
-        high=1e6,
-        default=0.02,
+        "correlation length of the perturbation along x", "(0.0, 1e6) m", default=0.02
     )
     seed: int = quantity(
-        "seed of the perturbation's realisation",
-        low=0,
-        high=2**63 - 1,
-        closed="both",
-        default=0,
+        "seed of the perturbation's realisation", "[0, 9223372036854775807]", default=0
     )
 
     @property

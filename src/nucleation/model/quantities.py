@@ -8,9 +8,12 @@ follow from that declaration.
 import dataclasses
 import math
 import numbers
+import re
 from collections.abc import Collection
 from functools import cache
 from typing import Any, cast
+
+_RANGE = re.compile(r"([\[(])(.+), (.+)([\])]) ?(.*)")
 
 
 class ParameterError(ValueError):
@@ -107,29 +110,59 @@ class Quantity:
         return f"{left}{self.low:g}, {self.high:g}{right}"
 
 
-def quantity(
-    description: str,
-    *,
-    default: Any = dataclasses.MISSING,
-    **declaration: Any,
-) -> Any:
-    """A dataclass field that carries its :class:`Quantity` as metadata.
+def declared(description: str, allowed: str = "(-inf, inf)", **more: Any) -> Quantity:
+    """A declaration with the allowed range and the unit as a text.
 
     Parameters
     ----------
     description : str
         Meaning of the parameter, as messages and help texts print it.
+    allowed : str
+        The range, with a square bracket at an end that belongs to it, and the unit:
+        ``(0.0, 1e6] m``.
+    **more
+        Other fields of :class:`Quantity`: symbol, choices or kind.
+
+    Examples
+    --------
+    >>> height = declared("block height", "(0.0, 1e6] m", symbol="H")
+    >>> height.low, height.high, height.closed, height.unit
+    (0.0, 1000000.0, 'high', 'm')
+    """
+    ends = _RANGE.fullmatch(allowed)
+    if ends is None:
+        raise ValueError(f"{allowed!r} is no range: write it as [0.0, 1e6) m")
+    left, low, high, right, unit = ends.groups()
+    closed = {"[)": "low", "(]": "high", "[]": "both", "()": ""}[left + right]
+    return Quantity(description, unit or "1", _end(low), _end(high), closed, **more)
+
+
+def _end(text: str) -> float:
+    """An end of a range; a whole number stays one, since floats have no 2^63 - 1."""
+    return int(text) if text.isdigit() else float(text)
+
+
+def quantity(
+    description: str,
+    allowed: str = "(-inf, inf)",
+    *,
+    default: Any = dataclasses.MISSING,
+    **more: Any,
+) -> Any:
+    """A dataclass field that carries its :class:`Quantity` as metadata.
+
+    Parameters
+    ----------
+    description, allowed, **more
+        As in :func:`declared`. The kind follows from the field's annotation.
     default : object
         The field's default, in SI units.
-    **declaration
-        Other fields of :class:`Quantity`: unit, range, symbol or choices. The kind follows from
-        the field's annotation.
 
     Returns
     -------
     dataclasses.Field
     """
-    entry = Quantity(description, **declaration)
+    entry = declared(description, allowed, **more)
     return dataclasses.field(default=default, metadata={"quantity": entry})
 
 

@@ -36,49 +36,37 @@ class SecondBody(Checked):
     )
     shear_modulus: float | None = quantity(
         "shear modulus of the second block; the first one's if left out",
-        unit="Pa",
-        low=0.0,
-        high=1e13,
+        "(0.0, 1e13) Pa",
         symbol="mu2",
         default=None,
     )
     poisson_ratio: float | None = quantity(
         "Poisson's ratio of the second block; the first one's if left out",
-        low=-1.0,
-        high=0.5,
+        "(-1.0, 0.5)",
         symbol="nu2",
         default=None,
     )
     density: float | None = quantity(
         "mass density of the second block, zero: without inertia; the first one's if left out",
-        unit="kg/m^3",
-        low=0.0,
-        high=1e6,
-        closed="low",
+        "[0.0, 1e6) kg/m^3",
         symbol="rho2",
         default=None,
     )
     height: float | None = quantity(
         "height of the second block; the first one's if left out",
-        unit="m",
-        low=0.0,
-        high=1e6,
+        "(0.0, 1e6) m",
         symbol="H2",
         default=None,
     )
     n_y: int | None = quantity(
         "number of elements along y of the second block; the first one's if left out",
-        low=2,
-        high=10000,
-        closed="both",
+        "[2, 10000]",
         default=None,
     )
     grading: float | None = quantity(
         "height of the bottom row of elements of the second block over that of the row at the "
         "interface; the first one's grading if left out",
-        low=1.0,
-        high=1000.0,
-        closed="both",
+        "[1.0, 1000.0]",
         default=None,
     )
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..model.parameters import names
-from ..model.quantities import ParameterError, Quantity
+from ..model.quantities import ParameterError, declared
 from ..model.units import magnitude
 from ..types import Array, ComplexArray
 from .critical import stability_reason
@@ -15,7 +15,7 @@ from .fault import FaultParameters, takes_fault
 from .spectrum import Systems, as_wavenumber
 from .values import OF_THEORY, QUANTITIES, Values, labelled
 
-WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
+WAVENUMBER = declared("wavenumber", "(-inf, inf) 1/m", symbol="k")
 
 
 class CriticalMode(NamedTuple):

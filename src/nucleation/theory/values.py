@@ -15,7 +15,7 @@ from ..model.linearised import InterfaceState
 from ..model.loading import Loading
 from ..model.material import Material
 from ..model.plausible import warn_of_implausible
-from ..model.quantities import ParameterError, Quantity, declarations, refusal
+from ..model.quantities import ParameterError, Quantity, declarations, declared, refusal
 from ..model.units import magnitude
 from ..types import Array
 from .stiffness import FAR_SIDES
@@ -51,14 +51,7 @@ def _declared() -> dict[str, Quantity]:
     """Unit, range and meaning of each parameter, from its declaration in the model."""
     material = declarations(Material)
     interface = declarations(InterfaceState)
-    height = Quantity(
-        "height of the body (inf: half-space)",
-        unit="m",
-        low=0.0,
-        high=math.inf,
-        closed="high",
-        symbol="H",
-    )
+    height = declared("height of the body (inf: half-space)", "(0.0, inf] m", symbol="H")
     far_side = Quantity(
         "condition on the side away from the interface: velocity (u_x and sigma_yy imposed), "
         "traction or free (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "

@@ -8,40 +8,30 @@ each law determines its own parameters from these constants.
 from collections.abc import Mapping
 from typing import Any
 
-from ..quantities import ParameterError, Quantity
+from ..quantities import ParameterError, Quantity, declared
 from .law import Friction
 
 CONSTANTS: dict[str, Quantity] = {
-    "friction": Quantity(
-        "friction coefficient of steady sliding at the imposed velocity",
-        low=0.0,
-        high=10.0,
-        symbol="f",
+    "friction": declared(
+        "friction coefficient of steady sliding at the imposed velocity", "(0.0, 10.0)", symbol="f"
     ),
-    "a": Quantity(
-        "direct effect of the slip rate at the imposed velocity",
-        low=0.0,
-        high=1.0,
-        symbol="a",
+    "a": declared(
+        "direct effect of the slip rate at the imposed velocity", "(0.0, 1.0)", symbol="a"
     ),
-    "zeta_over_a": Quantity(
+    "zeta_over_a": declared(
         "velocity weakening over direct effect at the imposed velocity",
-        low=-1.0,
-        high=1000.0,
+        "(-1.0, 1000.0)",
         symbol="zeta/a",
     ),
-    "zeta": Quantity(
+    "zeta": declared(
         "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a",
-        low=-1.0,
-        high=1.0,
+        "(-1.0, 1.0)",
         symbol="zeta",
     ),
-    "b": Quantity(
+    "b": declared(
         "coefficient b = a + zeta of the log of the state at the imposed velocity; in place of "
         "zeta_over_a",
-        low=0.0,
-        high=1.0,
-        closed="low",
+        "[0.0, 1.0)",
         symbol="b",
     ),
 }

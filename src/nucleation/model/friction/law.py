@@ -98,21 +98,10 @@ class Friction(Checked):
         default=USUAL_EVOLUTION,
     )
     slip_distance: float = quantity(
-        "characteristic slip distance",
-        unit="m",
-        low=0.0,
-        high=1e3,
-        symbol="D",
-        default=5.0e-7,
+        "characteristic slip distance", "(0.0, 1e3) m", symbol="D", default=5.0e-7
     )
     regularisation_slip_rate: float = quantity(
-        "regularisation slip rate",
-        unit="m/s",
-        low=1e-30,
-        high=1.0,
-        closed="low",
-        symbol="v0",
-        default=1.0e-9,
+        "regularisation slip rate", "[1e-30, 1.0) m/s", symbol="v0", default=1.0e-9
     )
 
     __signature__ = _Signature()

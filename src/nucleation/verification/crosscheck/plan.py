@@ -59,16 +59,13 @@ class CrosscheckSettings(Checked):
 
     heights: tuple[float, ...] = quantity(
         "block heights of the runs made with both solvers",
-        unit="m",
-        low=0.0,
-        high=1e6,
+        "(0.0, 1e6) m",
         symbol="H",
         default=(0.005, 0.05),
     )
     length_over_critical: float = quantity(
         "block length over the theory's critical length",
-        low=1.0,
-        high=1000.0,
+        "(1.0, 1000.0)",
         symbol="L/L_c",
         default=2.0,
     )
@@ -78,50 +75,20 @@ class CrosscheckSettings(Checked):
         default="normal_load",
     )
     strength: float = quantity(
-        "relative strength of that perturbation",
-        low=0.0,
-        high=0.1,
-        closed="both",
-        symbol="eps",
-        default=1e-4,
+        "relative strength of that perturbation", "[0.0, 0.1]", symbol="eps", default=1e-4
     )
-    seed: int = quantity(
-        "seed of that realisation",
-        low=0,
-        high=2**63 - 1,
-        closed="both",
-        default=1,
-    )
+    seed: int = quantity("seed of that realisation", "[0, 9223372036854775807]", default=1)
     n_x: int = quantity(
-        "number of elements along x of both solvers",
-        low=8,
-        high=100000,
-        closed="both",
-        symbol="N_x",
-        default=400,
+        "number of elements along x of both solvers", "[8, 100000]", symbol="N_x", default=400
     )
     n_y: int = quantity(
-        "number of elements along y of both solvers",
-        low=2,
-        high=10000,
-        closed="both",
-        symbol="N_y",
-        default=8,
+        "number of elements along y of both solvers", "[2, 10000]", symbol="N_y", default=8
     )
     slip_per_step: float = quantity(
-        "largest slip within a step of the independent solver over D",
-        low=0.0,
-        high=1.0,
-        closed="high",
-        default=0.2,
+        "largest slip within a step of the independent solver over D", "(0.0, 1.0]", default=0.2
     )
     time_after_event: float = quantity(
-        "time simulated by both solvers after the onset of the event",
-        unit="s",
-        low=0.0,
-        high=1e12,
-        closed="low",
-        default=0.05,
+        "time simulated by both solvers after the onset of the event", "[0.0, 1e12) s", default=0.05
     )
 
 

@@ -29,33 +29,18 @@ class Law(Friction):
     law: str = law_name(__name__)
     reference_friction: float = quantity(
         "friction coefficient of steady sliding at the reference slip rate",
-        low=0.0,
-        high=10.0,
+        "(0.0, 10.0)",
         symbol="f0",
         default=0.41,
     )
     reference_slip_rate: float = quantity(
-        "reference slip rate of the logarithms",
-        unit="m/s",
-        low=0.0,
-        high=1.0,
-        symbol="v*",
-        default=1.0e-5,
+        "reference slip rate of the logarithms", "(0.0, 1.0) m/s", symbol="v*", default=1.0e-5
     )
     log_rate_coefficient: float = quantity(
-        "coefficient of the logarithm of the slip rate",
-        low=0.0,
-        high=1.0,
-        symbol="a",
-        default=0.0068,
+        "coefficient of the logarithm of the slip rate", "(0.0, 1.0)", symbol="a", default=0.0068
     )
     log_state_coefficient: float = quantity(
-        "coefficient of the logarithm of the state",
-        low=0.0,
-        high=1.0,
-        closed="low",
-        symbol="b",
-        default=0.0228,
+        "coefficient of the logarithm of the state", "[0.0, 1.0)", symbol="b", default=0.0228
     )
 
     set_by_expansion: ClassVar[tuple[str, ...]] = (

@@ -22,42 +22,19 @@ class Law(Friction):
 
     law: str = law_name(__name__)
     aging_coefficient: float = quantity(
-        "aging coefficient",
-        low=0.0,
-        high=10.0,
-        closed="low",
-        symbol="b",
-        default=0.075,
+        "aging coefficient", "[0.0, 10.0)", symbol="b", default=0.075
     )
     slip_rate_scale: float = quantity(
-        "slip-rate scale of rate strengthening",
-        unit="m/s",
-        low=0.0,
-        high=1.0,
-        symbol="v*",
-        default=1.0e-7,
+        "slip-rate scale of rate strengthening", "(0.0, 1.0) m/s", symbol="v*", default=1.0e-7
     )
     base_friction: float = quantity(
-        "base friction coefficient",
-        low=0.0,
-        high=10.0,
-        symbol="theta",
-        default=5.0 / 18.0,
+        "base friction coefficient", "(0.0, 10.0)", symbol="theta", default=5.0 / 18.0
     )
     state_scale: float = quantity(
-        "state scale of aging",
-        unit="s",
-        low=0.0,
-        high=1e6,
-        symbol="phi*",
-        default=3.3e-4,
+        "state scale of aging", "(0.0, 1e6) s", symbol="phi*", default=3.3e-4
     )
     rate_coefficient: float = quantity(
-        "rate-strengthening coefficient",
-        low=0.0,
-        high=10.0,
-        symbol="xi",
-        default=0.005,
+        "rate-strengthening coefficient", "(0.0, 10.0)", symbol="xi", default=0.005
     )
 
     set_by_expansion: ClassVar[tuple[str, ...]] = (
