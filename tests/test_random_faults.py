@@ -28,7 +28,7 @@ from nucleation.api import (
 )
 from nucleation.model.friction.constants import full_law
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
-from nucleation.theory.arrays import reason_of_stability
+from nucleation.theory.arrays import reasons_of_stability
 from nucleation.theory.creep.lengths import LONGEST, stability_length_of
 
 SEED, NUMBER, QUICK = 34, 200, 12
@@ -90,7 +90,7 @@ def test_theory_answers(number):
         warnings.simplefilter("error", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
         critical = in_time(lambda: float(critical_length(**fault)))
-        assert critical > 0.0 or (math.isnan(critical) and reason_of_stability(Fault(**fault)))
+        assert critical > 0.0 or (math.isnan(critical) and reasons_of_stability(Fault(**fault)))
         mode = critical_mode(**fault)
         assert float(mode.length) == pytest.approx(critical, nan_ok=True)
         stable = in_time(lambda: float(stability_length(**fault, loading=loading)))

@@ -74,12 +74,13 @@ def growth_rates(k, upper, lower, interface):
 
 
 def critical_wavenumber(upper, lower, interface):
-    return critical.critical_point(system(upper, lower, interface))
+    found = critical.unstable_modes(system(upper, lower, interface))
+    return critical.CriticalMode(*(float(value[0]) for value in found))
 
 
 def critical_length(height, material, interface):
     """L_c (m) of a block on a rigid base."""
-    return critical.length_on_rigid_base(height, material, interface)
+    return critical.modes_on_rigid_base(height, material, interface).length
 
 
 def critical_lengths(cases):

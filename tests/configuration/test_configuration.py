@@ -17,7 +17,7 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.theory import arrays
-from nucleation.theory.critical import length_on_rigid_base as critical_length
+from nucleation.theory.critical import modes_on_rigid_base
 
 
 def test_default_configuration_is_the_papers():
@@ -46,7 +46,7 @@ def test_papers_study():
     assert others == {f"paper-{name}" for name in expected}
     for run in runs:
         assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
-        expected = critical_length(run.labels["height"], Material(), InterfaceState())
+        expected = modes_on_rigid_base(run.labels["height"], Material(), InterfaceState()).length
         assert run.critical_length == pytest.approx(float(expected), rel=1e-12)
         assert run.parameters.geometry.length == pytest.approx(6.0 * expected, rel=1e-3)
 
@@ -170,7 +170,7 @@ def test_constants_of_the_law_in_a_study():
         assert run.id == f"s-aging-H0.01-phi1-zeta_over_a{ratio:g}"
         f, a, zeta = run.parameters.friction.expansion(1e-5)
         assert (f, a, zeta / a) == pytest.approx((usual.f0, usual.a, ratio), rel=1e-10)
-        expected = critical_length(0.01, Material(), InterfaceState(f, a, zeta))
+        expected = modes_on_rigid_base(0.01, Material(), InterfaceState(f, a, zeta)).length
         assert run.critical_length == pytest.approx(float(expected), rel=1e-10)
         assert run.value("zeta_over_a") == ratio
         assert run.value("a") == pytest.approx(usual.a)

@@ -1,5 +1,7 @@
 import itertools
 import warnings
+from functools import cached_property
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from layer_problem import reference_stiffness, reference_transfer
 from two_bodies import RIGID, Body, transfer_functions
 
 from nucleation.model.material import Material
-from nucleation.theory.bounds import extremes, transfer_bounds
+from nucleation.theory.bounds import transfer_bounds, wave_bounds
 from nucleation.theory.pair import LayerPair
 from nucleation.theory.stiffness import FAR_SIDES
 from nucleation.theory.waves import Waves
@@ -17,6 +19,7 @@ from nucleation.theory.waves import Waves
 LAYER_NUMBERS = (1e-8, 3e-3, 0.4, 1.3, 6.0, 24.0, 26.0, 100.0)
 SOFT, STIFF, AUXETIC = Material(3.1e9, 1 / 3), Material(8.7e9, 0.21), Material(1e9, -0.6)
 KINDS = tuple(FAR_SIDES)
+WAVES = [name for name, value in vars(Waves).items() if isinstance(value, cached_property)]
 UPPER = [
     Body(SOFT, 0.02, "velocity"),
     Body(SOFT, 0.03, "traction"),
@@ -107,10 +110,15 @@ def test_every_term_lies_between_its_extremes(q, width, nu, far_side):
     """Of the whole interval, on a fine grid: monotonic where that is assumed."""
     inside = np.minimum(np.linspace(q, q + width, 101), 25.0)
     layers = Body(Material(1e9, nu), 1.0, far_side).layers
-    ends = Waves(inside[0]), Waves(inside[-1])
-    least, greatest = (layers.terms(extremes(*ends, flag)) for flag in (False, True))
+    nothing = SimpleNamespace(**dict.fromkeys(WAVES, 0.0))
+
+    def parts(waves):
+        """All terms, with what is added to the coupling and what is subtracted from it apart."""
+        return *layers.terms(waves, nothing), -layers.terms(nothing, waves).xy
+
+    least, greatest = map(parts, wave_bounds(layers, inside[0], inside[-1]))
     factor = 1.0 if inside[0] >= 1.0 else np.exp(2.0 * (inside - inside[-1]))
-    for low, value, high in zip(least, layers.terms(Waves(inside)), greatest, strict=True):
+    for low, value, high in zip(least, parts(Waves(inside)), greatest, strict=True):
         scaled = value * factor
         assert np.all(low * (1 - 1e-12) <= scaled) and np.all(scaled <= high * (1 + 1e-12))
 

@@ -20,7 +20,7 @@ from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model import linearised
 from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
-from nucleation.theory.critical import critical_point
+from nucleation.theory.critical import unstable_modes
 from nucleation.theory.of_runs import far_sides, systems_of
 from nucleation.verification import dispersion, pair_modes, single_mode
 from nucleation.verification.orders import orders
@@ -125,7 +125,7 @@ def test_periodic_tangent_is_the_matrix_of_apply():
 def theory(parameters, ratio):
     """k (1/m) of a ratio to the critical one, and both rates by Eq. (5)."""
     own = systems_of([(parameters, linearised.interface_state(parameters))])
-    k = ratio * critical_point(own).wavenumber
+    k = ratio * float(unstable_modes(own).wavenumber[0])
     return k, own.growth_rates(np.array([k]))[:, 0]
 
 

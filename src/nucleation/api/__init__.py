@@ -40,12 +40,12 @@ from ..model.quantities import ParameterError
 from ..model.recording import Recording
 from ..model.second_body import SecondBody
 from ..theory.arrays import (
-    CriticalMode,
     critical_length,
     critical_mode,
     spectrum,
     transfer_functions,
 )
+from ..theory.critical import CriticalMode
 from .fault import Fault
 
 if TYPE_CHECKING:

@@ -15,6 +15,7 @@ from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, plain
 from ..theory import arrays
+from ..theory.critical import CriticalMode
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from ..theory.stiffness import FAR_SIDES
@@ -89,7 +90,7 @@ class Fault(FaultParameters):
         """L_c (m), :func:`nucleation.api.critical_length`."""
         return arrays.critical_length(**self)
 
-    def critical_mode(self) -> arrays.CriticalMode:
+    def critical_mode(self) -> CriticalMode:
         """Length, wavenumber and frequency, :func:`nucleation.api.critical_mode`."""
         return arrays.critical_mode(**self)
 

@@ -18,7 +18,7 @@ from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
 from ..theory import status as status_words
-from ..theory.arrays import critical_length, reason_of_stability
+from ..theory.arrays import critical_length, reasons_of_stability
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
@@ -111,7 +111,7 @@ def command(
     code, status, reason = DONE, status_words.VALUE, ""
     if math.isnan(critical):
         code, status = STABLE, status_words.STABLE
-        reason = reason_of_stability(FaultParameters(**fault)) + _cure(parameters)
+        reason = reasons_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
         # neither results nor a mesh are made
         run = single_run(values, results="results", limits={"memory": 9e6})

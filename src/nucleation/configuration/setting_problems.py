@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ..model.linearised import linearised, not_rounded_from
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, length_on_rigid_base
+from ..theory.critical import NoInstability, modes_on_rigid_base
 from ..verification.crosscheck.plan import runs as crosscheck_runs
 from .configuration import Configuration
 from .contradictions import memory_problems
@@ -22,7 +22,7 @@ def setting_problems(settings: Configuration) -> Iterator[str]:
     heights = settings.curves.heights
     try:
         for height in (min(heights), max(heights)):
-            length_on_rigid_base(height, base.material, interface)
+            modes_on_rigid_base(height, base.material, interface)
     except NoInstability as error:
         yield (
             f"main_text_interface: zeta = {interface.zeta:g} with a = {interface.a:g} is not "

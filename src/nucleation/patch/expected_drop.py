@@ -166,7 +166,7 @@ def _runaway_length(
     if abs(stable / constant - 1.0) < CONSTANT:
         patches = dataclasses.replace(patches, law=None)
     try:
-        length = runaway_point(patches, critical, parameters.friction.evolution)
+        length = runaway_point(patches, critical)
     except NoPatch as none:
         return math.nan, none.status, str(none)
     return length, VALUE, ""

@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
-from ..theory.creep.front import Advance, advance, first_growing, oscillating
+from ..theory.creep.front import Advance, advance, oscillating
+from ..theory.creep.front_onset import first_growing
 from ..theory.creep.linearised import local_coefficients
 from ..theory.creep.patches import NoPatch, Patches
 from ..theory.creep.steady import edge_slip

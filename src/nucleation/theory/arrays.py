@@ -1,7 +1,7 @@
 """The linear theory over arrays of parameters, the functions of :mod:`nucleation.api`."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -9,34 +9,12 @@ from ..model.parameters import names
 from ..model.quantities import ParameterError, declared
 from ..model.units import magnitude
 from ..types import Array, ComplexArray
-from .critical import stability_reason
-from .crossings import largest_crossings, marginal_frequencies
+from .critical import CriticalMode, critical_modes, stability_reason
 from .fault import FaultParameters, takes_fault
 from .spectrum import Systems, as_wavenumber
 from .values import OF_THEORY, QUANTITIES, Values, labelled
 
 WAVENUMBER = declared("wavenumber", "(-inf, inf) 1/m", symbol="k")
-
-
-class CriticalMode(NamedTuple):
-    """The marginally stable mode with the largest wavenumber: arrays, DataArrays or quantities.
-
-    Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where the bodies are
-    mirror images both signs are marginal, and the positive one is given.
-
-    Examples
-    --------
-    >>> mode = critical_mode(
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
-    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
-    ... )
-    >>> round(float(mode.length), 3), round(float(mode.wavenumber), 3)
-    (2.513, 2.5)
-    """
-
-    length: Any  # L_c = 2 pi/k_c (m)
-    wavenumber: Any  # k_c (1/m)
-    angular_frequency: Any  # omega (rad/s)
 
 
 @takes_fault
@@ -207,11 +185,7 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
 
 
 def _critical(fault: FaultParameters) -> CriticalMode:
-    def points(systems: Systems) -> tuple[Array, Array, Array]:
-        k = largest_crossings(systems)
-        return 2.0 * np.pi / k, k, marginal_frequencies(systems, k)
-
-    length, k, omega = fault.evaluate(points, rows=3)
+    length, k, omega = fault.evaluate(critical_modes, rows=3)
     mirrored = np.logical_not(fault.bodies_differ)
     omega = omega + (abs(omega) - omega) * mirrored  # keeps the dimensions' names
     return CriticalMode(
@@ -223,25 +197,13 @@ def _critical(fault: FaultParameters) -> CriticalMode:
     )
 
 
-def reason_of_stability(fault: FaultParameters) -> str:
-    """Why homogeneous sliding of one stable fault is stable at every wavelength.
+def reasons_of_stability(fault: FaultParameters) -> Any:
+    """Why homogeneous sliding of stable faults is stable at every wavelength, broadcast shape."""
 
-    Raises
-    ------
-    ParameterError
-        If the fault's parameters are not single numbers.
-    """
-    reasons: list[str] = []
+    def reasons(systems: Systems) -> list[list[str]]:
+        return [[stability_reason(systems.at(np.array([i]))) for i in range(systems.a.size)]]
 
-    def note(systems: Systems) -> Array:
-        for i in range(systems.a.size):
-            reasons.append(stability_reason(systems.at(np.array([i]))))
-        return systems.a
-
-    fault.evaluate(note)
-    if len(reasons) != 1:
-        raise ParameterError("only one fault has a reason of stability, and not arrays of faults")
-    return reasons[0]
+    return fault.evaluate(reasons, dtype=object)[0]
 
 
 @cache

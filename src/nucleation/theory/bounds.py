@@ -9,14 +9,15 @@ The bounds converge linearly with the length of the interval; where layers are t
 for any length. With a zone they are NaN over intervals that are too long for any bound.
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from .pair import LayerPair
-from .stiffness import Array, Layers, Stiffness
+from .stiffness import Array, Layers, Stiffness, StiffnessTerms
 from .waves import Waves
-from .zone import Factor, Zone
+from .zone import Zone
 
 _Interval: TypeAlias = tuple[Array, Array]
 """Lower and upper bounds."""
@@ -58,26 +59,25 @@ class _Extremes:
         return np.where(self.thick, np.minimum(low, high), low / self.growth)
 
 
-def extremes(
-    low: Waves,
-    high: Waves,
-    greatest: bool,
-) -> Waves:
-    """The least or the greatest values of the waves over intervals of q.
+def wave_bounds(layers: Layers, k_low: Array, k_high: Array) -> tuple[Waves, Waves]:
+    """The least and the greatest values of the waves in layers over intervals of wavenumbers.
 
     Parameters
     ----------
-    low, high : Waves
-        At the lower and the upper ends of the intervals.
-    greatest : bool
-        Whether the greatest values are wanted.
+    layers : Layers
+        Fields of shape (n,).
+    k_low, k_high : ndarray
+        Ends of the intervals (1/m), shape (n,).
 
     Returns
     -------
-    Waves
-        Bounds with the attributes of :class:`~nucleation.theory.waves.Waves`.
+    least, greatest : Waves
+        Bounds with the attributes of :class:`~nucleation.theory.waves.Waves`, shape (n,).
     """
-    return cast(Waves, _Extremes(low, high, greatest))
+    low = Waves(layers.layer_number(k_low))
+    high = Waves(layers.layer_number(k_high))
+    least, greatest = _Extremes(low, high, greatest=False), _Extremes(low, high, greatest=True)
+    return cast(Waves, least), cast(Waves, greatest)
 
 
 def transfer_bounds(
@@ -138,27 +138,8 @@ def _stiffness_bounds(
     """Lower and upper bounds of the dimensionless stiffness of layers over ``[k_low, k_high]``."""
     if isinstance(layers, Zone):
         return _zone_bounds(k_low, k_high, layers)
-    at_low = Waves(layers.layer_number(k_low))
-    at_high = Waves(layers.layer_number(k_high))
-    least = layers.terms(extremes(at_low, at_high, greatest=False))
-    greatest = layers.terms(extremes(at_low, at_high, greatest=True))
-    below = least.denominator
-    above = greatest.denominator
-    xy_low = least.xy - greatest.xy_less
-    xy_high = greatest.xy - least.xy_less
-    low = Stiffness(
-        xx=least.xx / above,
-        xy=xy_low / np.where(xy_low > 0.0, above, below),
-        yy=least.yy / above,
-        det=least.det / above,
-    )
-    high = Stiffness(
-        xx=greatest.xx / below,
-        xy=xy_high / np.where(xy_high > 0.0, below, above),
-        yy=greatest.yy / below,
-        det=greatest.det / below,
-    )
-    return low, high
+    least, greatest = wave_bounds(layers, k_low, k_high)
+    return _quotients(layers.terms(least, greatest), layers.terms(greatest, least))
 
 
 def _zone_bounds(
@@ -167,10 +148,7 @@ def _zone_bounds(
     zone: Zone,
 ) -> tuple[Stiffness, Stiffness]:
     """The same of bodies with a zone; NaN over intervals too long for positive bounds."""
-    at_low = Waves(zone.layer.layer_number(k_low))
-    at_high = Waves(zone.layer.layer_number(k_high))
-    least = extremes(at_low, at_high, greatest=False)
-    greatest = extremes(at_low, at_high, greatest=True)
+    least, greatest = wave_bounds(zone.layer, k_low, k_high)
     behind = _stiffness_bounds(k_low, k_high, zone.body)
     shares = zip(*map(zone.shares, behind), strict=True)
     factors = zip(zone.factors(least, greatest), zone.factors(greatest, least), strict=True)
@@ -180,14 +158,20 @@ def _zone_bounds(
         term, term_high = _product_of_any_sign(share, terms)
         low = low + term
         high = high + term_high
-    positive = np.ones((len(Factor._fields), 1), dtype=bool)
-    positive[Factor._fields.index("xy")] = False
+    positive = np.ones((len(StiffnessTerms._fields), 1), dtype=bool)
+    positive[StiffnessTerms._fields.index("xy")] = False
     low = np.where(positive & (low <= 0.0), np.nan, low)
-    below, *above_low = low
-    below_high, *above_high = high
-    lows = [value / np.where(value > 0.0, below_high, below) for value in above_low]
-    highs = [value / np.where(value > 0.0, below, below_high) for value in above_high]
-    return zone.normalised(Stiffness(*lows)), zone.normalised(Stiffness(*highs))
+    least_quotients, greatest_quotients = _quotients(low, high)
+    return zone.normalised(least_quotients), zone.normalised(greatest_quotients)
+
+
+def _quotients(least: Iterable[Array], greatest: Iterable[Array]) -> tuple[Stiffness, Stiffness]:
+    """Bounds of numerators over a positive denominator, which is the first of the terms."""
+    below, *least_above = least
+    below_high, *greatest_above = greatest
+    low = [value / np.where(value > 0.0, below_high, below) for value in least_above]
+    high = [value / np.where(value > 0.0, below, below_high) for value in greatest_above]
+    return Stiffness(*low), Stiffness(*high)
 
 
 def _product(

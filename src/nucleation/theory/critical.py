@@ -4,11 +4,9 @@ The critical wavenumber k_c is the largest one with ``Re Lambda = 0``. The modul
 finds it, for one system or for thousands.
 """
 
-import dataclasses
-import math
 from collections.abc import Iterable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +15,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Parameters
 from .crossings import largest_crossings, marginal_frequencies
-from .of_runs import Case, block_on_rigid_base, far_sides, systems_of
+from .of_runs import Case, blocks_on_rigid_base, far_sides, systems_of
 from .spectrum import Systems
 from .status import STABLE
 from .stiffness import Array
@@ -32,46 +30,52 @@ class NoInstability(ValueError):
     status = STABLE
 
 
-@dataclasses.dataclass(frozen=True)
-class CriticalPoint:
-    """The largest wavenumber with ``Re Lambda = 0``.
+class CriticalMode(NamedTuple):
+    """The marginally stable mode with the largest wavenumber: numbers or arrays of any kind.
 
-    Its mode ``exp(i omega t - i k_c x)`` travels along +x if omega is positive. If ``G2 = 0`` both
-    signs are marginal; the positive one is given.
+    Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where the bodies are
+    mirror images both signs are marginal, and the positive one is given.
+
+    Examples
+    --------
+    >>> from nucleation.api import critical_mode
+    >>> mode = critical_mode(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
+    ... )
+    >>> round(float(mode.length), 3), round(float(mode.wavenumber), 3)
+    (2.513, 2.5)
     """
 
-    wavenumber: float  # k_c > 0 (1/m)
-    angular_frequency: float  # omega (rad/s)
-
-    @property
-    def length(self) -> float:
-        """The critical nucleation length ``L_c = 2 pi / k_c`` (m)."""
-        return 2.0 * math.pi / self.wavenumber
+    length: Any  # L_c = 2 pi/k_c (m)
+    wavenumber: Any  # k_c (1/m)
+    angular_frequency: Any  # omega (rad/s)
 
 
-def critical_point(one: Systems) -> CriticalPoint:
-    """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
+def critical_modes(systems: Systems) -> CriticalMode:
+    """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5), of many systems.
 
     Parameters
     ----------
-    one : Systems
-        One system, with fields of shape (1,).
+    systems : Systems
+        Fields of shape (n,).
 
     Returns
     -------
-    CriticalPoint
-        k_c and the frequency of its mode.
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable at every wavenumber.
+    CriticalMode
+        Fields of shape (n,); NaN where sliding is stable at every wavenumber.
     """
-    k = largest_crossings(one)
-    if np.isnan(k[0]):
-        raise NoInstability(stability_reason(one))
-    omega = marginal_frequencies(one, k)
-    return CriticalPoint(float(k[0]), float(omega[0]))
+    k = largest_crossings(systems)
+    return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
+
+
+def unstable_modes(systems: Systems) -> CriticalMode:
+    """The same; raises NoInstability with the reason if one of the systems is stable."""
+    found = critical_modes(systems)
+    stable = np.flatnonzero(np.isnan(found.wavenumber))
+    if stable.size:
+        raise NoInstability(stability_reason(systems.at(stable[:1])))
+    return found
 
 
 def critical_lengths(cases: Iterable[Case]) -> Array:
@@ -87,8 +91,7 @@ def critical_lengths(cases: Iterable[Case]) -> Array:
         groups.setdefault(kind, {}).setdefault(_distinct(run, interface), (run, interface))
     lengths: dict[_Distinct, float] = {}
     for group in groups.values():
-        k = largest_crossings(systems_of(list(group.values())))
-        found = 2.0 * math.pi / k
+        found = critical_modes(systems_of(list(group.values()))).length
         lengths |= zip(group, found.tolist(), strict=True)
     return np.array([lengths[_distinct(*case)] for case in cases], dtype=float)
 
@@ -128,37 +131,34 @@ def _number(value: Array) -> float:
     return float(np.ravel(value)[0])
 
 
-def length_on_rigid_base(
+def modes_on_rigid_base(
     height: ArrayLike,
     material: Material,
     interface: InterfaceState,
-) -> Array:
-    """``L_c = 2 pi/k_c`` of a block on a rigid base (Fig. 3), Eq. (5) with Eq. (10).
+) -> CriticalMode:
+    """The critical modes of blocks on a rigid base (Fig. 3), Eq. (5) with Eq. (10).
 
     Parameters
     ----------
     height : array_like
-        Height H (m) of the block, inf for a half-space.
+        Heights H (m) of the blocks, inf for a half-space.
     material : Material
-        Of the block.
+        Of the blocks.
     interface : InterfaceState
         Friction linearised about steady sliding.
 
     Returns
     -------
-    ndarray
-        L_c (m), shape of the height.
+    CriticalMode
+        Fields have the shape of the height.
 
     Raises
     ------
     NoInstability
         If sliding is stable at one of the heights.
     """
-    height = np.asarray(height, dtype=float)
-    lengths = []
-    for one in height.ravel().tolist():
-        lengths.append(critical_point(block_on_rigid_base(material, one, interface)).length)
-    return np.array(lengths).reshape(height.shape)
+    found = unstable_modes(blocks_on_rigid_base(material, np.ravel(height), interface))
+    return CriticalMode(*(values.reshape(np.shape(height)) for values in found))
 
 
 @cache
@@ -185,4 +185,4 @@ def run_length(
     NoInstability
         If sliding is stable at every wavenumber.
     """
-    return critical_point(systems_of([(parameters, interface)])).length
+    return float(unstable_modes(systems_of([(parameters, interface)])).length[0])

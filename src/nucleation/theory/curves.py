@@ -10,8 +10,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..types import Array
 from .closed_forms import bimaterial_length_ratio, thin_limit_length
-from .critical import critical_point
-from .of_runs import block_on_rigid_base
+from .critical import modes_on_rigid_base
 from .settings import Curves
 
 CURVES = {
@@ -86,13 +85,11 @@ def length_curve(
     Dataset
         On the dimension ``height``.
     """
-    points = []
-    for one in height.tolist():
-        points.append(critical_point(block_on_rigid_base(material, one, interface)))
+    modes = modes_on_rigid_base(height, material, interface)
     values = {
-        "critical_length": [point.length for point in points],
-        "critical_wavenumber": [point.wavenumber for point in points],
-        "critical_frequency": [point.angular_frequency for point in points],
+        "critical_length": modes.length,
+        "critical_wavenumber": modes.wavenumber,
+        "critical_frequency": modes.angular_frequency,
         "thin_limit_length": thin_limit_length(height, material, interface),
     }
     on_height = {name: ("height", column) for name, column in values.items()}

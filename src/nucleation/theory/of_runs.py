@@ -11,7 +11,7 @@ from ..model.material import ANTIPLANE, Material
 from ..model.parameters import Parameters
 from .pair import LayerPair
 from .spectrum import Systems
-from .stiffness import Layers
+from .stiffness import Array, Layers
 
 Case = tuple[Parameters, InterfaceState]
 """A run, and its friction linearised about steady sliding."""
@@ -107,9 +107,9 @@ def systems_of(cases: Sequence[Case]) -> Systems:
     return _systems(pair_of([run for run, _ in cases]), interfaces)
 
 
-def block_on_rigid_base(
+def blocks_on_rigid_base(
     material: Material,
-    height: float,
+    heights: Array,
     interface: InterfaceState,
 ) -> Systems:
     """The paper's system: a block that is free of changes of stress on top, on a rigid base.
@@ -118,18 +118,18 @@ def block_on_rigid_base(
     ----------
     material : Material
         Of the block.
-    height : float
-        H (m); inf for a half-space.
+    heights : ndarray
+        H (m) of one block or many, shape (n,); inf for a half-space.
     interface : InterfaceState
         Friction linearised about steady sliding.
 
     Returns
     -------
     Systems
-        With fields of shape (1,).
+        With fields of shape (n,).
     """
-    upper = _layers([(material, height)], "traction")
-    return _systems(LayerPair(upper, None), [interface])
+    upper = _layers([(material, height) for height in heights], "traction")
+    return _systems(LayerPair(upper, None), [interface] * len(heights))
 
 
 def _systems(

@@ -50,17 +50,16 @@ SATURATION = 25.0
 """A layer with ``q = |k| H`` above this is a half-space: ``q^2 exp(-2q) < 2e-19``."""
 
 
-class _StiffnessTerms(NamedTuple):
+class StiffnessTerms(NamedTuple):
     """Numerators of ``A_xx, A_xy, A_yy, det A`` and their denominator, all times ``exp(-2q)``.
 
-    Each is a sum of :class:`~.waves.Waves` with positive coefficients; the numerator of ``A_xy`` is
-    ``xy - xy_less``.
+    Each is a sum of :class:`~.waves.Waves` w with positive coefficients, less waves in ``A_xy``.
+    Both waves are the same but where :mod:`.bounds` looks for extremes.
     """
 
     denominator: Array
     xx: Array
     xy: Array
-    xy_less: Array | float
     yy: Array
     det: Array
 
@@ -76,14 +75,14 @@ class Stiffness(NamedTuple):
 
 def _velocity_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
-    return _StiffnessTerms(
+    return StiffnessTerms(
         denominator=(3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
         xx=8.0 * (1.0 - nu) * w.cosh_squared,
         xy=2.0 * (w.linear + (1.0 - 2.0 * nu) * w.sinh_2q),
-        xy_less=0.0,
         yy=8.0 * (1.0 - nu) * w.sinh_squared,
         det=4.0 * w.excess,
     )
@@ -91,17 +90,18 @@ def _velocity_terms(
 
 def _roller_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
 
     ``A_xy D = 2 [(1 - 2 nu) sinh 2q - 2q]`` with ``D = (3 - 4 nu) sinh 2q - 2q``.
     """
-    return _StiffnessTerms(
+    return StiffnessTerms(
         denominator=2.0 * (1.0 - 2.0 * nu) * w.sinh_2q + w.excess,
         xx=8.0 * (1.0 - nu) * w.sinh_squared,
-        xy=2.0 * (w.excess + 2.0 * np.maximum(-nu, 0.0) * w.sinh_2q),
-        xy_less=4.0 * np.maximum(nu, 0.0) * w.sinh_2q,
+        xy=2.0 * (w.excess + 2.0 * np.maximum(-nu, 0.0) * w.sinh_2q)
+        - 4.0 * np.maximum(nu, 0.0) * less.sinh_2q,
         yy=8.0 * (1.0 - nu) * w.cosh_squared,
         det=4.0 * (w.sinh_2q + w.linear),
     )
@@ -109,16 +109,16 @@ def _roller_terms(
 
 def _traction_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
     compression = 4.0 * (1.0 - nu)
     constant = compression**2 / 2.0 * w.decay
-    return _StiffnessTerms(
+    return StiffnessTerms(
         denominator=constant + 2.0 * w.square + 2.0 * (3.0 - 4.0 * nu) * w.sinh_squared,
         xx=compression * (w.sinh_2q + w.linear),
         xy=4.0 * (w.square + (1.0 - 2.0 * nu) * w.sinh_squared),
-        xy_less=0.0,
         yy=compression * w.excess,
         det=8.0 * w.square_excess,
     )
@@ -126,8 +126,9 @@ def _traction_terms(
 
 def _clamped_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
 
     ``A_xx, A_yy = 2 (1 - nu) (kappa sinh 2q -+ 2q) / D``,
@@ -138,17 +139,17 @@ def _clamped_terms(
     kappa_less = 2.0 * (1.0 - 2.0 * nu)  # kappa - 1
     coupling = 2.0 * (1.0 - nu) * (1.0 - 4.0 * nu)  # (1 - 2 nu) kappa - 1
     constant = 4.0 * (1.0 - nu) ** 2 * w.decay
-    return _StiffnessTerms(
+    return StiffnessTerms(
         denominator=4.0 * (1.0 - nu) * kappa_less * w.sinh_squared + w.square_excess,
         xx=2.0 * (1.0 - nu) * (kappa_less * w.sinh_2q + w.excess),
-        xy=2.0 * (np.maximum(coupling, 0.0) * w.sinh_squared + w.square_excess),
-        xy_less=2.0 * np.maximum(-coupling, 0.0) * w.sinh_squared,
+        xy=2.0 * (np.maximum(coupling, 0.0) * w.sinh_squared + w.square_excess)
+        - 2.0 * np.maximum(-coupling, 0.0) * less.sinh_squared,
         yy=2.0 * (1.0 - nu) * (kappa * w.sinh_2q + w.linear),
         det=4.0 * (kappa * w.sinh_squared + w.square + constant),
     )
 
 
-_Terms: TypeAlias = Callable[[Waves, Array], _StiffnessTerms]
+_Terms: TypeAlias = Callable[[Waves, Waves, Array], StiffnessTerms]
 
 FAR_SIDES: dict[str, _Terms] = {
     "velocity": _velocity_terms,
@@ -162,30 +163,31 @@ FAR_SIDES: dict[str, _Terms] = {
 
 def _antiplane_free_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
-    return _antiplane_terms(w.sinh_2q, 2.0 * w.cosh_squared)
+    return antiplane_terms(w.sinh_2q, 2.0 * w.cosh_squared)
 
 
 def _antiplane_held_terms(
     w: Waves,
+    less: Waves,
     nu: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
-    return _antiplane_terms(w.sinh_2q, 2.0 * w.sinh_squared)
+    return antiplane_terms(w.sinh_2q, 2.0 * w.sinh_squared)
 
 
-def _antiplane_terms(
+def antiplane_terms(
     numerator: Array,
     denominator: Array,
-) -> _StiffnessTerms:
+) -> StiffnessTerms:
     """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
-    return _StiffnessTerms(
+    return StiffnessTerms(
         denominator=denominator,
         xx=numerator,
         xy=0.0 * denominator,
-        xy_less=0.0,
         yy=denominator,
         det=numerator,
     )
@@ -269,18 +271,13 @@ class Layers(NamedTuple):
         k = np.abs(np.asarray(wavenumber, dtype=float))
         return np.minimum(k * self.height, SATURATION)
 
-    def terms(self, waves: Waves) -> _StiffnessTerms:
+    def terms(self, waves: Waves, less: Waves) -> StiffnessTerms:
         """Scaled numerators and denominator of the stiffness."""
         known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
-        return known[self.far_side](waves, self.poisson_ratio)
+        return known[self.far_side](waves, less, self.poisson_ratio)
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness A at a wavenumber (1/m)."""
-        terms = self.terms(Waves(self.layer_number(wavenumber)))
-        below = terms.denominator
-        return Stiffness(
-            xx=terms.xx / below,
-            xy=(terms.xy - terms.xy_less) / below,
-            yy=terms.yy / below,
-            det=terms.det / below,
-        )
+        waves = Waves(self.layer_number(wavenumber))
+        below, *above = self.terms(waves, waves)
+        return Stiffness(*(numerator / below for numerator in above))

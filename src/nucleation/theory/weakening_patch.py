@@ -27,6 +27,7 @@ import numpy as np
 
 from ..types import Array, ComplexArray
 from .arrays import fault_of, named
+from .bisection import bisected
 from .crossings import largest_crossings
 from .fault import QUANTITIES, FaultParameters, Values, checked, takes_fault
 from .patch_basis import patch_basis
@@ -124,13 +125,7 @@ def smallest_width(patch: WeakeningPatch, critical: float) -> float:
         low, high = high, high * FACTOR
         if low > WIDEST * critical:
             return math.nan
-    while high > low * (1.0 + PRECISION):
-        middle = math.sqrt(low * high)
-        if grows(middle):
-            high = middle
-        else:
-            low = middle
-    return math.sqrt(low * high)
+    return bisected(grows, low, high, PRECISION)
 
 
 def polynomials_for(width_over_critical: float) -> int:

@@ -9,7 +9,7 @@ displacements of its near and its far face. Then the stiffness of both together 
 As a quotient of determinants each entry of C is linear in ``B_xx``, ``B_yy``, ``B_xy`` and det B:
 numerators and the denominator of C are the sum of those of a free layer, of layers with the far
 sides ``velocity``, ``roller`` and ``clamped`` times ``(1 - nu) B_xx``, ``(1 - nu) B_yy`` and
-``det B/2``, and of :func:`_mixed_factor` times ``B_xy``. Every other term is positive. So C is
+``det B/2``, and of :func:`_mixed_terms` times ``B_xy``. Every other term is positive. So C is
 accurate from ``kh -> 0``, where it is that of the body, to thick layers, which hide the body. In
 antiplane shear it is the sum of a free layer and a held one times ``B_xx``.
 """
@@ -22,18 +22,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .stiffness import FAR_SIDES, Array, Layers, Stiffness
+from .stiffness import (
+    FAR_SIDES,
+    Array,
+    Layers,
+    Stiffness,
+    StiffnessTerms,
+    antiplane_terms,
+)
 from .waves import Waves
-
-
-class Factor(NamedTuple):
-    """What multiplies one share of the body's stiffness in numerators and denominator of C."""
-
-    denominator: Array
-    xx: Array
-    xy: Array
-    yy: Array
-    det: Array
 
 
 class Zone(NamedTuple):
@@ -124,7 +121,7 @@ class Zone(NamedTuple):
         self,
         waves: Waves,
         subtracted: Waves,
-    ) -> list[Factor]:
+    ) -> list[StiffnessTerms]:
         """What multiplies each of the :meth:`shares`.
 
         Parameters
@@ -135,21 +132,15 @@ class Zone(NamedTuple):
 
         Returns
         -------
-        list of Factor
+        list of StiffnessTerms
             Times ``exp(-2 kh)``; shape of kh.
         """
         nu = self.layer.poisson_ratio
         if self.layer.antiplane:
             held, free = 2.0 * waves.cosh_squared, waves.sinh_2q
-            zero = 0.0 * free
-            return [Factor(held, free, zero, held, free), Factor(free, held, zero, free, held)]
-        found = []
-        for far_side in ("free", "velocity", "roller", "clamped"):
-            known = FAR_SIDES[far_side]
-            terms = known(waves, nu)
-            less = known(subtracted, nu).xy_less
-            found.append(Factor(terms.denominator, terms.xx, terms.xy - less, terms.yy, terms.det))
-        return [*found, _mixed_factor(waves, subtracted, nu)]
+            return [antiplane_terms(free, held), antiplane_terms(held, free)]
+        known = [FAR_SIDES[name] for name in ("free", "velocity", "roller", "clamped")]
+        return [of_layer(waves, subtracted, nu) for of_layer in (*known, _mixed_terms)]
 
     def normalised(self, over_zone: Stiffness) -> Stiffness:
         """A stiffness over the body's modulus, from that over the zone's."""
@@ -162,17 +153,17 @@ class Zone(NamedTuple):
         )
 
 
-def _mixed_factor(
+def _mixed_terms(
     w: Waves,
     less: Waves,
     nu: Array,
-) -> Factor:
+) -> StiffnessTerms:
     """The factor of ``B_xy``; its entries may be negative."""
     compression = 1.0 - nu
     expansion = 1.0 - 2.0 * nu
     kappa = 3.0 - 4.0 * nu
     constant = 8.0 * compression**2 * w.decay
-    return Factor(
+    return StiffnessTerms(
         denominator=2.0 * (expansion * kappa * w.sinh_squared - less.square),
         xx=4.0 * compression * (expansion * w.sinh_2q - less.linear),
         xy=constant + 4.0 * (expansion**2 * w.sinh_squared - less.square),

@@ -16,9 +16,9 @@ from ..model.friction.law import Friction
 from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
-from ..theory.critical import critical_point, length_on_rigid_base
+from ..theory.critical import modes_on_rigid_base, unstable_modes
 from ..theory.curves import CURVES
-from ..theory.of_runs import block_on_rigid_base
+from ..theory.of_runs import blocks_on_rigid_base
 from ..types import Array, ComplexArray
 from .single_mode import measured_rates
 
@@ -54,7 +54,7 @@ def by_direction(rates: ArrayLike) -> ComplexArray:
 def _heights_for(parameters: Parameters) -> list[float]:
     """Heights (m) that have the ratios of :data:`HEIGHTS` to the L_c of a high block."""
     own, papers = (
-        length_on_rigid_base(math.inf, fault.material, interface_state(fault))
+        modes_on_rigid_base(math.inf, fault.material, interface_state(fault)).length
         for fault in (parameters, Parameters())
     )
     ratio = float(own / papers)
@@ -92,8 +92,8 @@ def dispersion_dataset(
     theory = []
     curves = []
     for height in heights:
-        block = block_on_rigid_base(parameters.material, float(height), interface)
-        k_c = critical_point(block).wavenumber
+        block = blocks_on_rigid_base(parameters.material, np.array([height]), interface)
+        k_c = float(unstable_modes(block).wavenumber[0])
         seeded = k_c * modes
         critical.append(k_c)
         measured.append([measured_rates(parameters, height, k) for k in seeded])

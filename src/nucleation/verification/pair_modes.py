@@ -20,7 +20,7 @@ from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
 from ..theory.closed_forms import bimaterial_contrast
-from ..theory.critical import critical_point
+from ..theory.critical import unstable_modes
 from ..theory.of_runs import systems_of
 from ..types import Array
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
@@ -166,7 +166,8 @@ def _sized(
 
 def _critical(parameters: Parameters) -> float:
     """k_c (1/m)."""
-    return critical_point(systems_of([(parameters, interface_state(parameters))])).wavenumber
+    own = systems_of([(parameters, interface_state(parameters))])
+    return float(unstable_modes(own).wavenumber[0])
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:

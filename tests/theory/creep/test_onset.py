@@ -13,8 +13,8 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Parameters
 from nucleation.theory.arrays import fault_of
-from nucleation.theory.creep import front, lengths
-from nucleation.theory.creep.front import first_growing
+from nucleation.theory.creep import front, front_onset, lengths
+from nucleation.theory.creep.front_onset import first_growing
 from nucleation.theory.creep.lengths import NoPatch, Patches, stability_point
 from nucleation.theory.critical import run_length
 from nucleation.theory.crossings import largest_crossings
@@ -149,7 +149,7 @@ def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
     run, critical = narrow_run(zeta)
     usual = first_growing(Patches.of(run), critical, 1.0)
     for tried in (9, 40):
-        monkeypatch.setattr(front, "TRIED", tried)
+        monkeypatch.setattr(front_onset, "TRIED", tried)
         assert first_growing(Patches.of(run), critical, 1.0) == pytest.approx(usual, rel=2e-3)
     rates = [
         front.fastest(front.advance(Patches.of(run), [part * usual], 1.0))[0]

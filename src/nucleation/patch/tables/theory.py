@@ -17,7 +17,8 @@ from ...model.identity import fault
 from ...model.linearised import linearised
 from ...model.parameters import Parameters
 from ...theory.closed_forms import bimaterial_contrast
-from ...theory.creep.front import advance, first_growing, oscillating
+from ...theory.creep.front import advance, oscillating
+from ...theory.creep.front_onset import first_growing
 from ...theory.creep.lengths import stability_point
 from ...theory.creep.patches import NoPatch, Patches
 from ...theory.creep.thin import thin_limit

@@ -6,5 +6,6 @@ itself follows from the loading (:mod:`.steady`). Small perturbations of the cre
 eigenproblem (:mod:`.linearised`) for patches of any length (:mod:`.patches`). The shortest patch
 with a growing oscillating mode has the stability length L_s (:mod:`.lengths`); in thin layers it is
 one equation (:mod:`.thin`). The fracture energy of the front, and with it the time at which the
-patch has a length, is in :mod:`.front`. The derivation is in ``docs/creeping_patch.md``.
+patch has a length, is in :mod:`.front`, and L_s with it in :mod:`.front_onset`. The derivation is
+in ``docs/creeping_patch.md``.
 """

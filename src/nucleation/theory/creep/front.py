@@ -14,7 +14,6 @@ the speed dL/dt and the slip rate along the patch,
 The three are repeated until they agree. Nothing is fitted and there is no time step.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from ...types import Array
-from ..status import BEYOND
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import mirror_modes
 from .patches import NoPatch, Patches, require_contact
@@ -38,13 +36,7 @@ FLOOR = 1e-3
 """Slip rate over V at which the front begins, or the law's v0 if that is larger: friction
 vanishes below it, and contacts there are as if at rest."""
 
-SHORTEST = 0.3  # where the search for L_s starts, over L_c
-TRIED = 14  # number of patches that are tried
-NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches to which a parabola is fitted
-CLOSE = 2e-3  # relative, within which the parabola's L_s must have decay and growth
-NARROW = 1e-4  # relative width of a bracket at which bisection ends
 OSCILLATING = 0.01  # angular frequency over V/D below which a mode counts as not oscillating
-REAL = 1e-9  # imaginary part below which a parabola's root is real
 
 
 class Advance(NamedTuple):
@@ -247,100 +239,3 @@ def oscillating(found: Advance) -> NDArray[np.complex128]:
 def fastest(found: Advance) -> Array:
     """Re Lambda over V/D of each patch's fastest growing mode, oscillating or not."""
     return np.array([patch.eigenvalues[0].real for patch in found.patches])
-
-
-def first_growing(
-    patches: Patches,
-    critical: float,
-    initial_state: float,
-    initial_stress: float = 0.0,
-) -> float:
-    """L_s of a patch with its advancing front.
-
-    Growth begins between two of the lengths tried, with a pair of modes that oscillates
-    (:mod:`nucleation.theory.creep.lengths`). L_s is the root of a parabola through the pair's
-    growth. Where the pair oscillates in a narrow window only, the parabola's root is not where
-    growth begins, and L_s is bisected.
-
-    Parameters
-    ----------
-    patches : Patches
-        With a friction law and its velocity; pushed at the edge.
-    critical : float
-        L_c (m) of the fault.
-    initial_state : float
-        phi_0 (s) when the edge begins to move.
-    initial_stress : float
-        Shear stress over sigma0 when the edge begins to move.
-
-    Returns
-    -------
-    float
-        L_s (m).
-
-    Raises
-    ------
-    NoPatch
-        If no patch of these lengths has a growing mode, or its creep opens the fault.
-    """
-
-    def advanced(lengths: ArrayLike) -> Advance:
-        return advance(patches, lengths, initial_state, initial_stress)
-
-    low, high, pair = _bracket(advanced, critical)
-    if np.isfinite(pair).all():
-        log_at = np.interp(0.0, pair, np.log([low, high]))
-        onset = _vanishing(advanced, float(np.exp(log_at)))
-        around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
-        before, after = fastest(advanced(around))
-        if before < 0.0 < after:
-            return onset
-    while high / low > 1.0 + NARROW:
-        middle = float(np.sqrt(low * high))
-        if fastest(advanced([middle]))[0] > 0.0:
-            high = middle
-        else:
-            low = middle
-    return float(np.sqrt(low * high))
-
-
-def _bracket(
-    advanced: Callable[[ArrayLike], Advance],
-    critical: float,
-) -> tuple[float, float, Array]:
-    """Neighbouring lengths (m) without and with growth, and the oscillating modes' growth there."""
-    tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
-    longer = tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)
-    for lengths in (tried, longer):
-        found = advanced(lengths)
-        growing = fastest(found) > 0.0
-        if growing.any():
-            break
-    else:
-        longest = lengths[-1]
-        raise NoPatch(
-            f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
-            BEYOND,
-        )
-    i = int(np.argmax(growing))
-    if i == 0:
-        first = lengths[0] / critical
-        raise NoPatch(f"a mode of the patch grows at {first:.2g} L_c already, or before")
-    low, high = lengths[i - 1 : i + 1]
-    return low, high, oscillating(found)[i - 1 : i + 1].real
-
-
-def _vanishing(
-    advanced: Callable[[ArrayLike], Advance],
-    at: float,
-) -> float:
-    """Root of a parabola through the pair's growth around a length (m); `at` without a root."""
-    growth = oscillating(advanced(at * np.exp(NEAR))).real
-    if not np.isfinite(growth).all():
-        return at
-    roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
-    real = roots[np.abs(roots.imag) < REAL].real
-    if real.size == 0:
-        return at
-    nearest = real[np.abs(real).argmin()]
-    return float(at * np.exp(nearest))

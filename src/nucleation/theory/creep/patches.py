@@ -49,6 +49,7 @@ class Patches:
     velocity: float = 1.0  # V (m/s), which a law needs
     loading: str = "edge"
     load_rate: float = 1.0
+    evolution: str = "aging"  # of the state, with constant a and b; a law has its own
 
     @classmethod
     def of(cls, parameters: Parameters) -> Patches:
@@ -60,7 +61,8 @@ class Patches:
         """
         one = systems_of([(parameters, interface_state(parameters))])
         loading, block = parameters.loading, parameters.geometry
-        pushed = cls(one, parameters.friction, loading.velocity)
+        law = parameters.friction
+        pushed = cls(one, law, loading.velocity, evolution=law.evolution)
         if loading.kind == "edge":
             return pushed
         from_side = 0.5 * block.length

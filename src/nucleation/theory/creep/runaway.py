@@ -16,21 +16,22 @@ is 1 where the strain energy released by a patch equals the fracture energy of i
 law has its own a and b at each slip rate and state, if the patches are given with it.
 """
 
+import contextlib
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from ...model.friction.law import Friction
 from ...types import Array
 from ..arrays import fault_of, named
+from ..bisection import bisected
 from ..crossings import largest_crossings
-from ..fault import FaultParameters, takes_fault
+from ..fault import takes_fault
 from ..spectrum import Systems
-from ..status import BEYOND, STABLE, VALUE
+from ..status import BEYOND
 from ..values import Values
 from .lengths import stability_point
 from .patches import NoPatch, Patches
@@ -91,7 +92,6 @@ def _of_law(
 def runs_away(
     patches: Patches,
     length: float,
-    evolution: str = "aging",
 ) -> bool:
     """Whether the slow slip of a patch accelerates without bound.
 
@@ -101,8 +101,6 @@ def runs_away(
         Of one fault, with constant a and b or with its friction law.
     length : float
         Patch length (m).
-    evolution : {"aging", "slip"}
-        Evolution of the state, if a and b are constant; a law has its own.
 
     Returns
     -------
@@ -121,7 +119,7 @@ def runs_away(
     stiffness = stiffness / creep.normal_stress[:, None]
     count = steady.size
     log_state = -np.log(steady)
-    slopes_at = _constant(a, zeta, evolution)
+    slopes_at = _constant(a, zeta, patches.evolution)
     if patches.law is not None:
         slopes_at = _of_law(patches.law, patches.velocity)
         log_state = -np.log(patches.law.slip_speed(patches.velocity * steady) / patches.velocity)
@@ -162,7 +160,6 @@ def runs_away(
 def runaway_point(
     patches: Patches,
     critical: float,
-    evolution: str = "aging",
 ) -> float:
     """L_run of one fault.
 
@@ -172,8 +169,6 @@ def runaway_point(
         Of the fault, with constant a and b or with its friction law.
     critical : float
         L_c (m) of the fault.
-    evolution : {"aging", "slip"}
-        Evolution of the state, if a and b are constant; a law has its own.
 
     Returns
     -------
@@ -187,17 +182,11 @@ def runaway_point(
     """
     low = stability_point(patches, critical).length
     high = LONGEST * critical
-    if not runs_away(patches, high, evolution):
+    if not runs_away(patches, high):
         raise NoPatch(
             f"no slow slip of a patch up to {LONGEST:g} L_c = {high:.4g} m runs away", BEYOND
         )
-    while high > low * (1.0 + PRECISION):
-        middle = math.sqrt(low * high)
-        if runs_away(patches, middle, evolution):
-            high = middle
-        else:
-            low = middle
-    return math.sqrt(low * high)
+    return bisected(lambda length: runs_away(patches, length), low, high, PRECISION)
 
 
 @takes_fault
@@ -235,38 +224,14 @@ def runaway_length(**fault: Values) -> Any:
     1.92
     """
     own = fault_of(fault)
-    return named(runaway_answers(own)[0], "runaway_length", "m", "runaway length", own)
 
-
-def runaway_answers(fault: FaultParameters) -> tuple[Any, Any, Any]:
-    """L_run with its status and the reason for it.
-
-    Parameters
-    ----------
-    fault : FaultParameters
-        One or many faults.
-
-    Returns
-    -------
-    length, status, reason : ndarray or DataArray
-        L_run (m) and two texts, broadcast shape; the reason is empty where there is L_run.
-    """
-
-    def lengths(systems: Systems) -> NDArray:
+    def lengths(systems: Systems) -> Array:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((3, critical.size), np.nan, dtype=object)
+        found = np.full((1, critical.size), np.nan)
         for i, length in enumerate(critical):
-            if not np.isfinite(length):
-                found[1:, i] = STABLE, "homogeneous sliding is stable"
-                continue
-            patches = Patches(systems.at(np.array([i])))
-            try:
-                found[0, i] = runaway_point(patches, float(length), str(fault.evolution))
-            except NoPatch as none:
-                found[1:, i] = none.status, str(none)
-                continue
-            found[1:, i] = VALUE, ""
+            patches = Patches(systems.at(np.array([i])), evolution=str(own.evolution))
+            with contextlib.suppress(NoPatch):
+                found[0, i] = runaway_point(patches, float(length))
         return found
 
-    rows = fault.evaluate(lengths, rows=3, dtype=object)
-    return rows[:1].astype(float)[0], rows[1], rows[2]
+    return named(own.evaluate(lengths)[0], "runaway_length", "m", "runaway length", own)
