@@ -22,7 +22,7 @@ def evidence_of_theory():
 def test_compliance_is_that_of_the_general_solution_with_150_digits(q, far_side):
     (xx, xy), (yx, yy) = layer_problem.compliance(1.0, q, 1.0, 0.3, far_side)
     expected = np.array([[float(xx), -1j * float(xy)], [1j * float(yx), float(yy)]])
-    ours = compliance(Layer(q, 0.3, far_side=far_side), 32)
+    ours = compliance(Layer(q, 0.3, far_side=far_side, points=32))
     np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8)
 
 
@@ -31,7 +31,7 @@ def test_search_finds_the_librarys_critical_wavenumber(evidence_of_theory, heigh
     material, interface = evidence_of_theory.material, evidence_of_theory.interface
     point = critical_wavenumber(Body(material, height, "traction"), RIGID, interface)
     k, frequency = marginal.critical_wavenumber(
-        lambda k: finite_height.block_transfer(k * height, evidence_of_theory),
+        lambda k: finite_height.block_transfer(k * height, evidence_of_theory.nu),
         material.shear_modulus,
         interface,
         2.0 * point.wavenumber,

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from nucleation.claims.claim import Cause, Claim, Result, Verdict, judge
+from nucleation.claims.claim import Claim, Result, Verdict, judge
 from nucleation.claims.expected import (
     FORMULA_TOLERANCE,
     REASONED,
@@ -118,6 +118,11 @@ THIRTEEN = number("13")
 GOOD, BAD = Estimate.exactly(12.8), Estimate.exactly(18.9)
 
 
+def because(ours, without):
+    """Our number, and that without a possible cause."""
+    return Result(ours, without_cause=without, cause="Without it", finding="Why")
+
+
 @pytest.mark.parametrize(
     ("result", "verdict", "words_of_reason"),
     [
@@ -130,9 +135,9 @@ GOOD, BAD = Estimate.exactly(12.8), Estimate.exactly(18.9)
         (Result(GOOD, on_papers_mesh=BAD), Verdict.REPLICATED, "it does not hold, with 18.9"),
         (Result(BAD), Verdict.NOT_REPLICATED, "18.9 is outside 12.5 to 13.5."),
         (Result(BAD, on_papers_mesh=GOOD), Verdict.NOT_REPLICATED, "holds as well, with 12.8"),
-        (Result(BAD, cause=Cause("Why", "Without it", GOOD)), Verdict.EXPLAINED, "(results: Why)"),
-        (Result(BAD, cause=Cause("Why", "Without it", BAD)), Verdict.NOT_REPLICATED, "outside"),
-        (Result(GOOD, cause=Cause("Why", "Without it", BAD)), Verdict.REPLICATED, "within"),
+        (because(BAD, GOOD), Verdict.EXPLAINED, "(results: Why)"),
+        (because(BAD, BAD), Verdict.NOT_REPLICATED, "outside"),
+        (because(GOOD, BAD), Verdict.REPLICATED, "within"),
         (Result(Estimate.exactly(math.nan)), Verdict.UNCHECKED, "no such event"),
         (
             Result(Estimate.within(1.0, 0.01), formula(1.0)),
@@ -150,7 +155,7 @@ GOOD, BAD = Estimate.exactly(12.8), Estimate.exactly(18.9)
             "the bound, 1.",
         ),
         (
-            Result(BAD, cause=Cause("Why", "Without it", Estimate.exactly(math.nan))),
+            because(BAD, Estimate.exactly(math.nan)),
             Verdict.NOT_REPLICATED,
             "outside",
         ),

@@ -9,7 +9,6 @@ from reference_evidence import table as of_reference
 
 from nucleation.claims import table as table_of_claims
 from nucleation.claims.independent import printed
-from nucleation.claims.pair_evidence import PairEvidence
 
 CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}
@@ -81,7 +80,7 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
 
 
 def judged(name, table=None, modes_=None):
-    return FOUND[name].evaluate(PairEvidence(table, modes_))
+    return FOUND[name].evaluate({"pairs": table, "modes": modes_})
 
 
 @pytest.mark.parametrize(("ratio", "verdict"), [(0.8, "replicated"), (0.6, "not supported")])
@@ -201,7 +200,7 @@ def test_both_senses_are_needed():
 
 def test_without_runs_nothing_is_judged():
     empty = table().isel(run=slice(0, 1))
-    evidence = PairEvidence(empty, modes(name="stiff above, clamped"))
+    evidence = {"pairs": empty, "modes": modes(name="stiff above, clamped")}
     rows = table_of_claims.evaluate(PAIRED, evidence)
     assert {row["verdict"] for row in rows} == {"cannot be checked"}
 
@@ -219,7 +218,7 @@ def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     for name in measured:
         values = np.stack([along[name], back[name]], axis=1)
         both[name] = ("run", "branch"), values
-    evidence = PairEvidence(of_reference("pairs.csv"), along.drop_vars("branch").assign(both))
+    evidence = {"pairs": of_reference("pairs.csv"), "modes": along.drop_vars("branch").assign(both)}
     for row in table_of_claims.evaluate(PAIRED, evidence):
         assert row["verdict"] == rows.loc[row["id"], "verdict"]
         assert row["ours"] == pytest.approx(rows.loc[row["id"], "ours"], rel=1e-4)

@@ -59,7 +59,7 @@ def render(
     environment.filters |= {
         "digits": digits,
         "percent": _percent,
-        "span": _span,
+        "span": lambda values, number: span(values, lambda value: digits(value, number)),
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}
@@ -72,23 +72,18 @@ def render(
         ratios = [row["stability_length"] / row["critical_length"] for row in runs(role)]
         return span(ratios, ".2f")
 
-    def ours(id: str) -> str:
-        return rounded(by_id[id])
-
-    def checked(id: str) -> bool:
-        return bool(by_id[id]["verdict"] != Verdict.UNCHECKED)
-
+    converged = {row["fault"]: row for row in runs("converged")}
     return environment.from_string(template).render(
         claim=by_id.__getitem__,
-        ours=ours,
-        checked=checked,
+        ours=lambda id: rounded(by_id[id]),
+        checked=lambda id: by_id[id]["verdict"] != Verdict.UNCHECKED,
         mesh=mesh(runs("paper")),
         caution=caution(runs("paper")),
         verdicts=counts(claims),
         verdict=Verdict,
         claims=claims,
         runs=runs,
-        pairs=_paired(runs("paper"), runs("converged")),
+        pairs=[(row, converged.get(row["fault"])) for row in runs("paper")],
         by_theory=by_theory,
         beyond=beyond,
     )
@@ -100,12 +95,6 @@ def _faults(lengths: Iterable[xr.Dataset]) -> list[Row]:
     for table in lengths:
         rows += over_realisations(table).to_dataframe().to_dict("records")
     return rows
-
-
-def _paired(papers: list[Row], converged: list[Row]) -> list[tuple[Row, Row | None]]:
-    """The rows of one study, each with the other study's row for the same fault, or None."""
-    others = {row["fault"]: row for row in converged}
-    return [(row, others.get(row["fault"])) for row in papers]
 
 
 def digits(
@@ -128,17 +117,6 @@ def digits(
         return mantissa
     factor = "" if mantissa == "1" else rf"{mantissa}\times "
     return f"${factor}10^{{{int(power)}}}$"
-
-
-def _span(
-    values: Iterable[float],
-    number: int,
-) -> str:
-    """The smallest and the largest value with some digits, or one if both look the same."""
-    known = list(values)
-    low = digits(min(known), number)
-    high = digits(max(known), number)
-    return low if low == high else f"{low} to {high}"
 
 
 def rounded(row: Row) -> str:

@@ -29,25 +29,6 @@ class Verdict(enum.StrEnum):
 
 
 @dataclasses.dataclass(frozen=True)
-class Cause:
-    """A possible cause of a difference.
-
-    Attributes
-    ----------
-    finding : str
-        Section of docs/results.md about it.
-    text : str
-        Start of the sentence that ends with our number without the cause.
-    estimates : Estimates
-        Our number, or several, without the cause.
-    """
-
-    finding: str
-    text: str
-    estimates: Estimates
-
-
-@dataclasses.dataclass(frozen=True)
 class Result:
     """The result of a claim's function, if it is more than our number.
 
@@ -61,8 +42,12 @@ class Result:
         The same from the study ``paper``, if it was also evaluated.
     mesh : str
         Mesh of that study, in words.
-    cause : Cause, optional
-        A possible cause of a difference.
+    without_cause : Estimates, optional
+        Our number, or several, without a possible cause of a difference.
+    cause : str
+        Start of the sentence that ends with that number.
+    finding : str
+        Section of docs/results.md about the cause.
     note : str
         Sentences after the reason.
     """
@@ -71,7 +56,9 @@ class Result:
     expected: Expected | None = None
     on_papers_mesh: Estimates | None = None
     mesh: str = phrases.PAPERS
-    cause: Cause | None = None
+    without_cause: Estimates | None = None
+    cause: str = ""
+    finding: str = ""
     note: str = ""
 
 
@@ -209,11 +196,10 @@ def judge(
     if held is None:
         return Verdict.UNCHECKED, _why_undecided(ours)
     comparison = _comparison(expected, ours, held) + _reach(expected, ours)
-    cause = result.cause
-    if not held and cause is not None:
-        without = expected.worst(cause.estimates)
+    if not held and result.without_cause is not None:
+        without = expected.worst(result.without_cause)
         if holds(expected, without):
-            why = f"{cause.text} {without.value:.4g} (results: {cause.finding})."
+            why = f"{result.cause} {without.value:.4g} (results: {result.finding})."
             return Verdict.EXPLAINED, f"{comparison} {why}"
     reason = comparison + _other_mesh(expected, result)
     if held:

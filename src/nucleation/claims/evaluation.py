@@ -16,7 +16,6 @@ from ..model.parameters import Loading
 from . import article, table
 from .claim import Row
 from .evidence import Evidence
-from .pair_evidence import PairEvidence
 from .table import Entry
 
 Statements = Mapping[str, Mapping[str, Entry]]
@@ -92,14 +91,14 @@ def of_pairs(
     statements : mapping
         The claims by subject and id.
     pairs, modes : Dataset
-        As in :class:`.PairEvidence`.
+        As in :data:`~nucleation.claims.pair_evidence.Tables`.
 
     Returns
     -------
     dict
         The table's text by file extension.
     """
-    return _files(table.evaluate(statements, PairEvidence(pairs, modes)))
+    return _files(table.evaluate(statements, {"pairs": pairs, "modes": modes}))
 
 
 def _files(rows: list[Row]) -> dict[str, str]:
@@ -110,6 +109,7 @@ def write_article(
     template: Path,
     claims: Path,
     lengths: Iterable[xr.Dataset],
+    beyond: bool = False,
 ) -> dict[str, str]:
     """The step ``article``: its text with numbers from the claims and lengths.
 
@@ -121,6 +121,8 @@ def write_article(
         The table of claims as JSON.
     lengths : iterable of Dataset
         Tables of lengths, one for each study.
+    beyond : bool
+        As in :func:`.article.render`.
 
     Returns
     -------
@@ -128,5 +130,5 @@ def write_article(
         The text by file extension.
     """
     rows = json.loads(claims.read_text("utf-8"))
-    text = article.render(template.read_text("utf-8"), rows, list(lengths))
+    text = article.render(template.read_text("utf-8"), rows, lengths, beyond)
     return {".md": text}

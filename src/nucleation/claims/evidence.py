@@ -16,7 +16,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Parameters
 from . import phrases
-from .claim import Cause, Result, Row
+from .claim import Result, Row
 from .expected import Estimates, Missing
 
 MESH = "A coarse mesh lets the force drop early"
@@ -83,8 +83,7 @@ class Evidence:
         wanted = {"role": role, **labels}
         found = [row for row in self._own if _matches(row, wanted)]
         if not found:
-            items = wanted.items()
-            which = ", ".join(f"{name} {value}" for name, value in items)
+            which = ", ".join(f"{name} {value}" for name, value in wanted.items())
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
@@ -118,12 +117,7 @@ class Evidence:
         Missing
             If there is no such row.
         """
-        rows = self.rows(
-            role,
-            evolution=law,
-            height=height,
-            initial_state=initial_state,
-        )
+        rows = self.rows(role, evolution=law, height=height, initial_state=initial_state)
         return rows[0]
 
     def series(self, role: str) -> list[Row]:
@@ -143,10 +137,7 @@ class Evidence:
         Missing
             If there is no such row.
         """
-        runs = []
-        for row in self.rows(role, **labels):
-            runs += row["members"]
-        return runs
+        return [run for row in self.rows(role, **labels) for run in row["members"]]
 
     @property
     def papers_mesh(self) -> str:
@@ -162,10 +153,7 @@ class Evidence:
     @cached_property
     def _own(self) -> list[Row]:
         """The rows of all roles; cached because every claim on runs uses them."""
-        rows = []
-        for table in self.lengths:
-            rows += _faults(table)
-        return [row for row in rows if self._is_own(row)]
+        return [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
@@ -204,12 +192,13 @@ def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence
         except Missing:
             return Result(judged)
         mesh = evidence.papers_mesh
-        cause = Cause(MESH, f"On {mesh} our number is", papers)
         return Result(
             judged,
             on_papers_mesh=papers,
             mesh=mesh,
-            cause=cause,
+            without_cause=papers,
+            cause=f"On {mesh} our number is",
+            finding=MESH,
         )
 
     return of_both

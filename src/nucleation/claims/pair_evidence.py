@@ -4,6 +4,7 @@ A row of the table of pairs is a run; the functions here return one row for each
 its realisations.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -20,19 +21,10 @@ _HEIGHT_TOLERANCE = 0.10
 """Relative difference up to which lengths do not depend on the height of the blocks."""
 
 
-class PairEvidence(NamedTuple):
-    """The datasets that the claims on two bodies are judged by.
-
-    Attributes
-    ----------
-    table : Dataset
-        Table of :func:`nucleation.patch.tables.pairs.gather_pairs`.
-    modes : Dataset
-        Table of :func:`nucleation.verification.pair_modes.pair_modes`.
-    """
-
-    table: xr.Dataset
-    modes: xr.Dataset
+Tables = Mapping[str, xr.Dataset]
+"""The tables that the claims on two bodies are judged by: ``pairs``, of
+:func:`nucleation.patch.tables.pairs.gather_pairs`, and ``modes``, of
+:func:`nucleation.verification.pair_modes.pair_modes`."""
 
 
 class _Senses(NamedTuple):
@@ -81,15 +73,15 @@ def required(
 
 
 def faults(
-    evidence: PairEvidence,
+    evidence: Tables,
     role: str,
 ) -> xr.Dataset:
     """The faults with a role.
 
     Parameters
     ----------
-    evidence : PairEvidence
-        The evidence.
+    evidence : mapping
+        The tables.
     role : str
         Role of a study.
 
@@ -98,7 +90,7 @@ def faults(
     Missing
         If there are none.
     """
-    rows = of_role(evidence.table, role)
+    rows = of_role(evidence["pairs"], role)
     required(rows, f"The table of pairs has no runs with the role {role}")
     return over_realisations(rows)
 
@@ -123,7 +115,7 @@ def over_effective_modulus(rows: xr.Dataset) -> Array:
     return (rows["length_ratio"] * rows["half_space_ratio"]).values
 
 
-def settled(evidence: PairEvidence) -> tuple[xr.Dataset, str]:
+def settled(evidence: Tables) -> tuple[xr.Dataset, str]:
     """The pairs of Figure 2, without each zeta/a with lengths that depend on the blocks' height.
 
     Returns
@@ -156,9 +148,9 @@ def settled(evidence: PairEvidence) -> tuple[xr.Dataset, str]:
     return required(rows, "All lengths depend on the height of the blocks"), left_out
 
 
-def _depending_on_height(evidence: PairEvidence) -> dict[float, xr.Dataset]:
+def _depending_on_height(evidence: Tables) -> dict[float, xr.Dataset]:
     """Rows of identical half-spaces with lengths that depend on the blocks' height, by zeta/a."""
-    rows = over_realisations(evidence.table)
+    rows = over_realisations(evidence["pairs"])
     identical = np.abs(rows["f_beta"].values) < 1e-9
     rows = chosen(rows, identical & _are_high(rows))
     weakening = weakenings(rows)

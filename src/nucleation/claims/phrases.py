@@ -1,7 +1,7 @@
 """Phrases that depend on the configuration's runs: their mesh, and ranges of numbers."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 PAPERS = "the paper's mesh"
@@ -27,15 +27,15 @@ def mesh(rows: Iterable[Mapping[str, Any]]) -> str:
     return f"meshes of {shown[0]} to {shown[-1]} elements"
 
 
-def span(values: Iterable[float], form: str) -> str:
+def span(values: Iterable[float], form: str | Callable[[float], str]) -> str:
     """The smallest and the largest finite number, or one if both look the same.
 
     Parameters
     ----------
     values : iterable of float
         Numbers of one unit.
-    form : str
-        Format of each.
+    form : str or callable
+        Format of each, or a function that formats one.
 
     Returns
     -------
@@ -50,8 +50,8 @@ def span(values: Iterable[float], form: str) -> str:
     known = [value for value in values if math.isfinite(value)]
     if not known:
         return ""
-    low = format(min(known), form)
-    high = format(max(known), form)
+    ends = min(known), max(known)
+    low, high = (form(end) if callable(form) else format(end, form) for end in ends)
     return low if low == high else f"{low} to {high}"
 
 

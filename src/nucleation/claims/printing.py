@@ -17,7 +17,7 @@ import xarray as xr
 import yaml
 
 from ..configuration.installed import require
-from . import article
+from .evaluation import write_article
 
 try:
     import pypandoc
@@ -94,8 +94,7 @@ def write(
     dict
         By file extension the text, or a function that writes the file.
     """
-    rows = json.loads(claims.read_text("utf-8"))
-    text = article.render(template.read_text("utf-8"), rows, list(lengths), beyond=True)
+    text = write_article(template, claims, lengths, beyond=True)[".md"]
     pictures = {}
     for name, path in zip(names, figures, strict=True):
         pictures[f"figures/{name}.png"] = path.with_suffix(".png")

@@ -14,7 +14,7 @@ import yaml
 from .claim import Claim, Computation, Row, Verdict
 from .evidence import Evidence
 from .expected import read
-from .pair_evidence import PairEvidence
+from .pair_evidence import Tables
 from .statements import bimaterial, course, finite_height, friction, lengths, sliding, two_bodies
 
 Entry = Mapping[str, Any]
@@ -98,7 +98,7 @@ def _functions(module: ModuleType) -> dict[str, Computation]:
 
 def evaluate(
     statements: Mapping[str, Mapping[str, Entry]],
-    evidence: Evidence | PairEvidence,
+    evidence: Evidence | Tables,
 ) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason.
 
@@ -106,7 +106,7 @@ def evaluate(
     ----------
     statements : mapping
         Entries by subject and id.
-    evidence : Evidence or PairEvidence
+    evidence : Evidence or mapping
         The datasets that these subjects need.
     """
     rows = []

@@ -6,7 +6,6 @@ solves equilibrium at Chebyshev points with the bodies' boundary conditions. Fie
 real. Lengths are in units of 1/k, stresses in units of k times the upper body's shear modulus.
 """
 
-import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -17,29 +16,6 @@ from ..expected import Estimate
 
 HALF_SPACE = 40.0
 """Layer number k H of a body that counts as a half-space, ``exp(-40) = 4e-18``."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Layer:
-    """A layer from the interface to its far side.
-
-    Attributes
-    ----------
-    q : float
-        ``k H``, dimensionless; negative for a layer below the interface.
-    poisson_ratio : float
-        Poisson's ratio in the plane.
-    modulus : float
-        Shear modulus over the upper body's.
-    far_side : str
-        Condition at the far side besides zero normal stress: zero displacement along it
-        ("velocity") or zero shear stress ("traction").
-    """
-
-    q: float
-    poisson_ratio: float
-    modulus: float = 1.0
-    far_side: str = "velocity"
 
 
 def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
@@ -55,8 +31,24 @@ def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
     return y, matrix * (-2.0 / end)
 
 
-class _Equations:
-    """The discrete equations of one layer: rows of coefficients of (U, W) at its points.
+class Layer:
+    """A layer from the interface to its far side, and its discrete equations.
+
+    The equations are rows of coefficients of (U, W) at the collocation points.
+
+    Parameters
+    ----------
+    q : float
+        ``k H``, dimensionless; negative for a layer below the interface.
+    poisson_ratio : float
+        Poisson's ratio in the plane.
+    modulus : float
+        Shear modulus over the upper body's.
+    far_side : str
+        Condition at the far side besides zero normal stress: zero displacement along it
+        ("velocity") or zero shear stress ("traction").
+    points : int
+        Number of collocation points.
 
     Attributes
     ----------
@@ -70,33 +62,31 @@ class _Equations:
         Rows that vanish: equilibrium at the inner points, and the conditions at the far side.
     """
 
-    def __init__(self, layer: Layer, points: int) -> None:
-        nu = layer.poisson_ratio
-        mu = layer.modulus
-        lame = 2.0 * mu * nu / (1.0 - 2.0 * nu)
-        stiffness = lame + 2.0 * mu
-        self.y, d = _chebyshev(points, layer.q)
+    def __init__(
+        self,
+        q: float,
+        poisson_ratio: float,
+        modulus: float = 1.0,
+        far_side: str = "velocity",
+        points: int = 64,
+    ) -> None:
+        lame = 2.0 * modulus * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
+        stiffness = lame + 2.0 * modulus
+        self.y, d = _chebyshev(points, q)
         self.u, self.w = np.split(np.eye(2 * points), 2)
         du = d @ self.u
         dw = d @ self.w
-        t = mu * (du + self.w)
+        t = modulus * (du + self.w)
         n = stiffness * dw - lame * self.u
         normal_x = lame * dw - stiffness * self.u  # sigma_xx / i
         along_x = normal_x + d @ t
         along_y = d @ n - t
         far_sides = {"velocity": self.u, "traction": t}
-        far = far_sides[layer.far_side]
+        far = far_sides[far_side]
         inside = slice(1, -1)
         fields = (self.u, self.w, t, n)
         self.at_interface = np.stack([rows[0] for rows in fields])
-        self.own = np.vstack(
-            [
-                along_x[inside],
-                along_y[inside],
-                far[-1],
-                n[-1],
-            ]
-        )
+        self.own = np.vstack([along_x[inside], along_y[inside], far[-1], n[-1]])
 
     def field(
         self,
@@ -116,7 +106,6 @@ class _Equations:
 def pair_transfer(
     upper: Layer,
     lower: Layer | None = None,
-    points: int = 64,
 ) -> tuple[float, float]:
     """G1 and G2 of two layers in contact.
 
@@ -124,20 +113,13 @@ def pair_transfer(
     ----------
     upper, lower : Layer
         The layers; None is a rigid lower body.
-    points : int
-        Number of collocation points in each layer.
     """
-    above = _Equations(upper, points)
-    if lower is None:
-        field = above.field_of_slip()
-    else:
-        below = _Equations(lower, points)
-        field = _joint_field(above, below)
-    _, _, t, n = above.at_interface
+    field = upper.field_of_slip() if lower is None else _joint_field(upper, lower)
+    _, _, t, n = upper.at_interface
     return -float(t @ field), float(n @ field)
 
 
-def _joint_field(above: _Equations, below: _Equations) -> Array:
+def _joint_field(above: Layer, below: Layer) -> Array:
     """(U, W) of the upper one of two layers that slip by one."""
     own = block_diag(above.own, below.own)
     jumps = np.hstack([above.at_interface, -below.at_interface])
@@ -165,11 +147,11 @@ def half_spaces(
     points : int
         Number of collocation points in each body.
     """
-    upper = Layer(HALF_SPACE, nu)
+    upper = Layer(HALF_SPACE, nu, points=points)
     if nu2 is None:
         nu2 = nu
-    lower = Layer(-HALF_SPACE, nu2, psi)
-    return pair_transfer(upper, lower, points)
+    lower = Layer(-HALF_SPACE, nu2, psi, points=points)
+    return pair_transfer(upper, lower)
 
 
 def refined(number: Callable[[int], float]) -> Estimate:
@@ -179,54 +161,32 @@ def refined(number: Callable[[int], float]) -> Estimate:
     return Estimate.within(value, error)
 
 
-def compliance(
-    layer: Layer,
-    points: int = 64,
-) -> ComplexArray:
-    """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus.
-
-    Parameters
-    ----------
-    layer : Layer
-        The layer.
-    points : int
-        Number of collocation points.
-
-    Returns
-    -------
-    array, shape (2, 2)
-    """
-    body = _Equations(layer, points)
-    u, w = body.at_interface[:2]
-    tractions = body.at_interface[2:]
-    shear = body.field(tractions, (1.0, 0.0))
-    normal = body.field(tractions, (0.0, 1.0))
+def compliance(layer: Layer) -> ComplexArray:
+    """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus, (2, 2)."""
+    u, w = layer.at_interface[:2]
+    tractions = layer.at_interface[2:]
+    shear = layer.field(tractions, (1.0, 0.0))
+    normal = layer.field(tractions, (0.0, 1.0))
     fields = np.stack([shear, normal], axis=1)
     matrix = np.stack([u @ fields, 1j * w @ fields])
     return matrix * [1.0, -1j]  # sigma_yy = i N
 
 
-def block_field(
-    layer: Layer,
-    points: int = 64,
-) -> tuple[Array, Array, Array]:
+def block_field(layer: Layer) -> tuple[Array, Array, Array]:
     """The displacement of a layer on a rigid base that slips by one.
 
     Parameters
     ----------
     layer : Layer
         The layer.
-    points : int
-        Number of collocation points.
 
     Returns
     -------
     y, u, w : array, shape (points,)
         Distance from the interface, U and W.
     """
-    body = _Equations(layer, points)
-    field = body.field_of_slip()
-    return body.y, body.u @ field, body.w @ field
+    field = layer.field_of_slip()
+    return layer.y, layer.u @ field, layer.w @ field
 
 
 def _solve(rows: Array, values: tuple[float, ...]) -> Array:

@@ -5,11 +5,34 @@ lengths are in units of 1/k.
 """
 
 import math
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
 from ...model.linearised import InterfaceState
 from ...types import Array, ComplexArray
+
+
+def over_formula(
+    ours: Callable[..., Any],
+    formula: Callable[..., Any],
+    cases: Iterable[tuple[float, ...]],
+) -> Array:
+    """Our numbers over a printed formula's.
+
+    Parameters
+    ----------
+    ours, formula : callable
+        Our evaluation and the formula, with the same arguments: one number, or G1 and G2.
+    cases : iterable of tuple
+        Arguments.
+
+    Returns
+    -------
+    array, shape (cases,) or (cases, 2)
+    """
+    return np.array([np.divide(ours(*case), formula(*case)) for case in cases])
 
 
 def half_space_wavenumber(

@@ -1,5 +1,7 @@
 """Claims on bimaterial interfaces (Sect. 4)."""
 
+import itertools
+
 import numpy as np
 import xarray as xr
 
@@ -9,6 +11,7 @@ from ..evidence import Evidence
 from ..expected import formula
 from ..independent import marginal, printed
 from ..independent.elastic_layers import half_spaces, refined
+from ..independent.printed import over_formula
 
 _PAIRS = (
     (2.0, 0.25, 0.3),
@@ -29,25 +32,19 @@ _STRENGTHENING = (
 """a and zeta of velocity-strengthening interfaces."""
 
 
-def _transfer_ratios(component: int) -> list[float]:
+def _transfer_ratios(component: int) -> Array:
     """G1 (component 0) or G2 (component 1) by collocation over Eq. (7), for all pairs."""
-    ratios = []
-    for psi, nu, nu2 in _PAIRS:
-        ours = half_spaces(nu, psi, nu2)
-        expected = printed.bimaterial_transfer(psi, nu, nu2)
-        ratios.append(ours[component] / expected[component])
-    return ratios
+
+    def by_collocation(psi: float, nu: float, nu2: float) -> tuple[float, float]:
+        return half_spaces(nu, psi, nu2)
+
+    return over_formula(by_collocation, printed.bimaterial_transfer, _PAIRS)[:, component]
 
 
 def bimaterial_modulus_limit(evidence: Evidence) -> Result:
     nu = evidence.nu
-
-    def modulus(points: int) -> float:
-        g1, _ = half_spaces(nu, points=points)
-        return 2.0 * g1
-
-    expected = 1.0 / (1.0 - nu)
-    return Result(refined(modulus), formula(expected, r"$1/(1 - \nu)$"))
+    ours = refined(lambda points: 2.0 * half_spaces(nu, points=points)[0])
+    return Result(ours, formula(1.0 / (1.0 - nu), r"$1/(1 - \nu)$"))
 
 
 def bimaterial_contrast_limit(evidence: Evidence) -> float:
@@ -71,14 +68,9 @@ def _searched_ratio(f_beta: float, z: float) -> float:
     return z / marginal.half_space_load(f_beta, 1.0, z)
 
 
-def bimaterial_length(evidence: Evidence) -> list[float]:
-    ratios = []
-    for f_beta in _CONTRASTS:
-        for z in _weakenings(evidence):
-            ours = _searched_ratio(f_beta, z)
-            expected = printed.bimaterial_ratio(f_beta, z)
-            ratios.append(ours / expected)
-    return ratios
+def bimaterial_length(evidence: Evidence) -> Array:
+    cases = itertools.product(_CONTRASTS, _weakenings(evidence))
+    return over_formula(_searched_ratio, printed.bimaterial_ratio, cases)
 
 
 def bimaterial_length_limit(evidence: Evidence) -> list[float]:
@@ -104,13 +96,10 @@ def bimaterial_decreasing(evidence: Evidence) -> xr.DataArray:
     return slopes.max()
 
 
-def strengthening_threshold(evidence: Evidence) -> list[float]:
-    ratios = []
-    for a, zeta in _STRENGTHENING:
-        ours = marginal.strengthening_threshold(a, zeta)
-        expected = printed.strengthening_threshold(a, zeta)
-        ratios.append(ours / expected)
-    return ratios
+def strengthening_threshold(evidence: Evidence) -> Array:
+    return over_formula(
+        marginal.strengthening_threshold, printed.strengthening_threshold, _STRENGTHENING
+    )
 
 
 def strengthening_length(evidence: Evidence) -> list[float]:
@@ -119,10 +108,8 @@ def strengthening_length(evidence: Evidence) -> list[float]:
         threshold = printed.strengthening_threshold(a, zeta)
         for factor in (1.2, 2.0):
             f_beta = factor * threshold
-            load = marginal.half_space_load(f_beta, a, zeta)
-            ours = zeta / load
-            expected = printed.bimaterial_ratio(f_beta, zeta / a)
-            ratios.append(ours / expected)
+            ours = zeta / marginal.half_space_load(f_beta, a, zeta)
+            ratios.append(ours / printed.bimaterial_ratio(f_beta, zeta / a))
     return ratios
 
 

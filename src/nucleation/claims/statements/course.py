@@ -1,5 +1,6 @@
 """Claims on the course of simulations (Sects. 3 and 5, Fig. 3's inset, Fig. S2, Text S2)."""
 
+import itertools
 import math
 
 import numpy as np
@@ -28,9 +29,7 @@ def instability_faster_than_creep(
     evidence: Evidence,
     role: str,
 ) -> list[float]:
-    ratios = []
-    for run in evidence.each(role):
-        ratios.append(run["growth_time"] / run["acceleration_time"])
+    ratios = [run["growth_time"] / run["acceleration_time"] for run in evidence.each(role)]
     known = [ratio for ratio in ratios if not math.isnan(ratio)]
     return known or ratios  # a run may end with its drop, before 100 V
 
@@ -40,8 +39,7 @@ def abrupt_drop(
     evidence: Evidence,
     role: str,
 ) -> list[float]:
-    rows = evidence.rows(role)
-    return [row["onset_time"] / row["drop_time"] for row in rows]
+    return [row["onset_time"] / row["drop_time"] for row in evidence.rows(role)]
 
 
 def rupture_duration(evidence: Evidence) -> float:
@@ -101,13 +99,11 @@ def length_plays_no_role(evidence: Evidence) -> Result:
 
 def _changes_by_length(rows: list[Row]) -> list[Estimate]:
     """Relative changes of the length at the drop between blocks of one height."""
-    changes = []
-    for base in rows:
-        for row in rows:
-            longer = row["block_length"] > base["block_length"]
-            if longer and row["height"] == base["height"]:
-                changes.append(relative_change(row, base))
-    return changes
+    return [
+        relative_change(row, base)
+        for base, row in itertools.product(rows, rows)
+        if row["block_length"] > base["block_length"] and row["height"] == base["height"]
+    ]
 
 
 def _of_papers(column: str) -> Computation:

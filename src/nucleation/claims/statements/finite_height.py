@@ -5,7 +5,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from ...types import ComplexArray
+from ...types import Array, ComplexArray
 from ..claim import Computation, Result
 from ..evidence import Evidence
 from ..expected import Estimate, formula
@@ -24,9 +24,9 @@ _THIN = 1e-3  # kH of a thin block
 _FAR_BELOW = 1e-5  # m: a height far below those of Fig. 3
 
 
-def _block(q: float, evidence: Evidence) -> Layer:
+def _block(q: float, nu: float, points: int) -> Layer:
     """A block of kH = q, free of stress on top."""
-    return Layer(q, evidence.nu, far_side="traction")
+    return Layer(q, nu, far_side="traction", points=points)
 
 
 def _points(q: float) -> int:
@@ -38,7 +38,7 @@ def _points(q: float) -> int:
 
 def block_transfer(
     q: float,
-    evidence: Evidence,
+    nu: float,
 ) -> tuple[float, float]:
     """G1 and G2 of a block on a rigid base by collocation.
 
@@ -46,44 +46,32 @@ def block_transfer(
     ----------
     q : float
         kH.
-    evidence : Evidence
-        For Poisson's ratio.
+    nu : float
+        Poisson's ratio in the plane.
     """
     q = min(q, HALF_SPACE)
-    block = _block(q, evidence)
-    return pair_transfer(block, points=_points(q))
+    return pair_transfer(_block(q, nu, _points(q)))
 
 
-def _transfer_ratios(evidence: Evidence, component: int) -> list[float]:
+def _transfer_ratios(evidence: Evidence, component: int) -> Array:
     """G1 (component 0) or G2 (component 1) by collocation over Eq. (10), at several kH."""
-    ratios = []
-    for q in _LAYER_NUMBERS:
-        ours = block_transfer(q, evidence)
-        expected = printed.block_transfer(q, evidence.nu)
-        ratios.append(ours[component] / expected[component])
-    return ratios
+    cases = [(q, evidence.nu) for q in _LAYER_NUMBERS]
+    return printed.over_formula(block_transfer, printed.block_transfer, cases)[:, component]
 
 
 def block_high_limit(evidence: Evidence) -> Result:
     nu = evidence.nu
-    block = _block(HALF_SPACE, evidence)
 
     def coupling(points: int) -> float:
-        g1, g2 = pair_transfer(block, points=points)
+        g1, g2 = pair_transfer(_block(HALF_SPACE, nu, points))
         return g2 / g1
 
-    dividend = 1.0 - 2.0 * nu
-    divisor = 2.0 * (1.0 - nu)
-    beta = dividend / divisor
+    beta = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
     return Result(refined(coupling), formula(beta))
 
 
 def block_thin_g1(evidence: Evidence) -> Result:
-    ratios = []
-    for q in (_THIN, 2.0 * _THIN):
-        g1, _ = block_transfer(q, evidence)
-        ratios.append(g1 / (2.0 * q))
-    thin, twice = ratios
+    thin, twice = (block_transfer(q, evidence.nu)[0] / (2.0 * q) for q in (_THIN, 2.0 * _THIN))
     limit = (4.0 * thin - twice) / 3.0
     ours = Estimate.within(limit, 1e-7 * limit)
     expected = 1.0 / (1.0 - evidence.nu)
@@ -91,7 +79,7 @@ def block_thin_g1(evidence: Evidence) -> Result:
 
 
 def block_thin_g2(evidence: Evidence) -> float:
-    g1, g2 = block_transfer(_THIN, evidence)
+    g1, g2 = block_transfer(_THIN, evidence.nu)
     return g2 / g1
 
 
@@ -99,18 +87,9 @@ def _searched_ratio(height: float, evidence: Evidence) -> float:
     """L_c by search, transfer functions by collocation, over Eq. (11)."""
     modulus = evidence.material.shear_modulus
     interface = evidence.interface
-    thin = printed.thin_length(
-        height,
-        evidence.nu,
-        modulus,
-        interface,
-    )
-
-    def transfer(wavenumber: float) -> tuple[float, float]:
-        return block_transfer(wavenumber * height, evidence)
-
+    thin = printed.thin_length(height, evidence.nu, modulus, interface)
     k, _ = marginal.critical_wavenumber(
-        transfer,
+        lambda wavenumber: block_transfer(wavenumber * height, evidence.nu),
         modulus,
         interface,
         guess=2.0 * math.pi / thin,
@@ -147,25 +126,21 @@ def response_matrix(evidence: Evidence) -> list[float]:
     nu = evidence.nu
     differences = []
     for q in _NOT_THIN:
-        layer = Layer(q, nu)
-        ours = compliance(layer, points=40)
-        expected = printed.response_matrix(q, nu)
-        differences.append(_relative_difference(ours, expected))
+        ours = compliance(Layer(q, nu, points=40))
+        differences.append(_relative_difference(ours, printed.response_matrix(q, nu)))
     return differences
 
 
 def response_matrix_limit(evidence: Evidence) -> float:
     nu = evidence.nu
-    layer = Layer(HALF_SPACE, nu)
-    ours = compliance(layer, points=64)
+    ours = compliance(Layer(HALF_SPACE, nu))
     return _relative_difference(ours, printed.half_space_response(nu))
 
 
 def block_field(evidence: Evidence) -> list[float]:
     differences = []
     for q in _NOT_THIN:
-        block = _block(q, evidence)
-        y, u, w = elastic_layers.block_field(block, points=40)
+        y, u, w = elastic_layers.block_field(_block(q, evidence.nu, points=40))
         field = printed.block_field(q, y / q, evidence.nu)
         u_x, u_y = field / field[0, 0]
         along = np.abs(u_x - u)

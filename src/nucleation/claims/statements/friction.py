@@ -1,11 +1,11 @@
 """Claims on the friction law (Text S2.1, Fig. S1)."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from ...configuration.roles import JUDGED, PAPERS
-from ...model.friction.law import Expansion
 from ...types import Array
 from ..claim import Computation, Result, Row
 from ..evidence import Evidence, of_runs
@@ -14,21 +14,14 @@ from ..expected import Missing
 _SLIP_RATES = np.geomspace(1e-11, 10.0, 4801)  # m/s
 
 
-def _at_v(evidence: Evidence) -> Expansion:
-    """Friction, a and zeta at V."""
-    return evidence.friction.expansion(evidence.loading.velocity)
+def _at_v(name: str) -> Callable[[Evidence], float]:
+    """Friction ``f0``, ``a`` or ``zeta`` at V."""
 
+    def value(evidence: Evidence) -> float:
+        expansion = evidence.friction.expansion(evidence.loading.velocity)
+        return float(getattr(expansion, name))
 
-def _f0(evidence: Evidence) -> float:
-    return _at_v(evidence).f0
-
-
-def _a(evidence: Evidence) -> float:
-    return _at_v(evidence).a
-
-
-def _zeta(evidence: Evidence) -> float:
-    return _at_v(evidence).zeta
+    return value
 
 
 def slip_rate_over_v0(evidence: Evidence) -> float:
@@ -40,7 +33,7 @@ def friction_vanishes(evidence: Evidence) -> float:
     law = evidence.friction
     slow = 1e-5 * law.regularisation_slip_rate
     friction = law.coefficient(slow, 1.0)
-    return float(friction / _f0(evidence))
+    return float(friction / _at_v("f0")(evidence))
 
 
 def logarithmic_law(evidence: Evidence) -> Array:
@@ -169,13 +162,13 @@ def _strengthened(evidence: Evidence, run: Row) -> float:
 
 
 SHORT: dict[str, Computation] = {
-    "f0-table": _f0,
-    "f0-main": _f0,
-    "a-table": _a,
-    "a-main": _a,
-    "zeta-table": _zeta,
-    "zeta-main": _zeta,
-    "weakening-at-v": _zeta,
+    "f0-table": _at_v("f0"),
+    "f0-main": _at_v("f0"),
+    "a-table": _at_v("a"),
+    "a-main": _at_v("a"),
+    "zeta-table": _at_v("zeta"),
+    "zeta-main": _at_v("zeta"),
+    "weakening-at-v": _at_v("zeta"),
     "minimum-plays-no-role": of_runs("onset_rate", _minimum),
     "regularisation-irrelevant": of_runs("regular_share"),
 }

@@ -152,9 +152,7 @@ def relative_change(
         Its range is that of the definitions, each applied to both runs.
     """
     change = varied["length"] / base["length"] - 1.0
-    by_definition = []
-    for column in BY_DEFINITION:
-        by_definition.append(varied[column] / base[column] - 1.0)
+    by_definition = [varied[column] / base[column] - 1.0 for column in BY_DEFINITION]
     return Estimate.between(change, np.min(by_definition), np.max(by_definition))
 
 
@@ -183,9 +181,8 @@ def _stability_length(evidence: Evidence, row: Row) -> float:
 
 
 def stability_lost_at_length(evidence: Evidence) -> Result:
-    ratios = []
-    for row in evidence.rows(JUDGED):
-        ratios.append(_stability_length(evidence, row) / row["critical_length"])
+    rows = evidence.rows(JUDGED)
+    ratios = [_stability_length(evidence, row) / row["critical_length"] for row in rows]
     halves = span((2.0 * ratio for ratio in ratios), ".2f")
     thin = [f"{thin_limit(weakening).length_ratio:.2f}" for weakening in _WEAKENINGS]
     note = (

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from ...model.friction.evolutions import aging, slip
 from ...types import Array
-from ..claim import Cause, Computation, Result
+from ..claim import Computation, Result
 from ..evidence import Evidence
 from ..expected import Estimate, formula
 from ..independent import marginal, printed
@@ -81,40 +81,26 @@ def spring_stiffness(evidence: Evidence) -> float:
 
 def half_spaces_g1(evidence: Evidence) -> Result:
     nu = evidence.nu
-
-    def g1(points: int) -> float:
-        return half_spaces(nu, points=points)[0]
-
-    expected = 1.0 / (2.0 * (1.0 - nu))
-    return Result(refined(g1), formula(expected))
+    ours = refined(lambda points: half_spaces(nu, points=points)[0])
+    return Result(ours, formula(1.0 / (2.0 * (1.0 - nu))))
 
 
 def half_spaces_g2(evidence: Evidence) -> list[float]:
-    couplings = []
-    for points in (48, 64):
-        _, g2 = half_spaces(evidence.nu, points=points)
-        couplings.append(g2)
-    return couplings
+    return [half_spaces(evidence.nu, points=points)[1] for points in (48, 64)]
 
 
 def symmetric_g2(evidence: Evidence) -> list[float]:
-    nu = evidence.nu
     couplings = []
     for q in (0.1, 0.5, 1.0, 3.0):
-        upper = Layer(q, nu)
-        lower = Layer(-q, nu)
-        _, g2 = pair_transfer(upper, lower, points=32)
+        upper, lower = (Layer(side, evidence.nu, points=32) for side in (q, -q))
+        _, g2 = pair_transfer(upper, lower)
         couplings.append(g2)
     return couplings
 
 
 def _printed_wavenumber(evidence: Evidence) -> float:
     modulus = evidence.material.shear_modulus
-    return printed.half_space_wavenumber(
-        evidence.nu,
-        modulus,
-        evidence.interface,
-    )
+    return printed.half_space_wavenumber(evidence.nu, modulus, evidence.interface)
 
 
 def _critical(evidence: Evidence) -> tuple[float, float]:
@@ -131,8 +117,7 @@ def _critical(evidence: Evidence) -> tuple[float, float]:
 def half_spaces_wavenumber(evidence: Evidence) -> Result:
     k, _ = _critical(evidence)
     ours = Estimate.within(k, 1e-9 * k)
-    expected = _printed_wavenumber(evidence)
-    return Result(ours, formula(expected))
+    return Result(ours, formula(_printed_wavenumber(evidence)))
 
 
 def _eta(evidence: Evidence) -> float:
@@ -145,9 +130,8 @@ def _eta(evidence: Evidence) -> float:
 
 
 def eta(evidence: Evidence) -> Result:
-    ours = _eta(evidence)
     expected = math.pi / (1.0 - evidence.nu)
-    return Result(ours, formula(expected, r"$\pi/(1 - \nu)$"))
+    return Result(_eta(evidence), formula(expected, r"$\pi/(1 - \nu)$"))
 
 
 def _eta_over_literature(evidence: Evidence) -> float:
@@ -158,15 +142,12 @@ def _eta_over_literature(evidence: Evidence) -> float:
 def eta_over_literature(evidence: Evidence) -> Result:
     material = dataclasses.replace(evidence.material, poisson_ratio=0.25)
     with_quarter = dataclasses.replace(evidence, material=material)
-    cause = Cause(
-        "The factor pi",
-        r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ our number is",
-        _eta_over_literature(with_quarter),
-    )
     return Result(
         _eta_over_literature(evidence),
         formula(math.pi, r"$\pi$"),
-        cause=cause,
+        without_cause=_eta_over_literature(with_quarter),
+        cause=r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ our number is",
+        finding="The factor pi",
     )
 
 
@@ -203,12 +184,7 @@ def friction_perturbation(evidence: Evidence) -> list[float]:
 
 def growth_changes_sign(evidence: Evidence) -> list[float]:
     modes = evidence.dispersion
-    heights = modes["height"].values
-    zeros = []
-    for height in heights:
-        own = modes.sel(height=height)
-        zeros.append(_zero_of_growth(own))
-    return zeros
+    return [_zero_of_growth(modes.sel(height=height)) for height in modes["height"].values]
 
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
@@ -227,10 +203,8 @@ def short_waves_stable(evidence: Evidence) -> float:
     curve = evidence.theory.isel(height=slice(None, None, 10))
     heights = curve["height"].values
     critical = curve["critical_wavenumber"].values
-    rates = []
-    for height, k_c in zip(heights, critical, strict=True):
-        rates.append(_largest_rate(evidence, height, k_c))
-    return max(rates)
+    blocks = zip(heights, critical, strict=True)
+    return max(_largest_rate(evidence, height, k_c) for height, k_c in blocks)
 
 
 def _largest_rate(
@@ -246,13 +220,7 @@ def _largest_rate(
         return printed.block_transfer(q, evidence.nu)
 
     def growth(wavenumber: float) -> float:
-        rate = marginal.growth_at(
-            wavenumber,
-            transfer,
-            modulus,
-            evidence.interface,
-        )
-        return rate.real
+        return marginal.growth_at(wavenumber, transfer, modulus, evidence.interface).real
 
     return max(map(growth, k_c * _SHORT_WAVES))
 

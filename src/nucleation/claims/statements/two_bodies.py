@@ -18,7 +18,7 @@ from ..claim import Computation, Result
 from ..expected import Estimate, Missing
 from ..independent import printed
 from ..pair_evidence import (
-    PairEvidence,
+    Tables,
     both_senses,
     faults,
     half_spaces,
@@ -36,7 +36,7 @@ _CAUSE = (
 )
 
 
-def pairs_half_spaces(evidence: PairEvidence) -> Result:
+def pairs_half_spaces(evidence: Tables) -> Result:
     high = half_spaces(faults(evidence, "pairs_identical"))
     required(high, "No identical blocks are as high as half-spaces")
     note = _note(high) + _eta(high)
@@ -71,9 +71,9 @@ def _eta(rows: xr.Dataset) -> str:
     )
 
 
-def _response(evidence: PairEvidence, component: int) -> Result:
+def _response(evidence: Tables, component: int) -> Result:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
-    modes = evidence.modes
+    modes = evidence["modes"]
     names = modes["id"].values.astype(str)
     are_high = np.char.startswith(names, "half-spaces")
     high = modes.isel(run=are_high)
@@ -85,16 +85,13 @@ def _response(evidence: PairEvidence, component: int) -> Result:
         high["second_poisson_ratio"].values,
         strict=True,
     )
-    expected = []
-    for pair in pairs:
-        transfer = printed.bimaterial_transfer(*pair)
-        expected.append(transfer[component])
+    expected = [printed.bimaterial_transfer(*pair)[component] for pair in pairs]
     measured = measured_response(high)[component]
     ours = (measured.T / expected).T
     return Result(ours, note=_SLIDING)
 
 
-def pairs_modulus(evidence: PairEvidence) -> Result:
+def pairs_modulus(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     ratios = {}
     for senses in both_senses(rows):
@@ -103,7 +100,7 @@ def pairs_modulus(evidence: PairEvidence) -> Result:
     return _over_weakenings(ratios, _note(rows) + left_out)
 
 
-def pairs_contrast(evidence: PairEvidence) -> Result:
+def pairs_contrast(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     ratios = {}
     for senses in both_senses(rows):
@@ -112,8 +109,7 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
         effect = difference / total / senses.contrast
         if effect.size < 2:
             raise Missing(rf"$\zeta/a = {senses.weakening:g}$ has no two contrasts")
-        smallest = effect[0]
-        ratios[senses.weakening] = effect[1:] / smallest
+        ratios[senses.weakening] = effect[1:] / effect[0]
     return _over_weakenings(ratios, _note(rows) + left_out)
 
 
@@ -128,7 +124,7 @@ def _over_weakenings(ratios: dict[float, Array], note: str) -> Result:
     return Result(ours, note=note)
 
 
-def pairs_bimaterial(evidence: PairEvidence) -> Result:
+def pairs_bimaterial(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     relative = rows["length"] / rows["height"]
     longest = relative.values.max()
@@ -137,7 +133,7 @@ def pairs_bimaterial(evidence: PairEvidence) -> Result:
     return Result(_lengths(rows), note=note)
 
 
-def pairs_smaller(evidence: PairEvidence) -> Result:
+def pairs_smaller(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     contrast = np.abs(rows["f_beta"].values)
     strong = chosen(rows, contrast > _STRONG)
@@ -160,7 +156,7 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
     )
 
 
-def pairs_decreasing(evidence: PairEvidence) -> Result:
+def pairs_decreasing(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     slopes, ends = _slopes(rows)
     if not slopes:
