@@ -13,7 +13,7 @@ from once import once
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
-from nucleation.report import page, stability
+from nucleation.report import encode, page, stability
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -49,7 +49,9 @@ def content(settings, table, tmp_path_factory):
     pdf, png = style.save(figure_2.draw(theory), stem)
     entry = catalogue.FIGURES["figure_2"]
     caption = (ROOT / "workflow" / "report" / "figure_2.rst").read_text(encoding="utf-8")
-    return page.Content(
+    results = {"theory": theory, "lengths": table}
+    caption = encode.caption_html(caption, {})
+    return dict(
         fault={
             "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "plane": "strain", "height": 0.1,
             "normal_stress": 1e6, "a": 0.0068, "b": 0.0228, "slip_distance": 5e-7, "friction": 0.41,
@@ -57,13 +59,13 @@ def content(settings, table, tmp_path_factory):
         },
         friction=settings.base.friction,
         config=CONFIG,
-        provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
-        results={"theory": theory, "lengths": table},
-        pictures=[
-            page.Picture("figure_2", entry, [png, pdf], caption, {})
-        ],
+        origin=provenance.attributes(CONFIG, "0" * 64, "none"),
+        results=results,
+        pictures=[page.picture("figure_2", entry, [png, pdf], caption, results)],
         patch_tables=PATCH_TABLES,
         claims=CLAIMS,
+        studies={},
+        warnings={},
     )  # fmt: skip
 
 
@@ -71,7 +73,7 @@ def content(settings, table, tmp_path_factory):
 def report(content, tmp_path_factory) -> Path:
     """The report as a file."""
     path = tmp_path_factory.mktemp("report") / "report.html"
-    path.write_text(page.build(content), encoding="utf-8")
+    path.write_text(page.build(**content), encoding="utf-8")
     return path
 
 

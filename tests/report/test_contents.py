@@ -38,9 +38,9 @@ def html(report):
 def test_tables_can_be_downloaded_with_units_and_all_values(html, content):
     files = downloads(html)
     assert files["figure_2.pdf"].startswith(b"%PDF")
-    assert json.loads(files["configuration.json"]) == content.config
+    assert json.loads(files["configuration.json"]) == content["config"]
     ratio = pd.read_csv(io.BytesIO(files["theory-bimaterial_length_ratio.csv"]))
-    expected = content.results["theory"]["bimaterial_length_ratio"]
+    expected = content["results"]["theory"]["bimaterial_length_ratio"]
     assert list(ratio.columns) == ["zeta_over_a", "f_beta", "bimaterial_length_ratio"]
     for row in ratio.sample(20, random_state=1).itertuples():
         value = expected.sel(zeta_over_a=row.zeta_over_a, f_beta=row.f_beta)
@@ -74,7 +74,7 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
 
 @pytest.mark.slow
 def test_sections_without_content_are_left_out(content):
-    bare = page.build(content._replace(claims=None, pictures=[], results={}))
+    bare = page.build(**{**content, "claims": [], "pictures": [], "results": {}})
     for part in ("verdicts", "lengths", "answer"):
         assert f'id="{part}"' not in bare
     assert "<figure" not in bare
@@ -92,12 +92,12 @@ def test_every_claim_and_run_is_in_the_tables(html, table):
 
 
 def test_claims_as_they_are_shown(content):
-    onset, ratio, unknown, wrong = verdicts.claim_rows(content.claims)
+    onset, ratio, unknown, wrong = verdicts.claim_rows(content["claims"])
     assert (onset["paper"], onset["ours"], onset["spread"]) == ("13 s", "12.78", "(12.78 to 12.87)")
     assert (ratio["ours"], ratio["spread"], ratio["unit"]) == ("2.356", "", "")
     assert (unknown["paper"], unknown["ours"], unknown["spread"]) == ("", "", "")
     assert wrong["spread"] == "(8 to 11)"
-    counts = {c["verdict"]: c["count"] for c in verdicts.verdict_counts(content.claims)}
+    counts = {c["verdict"]: c["count"] for c in verdicts.verdict_counts(content["claims"])}
     assert counts == dict.fromkeys(set(verdicts.VERDICTS) - {"taken as given", "not supported"}, 1)
 
 
@@ -189,23 +189,23 @@ class Tags(HTMLParser):
 
 def test_no_text_becomes_a_part_of_the_page(content):
     """Descriptions, names, claims and attributes of datasets may come from others."""
-    lengths = content.results["lengths"].copy(deep=True)
+    lengths = content["results"]["lengths"].copy(deep=True)
     for name in ("id", "study"):
         lengths[name] = lengths[name].astype(object).where(False, EVIL).astype(str)
     lengths.attrs |= {"command": EVIL, "created": EVIL, "code_digest": EVIL}
     words = ("where", "statement", "paper", "unit", "reason", "quotation", "method")
-    claims = [{**claim, **dict.fromkeys(words, EVIL)} for claim in content.claims]
-    (picture,) = content.pictures
-    entry = picture.entry._replace(title=EVIL, category=EVIL)
-    evil = content._replace(
-        config={**content.config, "studies": {"s": {"description": EVIL}}, EVIL: EVIL},
-        provenance={"versions": json.dumps({EVIL: EVIL}), "created": EVIL, "code_digest": EVIL},
-        results={**content.results, "lengths": lengths, EVIL: lengths},
-        pictures=[picture._replace(name=EVIL, entry=entry)],
+    claims = [{**claim, **dict.fromkeys(words, EVIL)} for claim in content["claims"]]
+    (picture,) = content["pictures"]
+    evil = dict(
+        content,
+        config={**content["config"], "studies": {"s": {"description": EVIL}}, EVIL: EVIL},
+        origin={"versions": json.dumps({EVIL: EVIL}), "created": EVIL, "code_digest": EVIL},
+        results={**content["results"], "lengths": lengths, EVIL: lengths},
+        pictures=[{**picture, "name": EVIL, "title": EVIL, "category": EVIL}],
         claims=claims,
     )
-    good, bad = Tags(page.build(content)), Tags(page.build(evil))
-    assert EVIL not in page.build(evil)
+    good, bad = Tags(page.build(**content)), Tags(page.build(**evil))
+    assert EVIL not in page.build(**evil)
     assert len(good.scripts) == len(bad.scripts)
     assert not [tag for tag, attributes in bad.found if any(a.startswith("on") for a in attributes)]
     kinds = {tag for tag, _ in good.found}

@@ -28,7 +28,7 @@ def test_the_calculator_begins_with_the_fault_of_the_report(web, content):
     """And it follows the fields; the page's address is that of its sections."""
     for height in (0.1, 0.02):
         web.fill("#height", f"{height}")
-        fault = content.fault | {"height": height, "second_shear_modulus": np.inf}
+        fault = content["fault"] | {"height": height, "second_shear_modulus": np.inf}
         shown = web.locator("#values dd").all_inner_texts()
         critical, stable = (float(text.split()[0]) for text in shown[:2])
         assert critical == pytest.approx(float(critical_length(**without(fault))), rel=1e-4)

@@ -7,9 +7,10 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import page, summary, tables
+from nucleation.report import page, tables
 
-STUDIES = summary.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
+STUDIES = {"mine": "granite"}
+WARNINGS = {"mine": ["mesh too coarse (x): by far"]}
 
 
 @pytest.fixture(scope="module")
@@ -24,11 +25,10 @@ def two_faults(table):
 
 @pytest.fixture(scope="module")
 def html(content, two_faults):
-    figure = content.pictures[0]
-    figure = figure._replace(name="study_mine", entry=figure.entry._replace(category=catalogue.OWN))
-    results = {**content.results, "lengths": two_faults}
-    mine = content._replace(claims=None, pictures=[figure], own=STUDIES, results=results)
-    return page.build(mine)
+    figure = {**content["pictures"][0], "name": "study_mine", "category": catalogue.OWN}
+    results = {**content["results"], "lengths": two_faults}
+    own = {"claims": [], "pictures": [figure], "results": results}
+    return page.build(**{**content, **own, "studies": STUDIES, "warnings": WARNINGS})
 
 
 @pytest.mark.slow

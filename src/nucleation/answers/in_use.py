@@ -237,26 +237,9 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     >>> round(float(found["rice_ruina"]), 3), found["rice_ruina"].attrs["formula"]
     (0.628, '(pi/4) mu* D/(zeta sigma0)')
     """
-    return lengths_of(fault_of(fault), weakening_rate)
-
-
-def lengths_of(fault: FaultParameters, weakening_rate: Values | None = None) -> xr.Dataset:
-    """All lengths of a fault, as :func:`lengths_in_use`.
-
-    Parameters
-    ----------
-    fault : FaultParameters
-        One fault, or arrays of faults.
-    weakening_rate : array_like, optional
-        Slip weakening W (Pa/m).
-
-    Returns
-    -------
-    Dataset
-    """
     import xarray as xr
 
-    found = with_dimensions(values_of(fault, weakening_rate))
+    found = with_dimensions(values_of(fault_of(fault), weakening_rate))
     variables = {}
     for length in LENGTHS:
         variables[length.key] = found[length.key].assign_attrs(length.words())

@@ -9,7 +9,7 @@ known from simulations (docs/creeping_patch.md), not from a theory.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -29,25 +29,12 @@ _HALVINGS = 60  # of the interval of log k in which the process zone is searched
 _SPAN = 1e6  # ratio of the longest process zone of the search to L_b/2, and of that to the shortest
 
 
-class PatchAnswer(NamedTuple):
-    """The behaviour of a weakening patch of one fault."""
-
-    smallest_width: float
-    """W_c (m); NaN if no patch nucleates."""
-    width_ratio: float
-    """W/W_c; NaN without a width."""
-    outcome: str
-    """The behaviour in words; empty without a width."""
-    cell_size: float
-    """Largest cell (m) that resolves the process zone; NaN if there is no process zone."""
-
-
 def patch_answer(
     fault: FaultParameters,
     outside_zeta: Values,
     outside_a: Values | None = None,
     width: float | None = None,
-) -> PatchAnswer:
+) -> dict[str, Any]:
     """The behaviour of a weakening patch among strengthening surroundings.
 
     Parameters
@@ -61,7 +48,10 @@ def patch_answer(
 
     Returns
     -------
-    PatchAnswer
+    dict
+        ``smallest_width``, W_c (m), NaN if no patch nucleates; ``width_ratio``, W/W_c, NaN without
+        a width; ``outcome``, the behaviour in words, empty without a width; ``cell_size``, the
+        largest cell (m) that resolves the process zone, NaN if there is none.
 
     Raises
     ------
@@ -70,9 +60,12 @@ def patch_answer(
     """
     smallest = float(weakening_patch_values(fault, outside_zeta, outside_a))
     ratio = math.nan if width is None else width / smallest
-    words = "" if width is None else outcome(ratio)
-    cell = process_zone(fault) / _CELLS
-    return PatchAnswer(smallest, ratio, words, cell)
+    return {
+        "smallest_width": smallest,
+        "width_ratio": ratio,
+        "outcome": "" if width is None else outcome(ratio),
+        "cell_size": process_zone(fault) / _CELLS,
+    }
 
 
 def outcome(width_ratio: float) -> str:

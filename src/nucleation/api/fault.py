@@ -183,7 +183,8 @@ class Fault(FaultParameters):
         ParameterError
             If the fault is an array, lacks V or f, or can't be simulated.
         """
-        from ..configuration.single_run import merged, single_run, without_half_spaces
+        from ..configuration.half_spaces import without_half_spaces
+        from ..configuration.single_run import merged, single_run
 
         given = self._by_study_names() | changes
         fixed, _ = without_half_spaces(None, given | follows_from(given))

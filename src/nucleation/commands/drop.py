@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..configuration.advice import changing_friction
-from ..configuration.single_run import merged, merged_parameters, single_run, without_half_spaces
-from ..configuration.study_names import study_parameters
-from ..model.friction.constants import CONSTANTS
-from ..model.parameters import Parameters, names
+from ..configuration.single_run import merged_parameters
+from ..model.parameters import Parameters
 from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
 from ..theory import status as status_words
@@ -22,24 +19,16 @@ from ..theory.arrays import critical_length, reasons_of_stability
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
-from .options import parameter_options, source_options
+from .cases import COUNTING, USUAL, case_of, run_of, system_of_case, uncertain_of
+from .options import draws_option, json_option, parameter_options, samples_option, source_options
 from .sources import sourced
-from .system_text import plane_in_words, system_of_run
-from .text import table, to_json, wrapped
-from .uncertain_drop import print_drop_quantiles, uncertain_of
-from .uncertainty import draws_option, samples_option
+from .system_text import plane_in_words
+from .text import Row, show, table, warn, wrapped
+from .uncertain_drop import print_drop_quantiles
 from .unit_text import in_unit
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
-
-USUAL = {"perturbation": "normal_load", "strength": 1e-4}
-"""The perturbation by default; the law is verified up to this strength."""
-
-_GROUPS = ("material", "friction", "loading", "perturbation", "second_body")
-_WITHOUT_EFFECT = ("second_n_y", "second_grading", "loading", "stress_rate", "seed")
-"""Parameters of these groups without effect: the law has no mesh, holds for an edge that is pushed,
-and covers all realisations."""
 
 _COMPARED = (
     "Against simulations of the paper's fault at strengths up to 1e-4 the median has an error of "
@@ -53,29 +42,14 @@ _COMPARED_SLOW = (
 )
 
 
-def _counts(name: str) -> bool:
-    """Whether a parameter, by its name in studies, has an effect on the drop."""
-    if name in CONSTANTS or name == "height":
-        return True
-    return names().full(name).startswith(_GROUPS) and name not in _WITHOUT_EFFECT
-
-
-COUNTING = tuple(filter(_counts, study_parameters()))
-"""The parameters with an effect on the drop, by their names in studies."""
-
-
 @click.command("drop", epilog=EXIT_CODES)
 @parameter_options(COUNTING, USUAL, ranges=True)
 @source_options
 @samples_option
 @draws_option(50)
-@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+@json_option
 def command(
     as_json: bool,
-    file: Path | None,
-    run_id: str | None,
-    config: str | None,
-    paper: bool,
     samples: Path | None,
     draws: int,
     **options: Any,
@@ -92,18 +66,18 @@ def command(
     Example:
       nucleation drop --height 2cm --perturbation normal_load --strength 1e-4
     """
-    base, given = sourced(file, run_id, config, paper, options, ranges=True)
+    base, given = sourced(options, ranges=True)
     declared = given.get("perturbation", USUAL["perturbation"] if base is None else "")
     if declared == "none":
         raise ParameterError(
             "perturbation = 'none' is not allowed: without one the drop depends on round-off; it "
             f"must be one of {', '.join(KINDS[1:])}"
         )
+    paper = options["paper"]
     uncertain = uncertain_of(given, samples)
     if uncertain:
-        return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
-    fixed, blocks = without_half_spaces(base, USUAL | given if base is None else given)
-    values = merged(base, fixed)
+        return print_drop_quantiles(base, given, uncertain, paper, draws, as_json)
+    values, blocks = case = case_of(base, given, paper)
     parameters = merged_parameters(None, values)
     fault = fault_of_run(parameters)
     critical = float(critical_length(**fault))
@@ -113,8 +87,7 @@ def command(
         code, status = STABLE, status_words.STABLE
         reason = reasons_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
-        # neither results nor a mesh are made
-        run = single_run(values, results="results", limits={"memory": 9e6})
+        run = run_of(values)
         critical = run.critical_length
         # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
@@ -126,24 +99,19 @@ def command(
         except NoDrop as error:
             code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
-            click.echo("\n".join(wrapped(f"Warning: {topic}: {text}", err=True)), err=True)
-    system = system_of_run(parameters, base, given)
-    if blocks:
-        system.append(blocks.in_words())
-    if as_json:
-        known = {
-            "system": system,
-            "half_spaces": blocks and blocks._asdict(),
-            "status": status,
-            "reason": reason,
-            "theory": {"critical_length": critical, "plane": parameters.material.plane},
-            "perturbation": dataclasses.asdict(parameters.perturbation),
-        }
-        answer = _described(found) if found else {}
-        click.echo(to_json(known | answer))
-    else:
-        lines = [*wrapped(*system, ""), *_lines(parameters, critical, found, reason)]
-        click.echo("\n".join(lines))
+            warn(f"{topic}: {text}")
+    system = system_of_case(case, base, given, paper)
+    known = {
+        "system": system,
+        "half_spaces": blocks and blocks._asdict(),
+        "status": status,
+        "reason": reason,
+        "theory": {"critical_length": critical, "plane": parameters.material.plane},
+        "perturbation": dataclasses.asdict(parameters.perturbation),
+    }
+    answer = _described(found) if found else {}
+    lines = [*wrapped(*system, ""), *_lines(parameters, critical, found, reason)]
+    show(as_json, known | answer, lines)
     return code
 
 
@@ -181,7 +149,7 @@ def _lines(
     """The lengths of the theory and of the drop, one line each."""
     if math.isnan(critical):
         return wrapped(f"No critical length: {reason}.")
-    rows: list[Sequence[str] | str] = [
+    rows: list[Row] = [
         f"Theory of homogeneous sliding, in {plane_in_words(parameters.material.plane)}:",
         ("L_c", f"{critical:.4g} m", "", "critical nucleation length"),
         "The creeping patch:",

@@ -1,7 +1,6 @@
 """Options for the parameters of a fault of the linear theory, and the fault that they define."""
 
 import math
-from pathlib import Path
 from typing import Any
 
 import click
@@ -73,12 +72,8 @@ fault_options = together(
 
 def fault_values(
     per_decade: bool,
-    file: Path | None,
-    run_id: str | None,
-    config: str | None,
     paper: bool,
     optional: str = "",
-    ranges: bool = False,
     **options: Any,
 ) -> tuple[dict[str, Any], list[str]]:
     """The fault that options and files define.
@@ -87,14 +82,12 @@ def fault_values(
     ----------
     per_decade : bool
         Whether the options a, b and zeta are coefficients of log10.
-    file, run_id, config, paper
-        The source of other parameters, as for :func:`~nucleation.commands.sources.sourced`.
+    paper : bool
+        Whether parameters that are not given are the paper's.
     optional : str
         A required parameter that may be missing.
-    ranges : bool
-        Whether values in files may be ranges.
     **options
-        Values of :data:`fault_options`, in SI units; None if not given.
+        Values of the other :data:`fault_options`, in SI units; None if not given.
 
     Returns
     -------
@@ -109,14 +102,14 @@ def fault_values(
     ParameterError
         If a parameter is wrong or missing.
     """
-    own = given_of(options)
+    own = given_of({**options, "paper": paper})
     if per_decade:
         for name in own.keys() & {"a", "b", "zeta"}:
             own[name] = own[name] / math.log(10.0)
     of_theory = {name: own.pop(name) for name in OF_THEORY if name in own}
     if "second_far_side" in own:  # which allows more in the theory
         of_theory["second_far_side"] = own.pop("second_far_side")
-    base, given = sourced(file, run_id, config, paper, own, ranges)
+    base, given = sourced(own, ranges=True)
 
     of_theory |= {name: given.pop(name) for name in OF_THEORY if name in given}
     values = fault_from(given, base, paper)

@@ -1,7 +1,7 @@
 """``nucleation length``: the critical length of a fault, and other lengths in use."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
 from .fault_options import fault_options, fault_values
-from .options import option
+from .options import draws_option, json_option, option, samples_option
 from .system_text import (
     BEGINS,
     is_of_one_material,
@@ -32,12 +32,10 @@ from .system_text import (
     system_of_fault,
     systems_of_lengths,
 )
-from .text import as_plain, table, to_json, wrapped
+from .text import Row, as_plain, show, table, wrapped
 from .uncertainty import (
-    draws_option,
     print_quantiles,
     ranges_among,
-    samples_option,
     take_uncertain,
 )
 from .unit_text import in_unit
@@ -74,7 +72,7 @@ _DENSITY = declarations(Material)["density"]
 @patch_options
 @samples_option
 @draws_option(1000)
-@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+@json_option
 def command(
     density: float | None,
     as_json: bool,
@@ -97,7 +95,7 @@ def command(
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
     of_patch = {name: options.pop(name) for name in OPTIONS}
-    given, papers = fault_values(**options, ranges=True)
+    given, papers = fault_values(**options)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         for name, value in {"density": density, **of_patch}.items():
@@ -113,23 +111,20 @@ def command(
         theory = _theory(fault, density, found)
         patch = patch_of(fault, of_patch)
     system = system_of_fault(fault, given, papers)
-    if as_json:
-        everything = {
-            "system": system,
-            "parameters": parameters_of(fault),
-            "theory": theory,
-            "weakening_patch": patch and patch._asdict(),
-            "lengths": [
-                {"key": length.key, **as_plain(found[length.key]), **length.words()}
-                for length in LENGTHS
-            ],
-        }
-        click.echo(to_json(everything))
-    else:
-        of_patch_lines = []
-        if patch:
-            of_patch_lines = patch_lines(patch, of_patch["width"], theory["critical_length"])
-        click.echo(_as_text(system, fault, theory, found, of_patch_lines))
+    everything = {
+        "system": system,
+        "parameters": parameters_of(fault),
+        "theory": theory,
+        "weakening_patch": patch,
+        "lengths": [
+            {"key": length.key, **as_plain(found[length.key]), **length.words()}
+            for length in LENGTHS
+        ],
+    }
+    of_patch_lines = []
+    if patch:
+        of_patch_lines = patch_lines(patch, of_patch["width"], theory["critical_length"])
+    show(as_json, everything, _lines(system, fault, theory, found, of_patch_lines))
     return DONE if math.isfinite(theory["critical_length"]) else CODE_OF_STABLE
 
 
@@ -173,13 +168,14 @@ def _theory(
     }
 
 
-def _as_text(
+def _lines(
     system: list[str],
     fault: FaultParameters,
     theory: dict[str, Any],
     answers: dict[str, Answers],
     patch: list[str],
-) -> str:
+) -> list[str]:
+    """All lengths with their meaning, sources and validity."""
     head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
     lines = wrapped(*system, "", head)
     if math.isfinite(theory["critical_length"]):
@@ -191,7 +187,7 @@ def _as_text(
     critical = theory["critical_length"]
     for of_lengths in systems_of_lengths(fault):
         lines += ["", *wrapped(f"Lengths in use, for {of_lengths}:")]
-        rows: list[Sequence[str] | str] = []
+        rows: list[Row] = []
         for length in LENGTHS:
             if length.system == of_lengths:
                 rows += _length_rows(length, answers[length.key], fault, critical)
@@ -200,7 +196,7 @@ def _as_text(
         f"in {plane_in_words(fault.plane)}, with {_moduli(fault)}, b = a + zeta, natural "
         "logarithms; all are full lengths"
     )
-    return "\n".join([*lines, "", *wrapped(remark)])
+    return [*lines, "", *wrapped(remark)]
 
 
 def _moduli(fault: FaultParameters) -> str:
@@ -267,7 +263,7 @@ def _length_rows(
     answer: Answers,
     fault: FaultParameters,
     critical: float,
-) -> list[Sequence[str] | str]:
+) -> list[Row]:
     """One length: value and formula, source, validity."""
     value = float(answer.length)
     text = f"{value:.4g} m"
@@ -281,7 +277,7 @@ def _length_rows(
     if not math.isfinite(value):
         text, ratio = "-", ""
         validity = f"{_NO_LENGTH.get(str(answer.status), '')}{answer.reason}"
-    rows: list[Sequence[str] | str] = [
+    rows: list[Row] = [
         (length.title, text, ratio, length.formula),
         f"      {length.source}",
         f"      {validity}",

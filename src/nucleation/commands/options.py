@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import click
 from click.shell_completion import CompletionItem
 
-from ..answers.draws import parse_range
+from ..answers.draws import DRAWS, parse_range
 from ..configuration.parameter_files import means_half_space
 from ..configuration.single_run import flat
 from ..configuration.study_names import study_parameters
@@ -143,6 +143,28 @@ second_body_option = click.option(
     help="same: like the first; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3; "
     "default same",
 )
+
+json_option = click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+
+force_option = click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
+
+samples_option = click.option(
+    "--samples",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
+)
+
+
+def draws_option(usual: int) -> Decorator:
+    """The option for the number of draws, with the default of a command."""
+    return option(
+        "--draws",
+        key="draws",
+        entry=DRAWS,
+        note=f"of uncertain parameters, and most rows of --samples; default {usual}",
+        default=str(usual),
+    )
+
 
 source_options = together(
     click.option(

@@ -14,7 +14,6 @@ from ..answers.draws import Draws, with_default_unit
 from ..answers.specimen import SPECIMEN
 from ..configuration.installed import require
 from ..configuration.parameter_files import name_in_studies
-from ..configuration.single_run import merged_parameters, without_half_spaces
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity, declared
@@ -23,19 +22,32 @@ from ..patch.drop_quantiles import TITLES
 from ..patch.lengths_over import Axis, lengths_over
 from ..types import Array
 from . import DONE, EXIT_CODES, STABLE
-from .drop import COUNTING, USUAL
-from .options import option, parameter_options, source_options
-from .progress import Progress
+from .cases import (
+    COUNTING,
+    USUAL,
+    case_of,
+    cases_of,
+    drawn_from,
+    medians_of,
+    system_of_case,
+    uncertain_of,
+)
+from .options import (
+    draws_option,
+    force_option,
+    option,
+    parameter_options,
+    samples_option,
+    source_options,
+)
+from .pictures import require_picture, save
+from .progress import progress_of
 from .sources import keys_of_command, sourced
-from .system_text import system_of_run
-from .text import require_writable, to_json, wrapped
-from .uncertain_drop import case_of, cases_of, completed, draw_in_studies, uncertain_of
-from .uncertainty import draws_option, samples_option
+from .text import to_json, wrapped
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_ENDS = (".png", ".pdf")
 _POINTS = declared("number of values of each parameter", "[3, 1000]", kind="int")
 _CRITERIA = {
     "critical": "critical_length",
@@ -78,7 +90,7 @@ _OVER = re.compile(r"([\w.-]+)=(.+):(.+)")
 @source_options
 @samples_option
 @draws_option(20)
-@click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="print the lengths as JSON, in SI units")
 def command(
     output: Path,
@@ -86,10 +98,6 @@ def command(
     points: int | None,
     specimen: float | None,
     criterion: tuple[str, ...],
-    file: Path | None,
-    run_id: str | None,
-    config: str | None,
-    paper: bool,
     samples: Path | None,
     draws: int,
     force: bool,
@@ -109,17 +117,16 @@ def command(
       nucleation plot lengths.png --paper --over height=5mm:1m --specimen 20cm
     """
     require("figures")
-    if output.suffix not in _ENDS:
-        raise ParameterError(f"OUTPUT = '{output}' is not allowed: it must end in .png or .pdf")
-    require_writable(output, force)
-    base, given = sourced(file, run_id, config, paper, options, ranges=True)
+    require_picture("OUTPUT", output, force)
+    base, given = sourced(options, ranges=True)
+    paper = options["paper"]
     number = points or _USUAL_POINTS.get(len(over), 0)
     axes = [_axis(text, number) for text in over]
     _require_axes([axis.name for axis in axes], given)
     lengths = _lengths(criterion, len(axes))
     uncertain = uncertain_of(given, samples)
     fixed = {name: value for name, value in given.items() if name not in uncertain}
-    drawn = draw_in_studies(uncertain, draws) if uncertain else None
+    drawn = drawn_from(uncertain, draws) if uncertain else None
     refusals: list[ParameterError] = []
 
     def cases(point: tuple[int, ...]) -> Sequence[Parameters]:
@@ -127,24 +134,28 @@ def command(
         for axis, i in zip(axes, point, strict=True):
             at[axis.name] = float(axis.values[i])
         try:
-            return _cases_at(base, fixed | at, drawn, paper)
+            return cases_of(base, fixed | at, drawn, paper)
         except ParameterError as refusal:
             refusals.append(refusal)
             return []
 
     shown = [axis.shown for axis in axes]
-    found = lengths_over(shown, cases, lengths, Progress("points"))
+    found = lengths_over(shown, cases, lengths, progress_of("points"))
     if len(refusals) == found["doubtful"].size:
         raise refusals[0]
     middle = {axis.name: float(axis.values[axis.values.size // 2]) for axis in axes}
-    middle |= {name: float(np.median(value)) for name, value in uncertain.items()}
-    system = _system_lines(base, fixed | middle, paper, shown)
+    middle |= fixed | medians_of(uncertain)
+    case = case_of(base, middle, paper)
+    system = system_of_case(case, base, middle, paper, " Each point has its own.")
+    system += [_over(axis) for axis in shown]
     if as_json:
         click.echo(to_json(_described(system, found)))
     if not np.isfinite(found["length"]).any():
         click.echo("\n".join(_missing(found, refusals)), err=True)
         return STABLE
-    _save(found, specimen, _band(drawn, lengths), output)
+    from ..figures.lengths import draw  # imported here, since Matplotlib takes a while
+
+    save(draw(found, specimen, _band(drawn, lengths)), output)
     if not as_json:
         click.echo("\n".join([*wrapped(*system), *_missing(found, refusals), f"plot: {output}"]))
     return DONE
@@ -220,36 +231,11 @@ def _lengths(
     return [_CRITERIA[only]]
 
 
-def _cases_at(
-    base: Parameters | None,
-    given: dict[str, Any],
-    drawn: Draws | None,
-    paper: bool,
-) -> Sequence[Parameters]:
-    """The runs at one point."""
-    if drawn is not None:
-        return cases_of(base, USUAL, given, drawn, paper)
-    return [case_of(base, USUAL, given, base is not None or paper)]
-
-
-def _system_lines(
-    base: Parameters | None,
-    given: dict[str, Any],
-    paper: bool,
-    axes: Sequence[Axis],
-) -> list[str]:
-    """The system in the middle of the picture, and the parameters that vary."""
-    own = completed(given, base is not None or paper)
-    defaults = USUAL if base is None else {}
-    fixed, blocks = without_half_spaces(base, {**defaults, **own})
-    lines = system_of_run(merged_parameters(base, fixed), base, own)
-    if blocks:
-        lines.append(f"{blocks.in_words()} Each point has its own.")
-    for axis in axes:
-        units = "" if axis.units == "1" else f" {axis.units}"
-        low, high = axis.values[0], axis.values[-1]
-        lines.append(f"Over {axis.long_name}, {low:.4g} to {high:.4g}{units}; the middle is above.")
-    return lines
+def _over(axis: Axis) -> str:
+    """A parameter that varies, in words."""
+    units = "" if axis.units == "1" else f" {axis.units}"
+    low, high = axis.values[0], axis.values[-1]
+    return f"Over {axis.long_name}, {low:.4g} to {high:.4g}{units}; the middle is above."
 
 
 def _missing(
@@ -314,20 +300,3 @@ def _described(
         "lengths": lengths,
         "doubtful": found["doubtful"].values.tolist(),
     }
-
-
-def _save(
-    found: xr.Dataset,
-    specimen: float | None,
-    band: str,
-    output: Path,
-) -> None:
-    """Write the picture in the style of the project."""
-    import matplotlib as mpl
-
-    from ..datasets.files import replacing
-    from ..figures import lengths, style
-
-    figure = lengths.draw(found, specimen, band)
-    with mpl.rc_context(style.STYLE), replacing(output) as temporary:
-        figure.savefig(temporary, format=output.suffix[1:])

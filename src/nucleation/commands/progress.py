@@ -2,6 +2,7 @@
 
 import sys
 import time
+from collections.abc import Callable
 
 import click
 
@@ -10,41 +11,37 @@ _PAUSE = 10.0  # s between the lines of a log
 _PAUSE_ON_TERMINAL = 0.5
 
 
-class Progress:
-    """Prints the number of finished things: on a terminal in one line that changes, else in lines.
+def progress_of(things: str) -> Callable[[int, int], None]:
+    """A function that prints how many things are finished.
 
     Parameters
     ----------
     things : str
         Name of the things in the plural, such as ``draws``.
+
+    Returns
+    -------
+    callable
+        Its arguments are the number of finished things and the total number. On a terminal it
+        prints one line that changes, else lines.
     """
+    on_terminal = sys.stderr.isatty()
+    began = time.monotonic()
+    due = began + _SILENT
+    shown = False
 
-    def __init__(self, things: str) -> None:
-        self._things = things
-        self._terminal = sys.stderr.isatty()
-        self._began = time.monotonic()
-        self._next = self._began + _SILENT
-        self._shown = False
-
-    def __call__(self, done: int, total: int) -> None:
-        """Report the number of finished things and the total number."""
+    def report(done: int, total: int) -> None:
+        nonlocal due, shown
         now = time.monotonic()
         if done >= total:
-            self._clear()
-        elif now >= self._next:
-            self._next = now + (_PAUSE_ON_TERMINAL if self._terminal else _PAUSE)
-            passed = now - self._began
-            left = passed * (total - done) / max(done, 1)
-            self._show(f"{done} of {total} {self._things}, about {left:.0f} s left")
+            if shown and on_terminal:
+                click.echo(f"\r{'':<70}\r", err=True, nl=False)
+            shown = False
+        elif now >= due:
+            due = now + (_PAUSE_ON_TERMINAL if on_terminal else _PAUSE)
+            left = (now - began) * (total - done) / max(done, 1)
+            text = f"{done} of {total} {things}, about {left:.0f} s left"
+            click.echo(f"\r{text:<70}" if on_terminal else text, err=True, nl=not on_terminal)
+            shown = True
 
-    def _show(self, text: str) -> None:
-        self._shown = True
-        if self._terminal:
-            click.echo(f"\r{text:<70}", err=True, nl=False)
-        else:
-            click.echo(text, err=True)
-
-    def _clear(self) -> None:
-        if self._shown and self._terminal:
-            click.echo(f"\r{'':<70}\r", err=True, nl=False)
-        self._shown = False
+    return report

@@ -16,14 +16,15 @@ import xarray as xr
 from ..analysis.extraction import extract
 from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
-from ..commands import DONE, EXIT_CODES, text
-from ..commands.text import require_writable
-from ..commands.unit_text import engineering_unit
 from ..configuration.installed import require
 from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, run_length
+from . import DONE, EXIT_CODES, text
+from .options import json_option
+from .pictures import require_picture, save
+from .unit_text import engineering_unit
 
 _SHOWN_ROWS = 60
 
@@ -37,7 +38,7 @@ _SHOWN_ROWS = 60
     help="draw it; PNG or PDF by the name, or GIF: a film of a simulation, which is run once more",
 )
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
-@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+@json_option
 def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     """Summarise a dataset of the project: its kind, origin and variables.
 
@@ -51,7 +52,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     if plot:
         _check_plot(plot, kind, force)
     if as_json:
-        click.echo(text.to_json({"file": str(file), **_as_json(dataset, kind)}))
+        click.echo(text.to_json({"file": str(file), **_described(dataset, kind)}))
     else:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
         click.echo("\n".join(text.wrapped(*lines)))
@@ -61,7 +62,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     return DONE
 
 
-def _as_json(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
+def _described(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
     """Kind, origin and variables of a dataset, and its event or its rows."""
     found: dict[str, Any] = {"kind": kind.name}
     for name, value in dataset.attrs.items():
@@ -91,27 +92,19 @@ def _check_plot(plot: Path, kind: _Kind, force: bool) -> None:
             f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
         )
     allowed = (".png", ".pdf", ".gif") if kind.name == _SIMULATION else (".png", ".pdf")
-    if plot.suffix not in allowed:
-        ends = f"{', '.join(allowed[:-1])} or {allowed[-1]}"
-        raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in {ends}")
-    require_writable(plot, force)
+    require_picture("--plot", plot, force, allowed)
 
 
 def _save(dataset: xr.Dataset, kind: _Kind, plot: Path) -> None:
     """Write the figure in the style of the project, or a film, in the format of the name."""
-    import matplotlib as mpl
-
-    from ..datasets.files import replacing
-    from ..figures import overview, style
-
     if plot.suffix == ".gif":
+        from ..figures import overview  # imported here, since Matplotlib takes a while
+
         overview.film(dataset, plot)
         return
     module, _, function = kind.figure.rpartition(".")
     figures = importlib.import_module(f"nucleation.figures.{module}")
-    figure = getattr(figures, function)(dataset)
-    with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
-        figure.savefig(temporary, format=plot.suffix[1:])
+    save(getattr(figures, function)(dataset), plot)
 
 
 def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:

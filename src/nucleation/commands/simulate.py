@@ -11,20 +11,29 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..configuration.advice import advise
+from ..configuration.half_spaces import without_half_spaces
 from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
-from ..configuration.single_run import STUDY, flat, merged, single_run, without_half_spaces
+from ..configuration.single_run import STUDY, flat, merged, single_run
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .options import option, parameter_options, source_options
+from .options import force_option, option, parameter_options, source_options
 from .sources import given_of, sourced
 from .system_text import system_of_run
-from .text import event_lines, outcome, parameter_lines, require_writable, to_json, wrapped
+from .text import (
+    event_lines,
+    outcome,
+    parameter_lines,
+    require_writable,
+    show,
+    warn,
+    wrapped,
+)
 from .unit_text import in_unit
 
 if TYPE_CHECKING:
@@ -45,15 +54,11 @@ _MEMORY = declarations(Limits)["memory"]
     entry=_MEMORY,
     note="more is refused; 2000 MB if left out",
 )
-@click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
+@force_option
 @click.option("--dry-run", is_flag=True, help="check everything, describe the run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
 def command(
     output: Path,
-    file: Path | None,
-    run_id: str | None,
-    config: str | None,
-    paper: bool,
     force: bool,
     dry_run: bool,
     as_json: bool,
@@ -78,7 +83,7 @@ def command(
     if output.suffix != ".nc":
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
     require_writable(output, force)
-    base, given = sourced(file, run_id, config, paper, options)
+    base, given = sourced(options)
     fixed, blocks = without_half_spaces(base, given)
     values = merged(base, fixed)
     if "seed" in given and values["perturbation"] == "none":
@@ -97,11 +102,10 @@ def command(
         lines.append(blocks.in_words())
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
-        click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
+        warn(text)
     lines += _plan_lines(run)
     if dry_run:
-        text = "\n".join([*parameter_lines(run.parameters), *wrapped(*lines)])
-        click.echo(to_json(_described(run)) if as_json else text)
+        show(as_json, _described(run), [*parameter_lines(run.parameters), *wrapped(*lines)])
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
@@ -178,13 +182,12 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     if path != output:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
-    if as_json:
-        found = {"output": str(output), **outcome(dataset), **_described(run)}
-        click.echo(to_json(found))
-    else:
-        attributes = dataset.attrs
-        click.echo(attributes["status"])
-        click.echo(f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s")
-        click.echo("\n".join(event_lines(extract(dataset), run.critical_length)))
-        click.echo(f"written to {output}")
+    attributes = dataset.attrs
+    lines = [
+        attributes["status"],
+        f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s",
+        *event_lines(extract(dataset), run.critical_length),
+        f"written to {output}",
+    ]
+    show(as_json, {"output": str(output), **outcome(dataset), **_described(run)}, lines)
     return DONE

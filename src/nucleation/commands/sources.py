@@ -17,6 +17,9 @@ from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES
 from .unit_text import note_typed
 
+_SOURCES = ("file", "run_id", "config", "paper")
+"""The arguments of :data:`~nucleation.commands.options.source_options`."""
+
 
 def given_of(values: Mapping[str, Any]) -> dict[str, Any]:
     """The values that are given, that is, not None."""
@@ -24,10 +27,6 @@ def given_of(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def sourced(
-    file: Path | None,
-    run_id: str | None,
-    config: str | None,
-    paper: bool,
     options: Mapping[str, Any],
     ranges: bool = False,
 ) -> tuple[Parameters | None, dict[str, Any]]:
@@ -35,14 +34,9 @@ def sourced(
 
     Parameters
     ----------
-    file : Path or None
-        YAML or JSON file of parameters, or the dataset of a simulation.
-    run_id, config : str or None
-        A run of a configuration and the path of the configuration.
-    paper : bool
-        Whether parameters that are not given are the paper's.
     options : mapping
-        Values of the options by their names in studies, in SI units; None if not given.
+        Values of :data:`~nucleation.commands.options.source_options` and of the options for
+        parameters, these by their names in studies, in SI units; None if not given.
     ranges : bool
         Whether ranges are allowed.
 
@@ -51,7 +45,7 @@ def sourced(
     base : Parameters or None
         The parameters of the run or the dataset, if one is given.
     given : dict
-        The given values by their names in studies, in SI units. Without a base and `paper` they
+        The given values by their names in studies, in SI units. Without a base and ``--paper`` they
         include the values that follow from the given ones.
 
     Raises
@@ -59,6 +53,8 @@ def sourced(
     ParameterError
         If sources contradict each other, or a parameter in a file is wrong.
     """
+    file, run_id, config, paper = (options.get(name) for name in _SOURCES)
+    own = {name: value for name, value in options.items() if name not in _SOURCES}
     is_dataset = file is not None and file.suffix == ".nc"
     if file and run_id:
         raise ParameterError("--parameters and --run can't be combined")
@@ -77,7 +73,7 @@ def sourced(
             found |= with_second_body(
                 read_parameters(file, keys_of_command(), note_typed), note_typed
             )
-    found |= with_second_body(given_of(options), note_typed)
+    found |= with_second_body(given_of(own), note_typed)
 
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:

@@ -21,15 +21,13 @@ from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import fault_options, fault_values
-from .options import option
-from .progress import Progress
+from .options import draws_option, json_option, option, samples_option
+from .progress import progress_of
 from .system_text import plane_in_words, printed_warnings, system_of_fault
-from .text import as_plain, to_json, wrapped
+from .text import as_plain, show, wrapped
 from .uncertainty import (
     as_sure,
-    draws_option,
     ranges_among,
-    samples_option,
     take_uncertain,
     varying,
 )
@@ -57,7 +55,7 @@ from .unit_text import engineering_unit, in_unit
 @fault_options
 @samples_option
 @draws_option(200)
-@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+@json_option
 def command(
     length: float,
     unknown: str,
@@ -79,7 +77,7 @@ def command(
           --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
     options, uncertain = take_uncertain(options, samples)
-    given, papers = fault_values(**options, optional=unknown, ranges=True)
+    given, papers = fault_values(**options, optional=unknown)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         known = varying(given, uncertain, options)
@@ -92,23 +90,21 @@ def command(
         judged = None if own is None else answers_of_theory(fault)[criterion]
     sought = unknown if own is None else ""
     system = system_of_fault(fault, given, papers, sought)
-    if as_json:
-        verdict = None if judged is None else {"value": own, **as_plain(judged)}
-        found = {
-            "system": system,
-            "specimen": length,
-            "criterion": criterion,
-            **fit._asdict(),
-            "given": verdict,
-            "plane": fault.plane,
-        }
-        click.echo(to_json(found))
-        return DONE if fit.exists else STABLE
+    verdict = None
     lines = [*system, ""]
     if judged is not None:
+        verdict = {"value": own, **as_plain(judged)}
         lines += _judged_lines(length, criterion, fit, own, judged)
     lines += _fit_lines(length, criterion, fit, fault.plane)
-    click.echo("\n".join(wrapped(*lines)))
+    everything = {
+        "system": system,
+        "specimen": length,
+        "criterion": criterion,
+        **fit._asdict(),
+        "given": verdict,
+        "plane": fault.plane,
+    }
+    show(as_json, everything, wrapped(*lines))
     return DONE if fit.exists else STABLE
 
 
@@ -129,27 +125,24 @@ def _print_quantiles(
             length,
             criterion,
             draws=draws,
-            progress=Progress("draws"),
+            progress=progress_of("draws"),
             **known,
         )
         value = given.get(unknown, found.searched[0])
         middle = FaultParameters(**given | {unknown: value})
     sought = "" if unknown in given else unknown
     system = system_of_fault(middle, given, papers, sought)
-    if as_json:
-        everything = {
-            "system": system,
-            "specimen": length,
-            "criterion": criterion,
-            **found._asdict(),
-        }
-        for name in ("intervals", "errors"):
-            by_share = getattr(found, name)
-            everything[name] = {f"{share:g}": value for share, value in by_share.items()}
-        click.echo(to_json(everything))
-    else:
-        lines = _quantile_lines(found, length, criterion, middle.plane)
-        click.echo("\n".join(wrapped(*system, "", *lines)))
+    everything = {
+        "system": system,
+        "specimen": length,
+        "criterion": criterion,
+        **found._asdict(),
+    }
+    for name in ("intervals", "errors"):
+        by_share = getattr(found, name)
+        everything[name] = {f"{share:g}": value for share, value in by_share.items()}
+    lines = _quantile_lines(found, length, criterion, middle.plane)
+    show(as_json, everything, wrapped(*system, "", *lines))
     return DONE if any(found.intervals.values()) else STABLE
 
 

@@ -13,6 +13,8 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from ..answers.status import Answers
 from ..model.parameters import GROUPS, Parameters
 from ..model.quantities import ParameterError, declarations
@@ -21,6 +23,9 @@ from .unit_text import with_unit
 
 if TYPE_CHECKING:
     import xarray as xr
+
+Row = Sequence[str] | str
+"""The cells of a row of a table, or a line between the rows."""
 
 _GAP = 2
 """Blanks between the columns of a table, and before each of its rows."""
@@ -73,8 +78,18 @@ def wrapped(*texts: str, err: bool = False) -> list[str]:
     return lines
 
 
+def show(as_json: bool, found: Mapping[str, Any], lines: Iterable[str]) -> None:
+    """Print the answer of a command: as JSON, or its lines."""
+    click.echo(to_json(found) if as_json else "\n".join(lines))
+
+
+def warn(text: str) -> None:
+    """Print a warning on the standard error."""
+    click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
+
+
 def table(
-    rows: Sequence[Sequence[str] | str],
+    rows: Sequence[Row],
     right: Collection[int] = (),
 ) -> list[str]:
     """Rows of cells in columns; on a narrow terminal the widest columns are narrowed.
@@ -136,7 +151,7 @@ def _table_line(parts: Iterable[str], widths: Sequence[int], right: Collection[i
 
 def parameter_lines(parameters: Parameters) -> list[str]:
     """The parameters of a simulation, one in a line, with unit and meaning."""
-    rows: list[Sequence[str] | str] = []
+    rows: list[Row] = []
     for group in GROUPS:
         own = getattr(parameters, group)
         rows.append(f"{group}:")

@@ -7,10 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
 import numpy as np
 
-from ..answers.draws import DRAWS, Range
+from ..answers.draws import Range
 from ..answers.in_use import LENGTHS
 from ..answers.length import THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
@@ -19,42 +18,24 @@ from ..model.quantities import ParameterError
 from ..theory.fault import FaultParameters
 from ..types import Array
 from . import DONE, STABLE
-from .options import Decorator, option
-from .progress import Progress
+from .progress import progress_of
 from .system_text import (
     parameters_of,
     printed_warnings,
     system_of_fault,
     systems_of_lengths,
 )
-from .text import table, to_json, wrapped
+from .text import Row, show, table, wrapped
 
 if TYPE_CHECKING:
     import xarray as xr
-
-samples_option = click.option(
-    "--samples",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
-)
 
 QUANTILE_HEAD = ("quantiles (m)", *(f"{share:.0%}" for share in QUANTILES), "share")
 QUANTILE_COLUMNS = range(1, len(QUANTILE_HEAD))
 """Columns of numbers in a table of quantiles."""
 
-_Row = tuple[str, str, list[float], list[float], float]
+RowOfQuantiles = tuple[str, str, list[float], list[float], float]
 """Key, title, quantiles (m), their standard errors (m) and share of a length."""
-
-
-def draws_option(usual: int) -> Decorator:
-    """The option for the number of draws, with the default of a command."""
-    return option(
-        "--draws",
-        key="draws",
-        entry=DRAWS,
-        note=f"of uncertain parameters, and most rows of --samples; default {usual}",
-        default=str(usual),
-    )
 
 
 def ranges_among(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -180,22 +161,23 @@ def print_quantiles(
         known["weakening_rate"] = uncertain["weakening_rate"]
     with printed_warnings():
         middle = FaultParameters(**given)
-        found = length_quantiles(progress=Progress("draws"), **known)
+        found = length_quantiles(progress=progress_of("draws"), **known)
     system = system_of_fault(middle, given, papers)
-    show = _as_json if as_json else _as_text
-    click.echo(show(system, found, middle, list(uncertain)))
+    names = list(uncertain)
+    show(as_json, _described(system, found, middle, names), _lines(system, found, middle, names))
     return DONE if found["share"][0] > 0.0 else STABLE
 
 
-def _as_json(
+def _described(
     system: list[str],
     found: xr.Dataset,
     middle: FaultParameters,
     uncertain: list[str],
-) -> str:
+) -> dict[str, Any]:
+    """The quantiles for JSON, in SI units."""
     words = {length.key: length.words() for length in LENGTHS}
     lengths = []
-    for key, _, values, errors, share in _rows(found):
+    for key, _, values, errors, share in rows_of(found):
         numbers = {
             "key": key,
             "quantiles": by_quantile(values),
@@ -203,14 +185,13 @@ def _as_json(
             "share": share,
         }
         lengths.append(numbers | words.get(key, {"units": "m"}))
-    everything = {
+    return {
         "system": system,
         "parameters": parameters_of(middle),
         "uncertain": uncertain,
         **found.attrs,
         "lengths": lengths,
     }
-    return to_json(everything)
 
 
 def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
@@ -218,22 +199,24 @@ def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
     return {f"{q:g}": value for q, value in zip(QUANTILES, values, strict=True)}
 
 
-def _as_text(
+def _lines(
     system: list[str],
     found: xr.Dataset,
     middle: FaultParameters,
     uncertain: list[str],
-) -> str:
-    rows: list[Sequence[str] | str] = [QUANTILE_HEAD]
+) -> list[str]:
+    """The quantiles as a table."""
+    rows: list[Row] = [QUANTILE_HEAD]
     system_by_key = {length.key: length.system for length in LENGTHS}
     nowhere = []
     for of_lengths in systems_of_lengths(middle, uncertain):
         of_system = []
-        for key, title, values, errors, share in _rows(found):
+        for row in rows_of(found):
+            key, title, _, _, share = row
             if system_by_key.get(key, THIS_FAULT) != of_lengths:
                 continue
             if share > 0.0:
-                of_system.append(row_of_quantiles(title, values, errors, share))
+                of_system.append(row_of_quantiles(row))
             else:
                 note = " (two materials)" if of_lengths == TWO_MATERIALS else ""
                 nowhere.append(f"{title}{note}")
@@ -247,7 +230,7 @@ def _as_text(
         "stable: no patch nucleates in the range of the search, which counts as an infinite "
         "length; digits by the number of draws. share: of the draws with this length; full lengths"
     )
-    return "\n".join([*lines, *wrapped("", remark)])
+    return [*lines, *wrapped("", remark)]
 
 
 def _counts(count: Mapping[str, Any], uncertain: list[str]) -> str:
@@ -261,29 +244,10 @@ def _counts(count: Mapping[str, Any], uncertain: list[str]) -> str:
     return text
 
 
-def row_of_quantiles(
-    title: str,
-    values: Iterable[float],
-    errors: Iterable[float],
-    share: float,
-) -> Sequence[str]:
-    """The cells of one row of a table of quantiles.
-
-    Parameters
-    ----------
-    title : str
-        The length in words.
-    values, errors : iterable of float
-        Quantiles and their standard errors (m).
-    share : float
-        Share of the draws with this length.
-
-    Returns
-    -------
-    sequence of str
-    """
-    pairs = zip(values, errors, strict=True)
-    numbers = [as_sure(value, error) for value, error in pairs]
+def row_of_quantiles(row: RowOfQuantiles) -> Sequence[str]:
+    """The cells of one row of a table of quantiles."""
+    _, title, values, errors, share = row
+    numbers = [as_sure(value, error) for value, error in zip(values, errors, strict=True)]
     return [title, *numbers, f"{share:.1%}"]
 
 
@@ -319,7 +283,7 @@ def as_sure(value: float, error: float) -> str:
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
-def _rows(found: xr.Dataset) -> Iterable[_Row]:
+def rows_of(found: xr.Dataset) -> Iterable[RowOfQuantiles]:
     """The rows of a table of quantiles."""
     names = ("key", "title", "value", "error", "share")
     columns = [found[name].values.tolist() for name in names]

@@ -2,15 +2,14 @@
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from typing import Any
 
-from ..answers.weakening_patch import PatchAnswer, patch_answer
+from ..answers.weakening_patch import patch_answer
 from ..model.heterogeneity import Heterogeneity
 from ..model.quantities import ParameterError, declarations
 from ..theory.fault import QUANTITIES, FaultParameters
 from .options import option, together
-from .text import table, wrapped
+from .text import Row, table, wrapped
 from .unit_text import in_unit
 
 OPTIONS = ("width", "outside_zeta", "outside_a")
@@ -38,7 +37,7 @@ patch_options = together(
 """The options for a patch, the arguments of :func:`patch_of`."""
 
 
-def patch_of(fault: FaultParameters, options: dict[str, Any]) -> PatchAnswer | None:
+def patch_of(fault: FaultParameters, options: dict[str, Any]) -> dict[str, Any] | None:
     """The behaviour of the patch that :data:`patch_options` define.
 
     Parameters
@@ -50,8 +49,8 @@ def patch_of(fault: FaultParameters, options: dict[str, Any]) -> PatchAnswer | N
 
     Returns
     -------
-    PatchAnswer or None
-        None if no option is given.
+    dict or None
+        Of :func:`~nucleation.answers.weakening_patch.patch_answer`; None if no option is given.
 
     Raises
     ------
@@ -69,12 +68,12 @@ def patch_of(fault: FaultParameters, options: dict[str, Any]) -> PatchAnswer | N
     return patch_answer(fault, outside_zeta, outside_a, width)
 
 
-def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> list[str]:
+def patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:
     """The smallest width W_c, the behaviour of the patch, and the cells of a mesh.
 
     Parameters
     ----------
-    patch : PatchAnswer
+    patch : dict
         The behaviour.
     width : float or None
         Width of the patch (m).
@@ -86,8 +85,8 @@ def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> lis
     list of str
     """
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
-    smallest = patch.smallest_width
-    rows: list[Sequence[str] | str] = []
+    smallest = patch["smallest_width"]
+    rows: list[Row] = []
     if math.isnan(smallest):
         rows.append("  no W_c: the patch is stable, or its surroundings are not")
     else:
@@ -95,9 +94,9 @@ def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> lis
         meaning = "smallest width that nucleates; a narrower patch creeps"
         rows.append(("W_c", f"{smallest:.4g} m", ratio, meaning))
         if width is not None:
-            own = f"{patch.width_ratio:.3g} W_c"
-            rows.append(("W", in_unit(width, "m"), own, patch.outcome))
-    if not math.isnan(patch.cell_size):
-        cell = f"{patch.cell_size:.3g} m"
+            own = f"{patch['width_ratio']:.3g} W_c"
+            rows.append(("W", in_unit(width, "m"), own, patch["outcome"]))
+    if not math.isnan(patch["cell_size"]):
+        cell = f"{patch['cell_size']:.3g} m"
         rows.append(("cells", cell, "", "or less: three in a process zone (Day et al., 2005)"))
     return [*wrapped(head), *table(rows)]

@@ -1,7 +1,7 @@
 """Half-spaces in simulations and drops: blocks so high and long that their ends hardly matter."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +11,7 @@ from ..theory.estimates import process_zone
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from .mesh_advice import element_sizes
+from .single_run import merged_parameters
 
 HIGH = 4.0
 """Height of the blocks over L_c: their L_s is within 2 % of that of half-spaces."""
@@ -54,23 +55,18 @@ class Blocks(NamedTuple):
         return f"L_s of the blocks in place of half-spaces differs by {percent}"
 
 
-def has_half_space(given: Mapping[str, Any]) -> bool:
-    """Whether a height among values, by their names in studies, is infinite."""
-    return any(math.isinf(given.get(name, 0.0)) for name in _HEIGHTS)
-
-
-def with_blocks(
+def without_half_spaces(
+    base: Parameters | None,
     given: Mapping[str, Any],
-    parameters_of: Callable[[Mapping[str, Any]], Parameters],
 ) -> tuple[dict[str, Any], Blocks | None]:
     """Values with blocks in place of half-spaces.
 
     Parameters
     ----------
+    base : Parameters or None
+        The parameters of a run or a dataset; the defaults if None.
     given : mapping
         Values by their names in studies, in SI units; heights may be infinite.
-    parameters_of : callable
-        Gives all parameters of a run from such values with finite heights.
 
     Returns
     -------
@@ -84,20 +80,20 @@ def with_blocks(
     ParameterError
         If a value is wrong.
     """
-    if not has_half_space(given):
-        return dict(given), None
     infinite = [name for name in _HEIGHTS if math.isinf(given.get(name, 0.0))]
+    if not infinite:
+        return dict(given), None
     values = dict(given) | dict.fromkeys(infinite, 1.0)
-    half_spaces = _with_infinite(fault_of_run(parameters_of(values)), given)
+    half_spaces = _with_infinite(fault_of_run(merged_parameters(base, values)), given)
     critical = _length(half_spaces, "critical")
     if math.isnan(critical):
         return values, Blocks(1.0, math.nan, math.nan, math.nan)
     height = _rounded(HIGH * critical)
     values |= dict.fromkeys(infinite, height)
     values.setdefault("block_length", _rounded(LONG * critical))
-    parameters = parameters_of(values)
+    parameters = merged_parameters(base, values)
     values = _mesh(parameters) | values
-    parameters = parameters_of(values)
+    parameters = merged_parameters(base, values)
     blocks = FaultParameters(**fault_of_run(parameters))
     expected, found = _length(half_spaces, "stability"), _length(blocks, "stability")
     return values, Blocks(height, values["block_length"], expected, found / expected - 1.0)

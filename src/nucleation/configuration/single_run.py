@@ -7,7 +7,6 @@ from typing import Any
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError
-from .half_spaces import Blocks, with_blocks
 from .load import configure
 from .runs import Run
 
@@ -80,29 +79,6 @@ def merged_parameters(base: Parameters | None, given: Mapping[str, Any]) -> Para
     velocity = parameters.loading.velocity
     friction = with_constants(parameters.friction, velocity, given)
     return dataclasses.replace(parameters, friction=friction)
-
-
-def without_half_spaces(
-    base: Parameters | None,
-    given: Mapping[str, Any],
-) -> tuple[dict[str, Any], Blocks | None]:
-    """Values with blocks in place of half-spaces, :func:`.half_spaces.with_blocks`.
-
-    Parameters
-    ----------
-    base : Parameters or None
-        As of :func:`merged`.
-    given : mapping
-        Values by their names in studies, in SI units.
-
-    Returns
-    -------
-    values : dict
-        With finite heights.
-    blocks : Blocks or None
-        None without half-spaces.
-    """
-    return with_blocks(given, lambda values: merged_parameters(base, values))
 
 
 def single_run(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 from markupsafe import Markup
@@ -14,30 +14,6 @@ from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from . import calculator, encode, summary, tables, verdicts
-
-
-class Picture(NamedTuple):
-    """A figure or an animation of the page."""
-
-    name: str
-    entry: catalogue.Entry
-    files: list[Path]  # the first is shown, the others can be downloaded
-    caption: str  # template
-    params: dict[str, Any]  # values of the caption's placeholders
-
-
-class Content(NamedTuple):
-    """Everything that the page shows."""
-
-    fault: dict[str, Any]  # the calculator's first one, parameters of a Fault
-    friction: Friction
-    config: dict[str, Any]  # the complete configuration
-    provenance: dict[str, str]  # from nucleation.datasets.provenance.attributes
-    results: dict[str, xr.Dataset]  # datasets by name
-    pictures: list[Picture]
-    patch_tables: Path  # of the calculator
-    claims: list[dict[str, Any]] | None = None
-    own: summary.OwnStudies | None = None  # the first section, if the studies are the user's
 
 
 def write(
@@ -105,123 +81,166 @@ def write(
     pictures = []
     for name, path, caption in zip(names, figures, captions, strict=True):
         files = [file for file in (path, path.with_suffix(".pdf")) if file.is_file()]
-        text = caption.read_text("utf-8")
-        pictures.append(
-            Picture(
-                name,
-                entries[name],
-                files,
-                text,
-                caption_values.get(name, {}),
-            )
-        )
-    content = Content(
+        text = encode.caption_html(caption.read_text("utf-8"), caption_values.get(name, {}))
+        pictures.append(picture(name, entries[name], files, text, results))
+    page = build(
         fault=fault,
         friction=friction,
         config=config,
-        provenance=dict(origin),
+        origin=origin,
         results=results,
         pictures=pictures,
         patch_tables=patch_tables,
-        claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
-        own=summary.OwnStudies(studies, warnings) if leads else None,
+        claims=json.loads(claims[0].read_text("utf-8")) if claims else [],
+        studies=studies if leads else {},
+        warnings=warnings,
     )
-    return {".html": build(content)}
+    return {".html": page}
 
 
-def build(content: Content) -> str:
-    """The whole page as HTML; sections without content are left out."""
-    lengths = content.results.get("lengths")
-    groups = _groups(content)
-    pictures = {picture["name"]: picture for group in groups.values() for picture in group}
-    claims = content.claims or []
+def picture(
+    name: str,
+    entry: catalogue.Entry,
+    files: Sequence[Path],
+    caption: str,
+    results: Mapping[str, xr.Dataset],
+) -> dict[str, Any]:
+    """A figure or an animation for the page's template.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the catalogue.
+    entry : Entry
+        Its entry there.
+    files : sequence of Path
+        The first is shown, the others can be downloaded.
+    caption : str
+        HTML.
+    results : mapping
+        Datasets by name, of which its tables can be downloaded.
+
+    Returns
+    -------
+    dict
+    """
+    shown, *others = files
+    content = shown.read_bytes()
+    downloads = []
+    for path in others:
+        downloads.append(encode.download(f"{name}{path.suffix}", path.read_bytes()))
+    for data in entry.data:
+        table = tables.csv_of(results[data.dataset], data.variables)
+        downloads.append(encode.download(data.name, table))
+    return {
+        "name": name,
+        "title": entry.title,
+        "category": entry.category,
+        "moves": shown.suffix == ".gif",
+        "image": encode.data_address(content, shown.name),
+        "width": encode.width(content),
+        "caption": Markup(caption),
+        "downloads": downloads,
+    }
+
+
+def build(
+    *,
+    fault: dict[str, Any],
+    friction: Friction,
+    config: dict[str, Any],
+    origin: Mapping[str, str],
+    results: Mapping[str, xr.Dataset],
+    pictures: Sequence[dict[str, Any]],
+    patch_tables: Path,
+    claims: list[dict[str, Any]],
+    studies: dict[str, str],
+    warnings: dict[str, list[str]],
+) -> str:
+    """The whole page as HTML; sections without content are left out.
+
+    Parameters
+    ----------
+    results : mapping
+        Datasets by name.
+    pictures : sequence of dict
+        Of :func:`picture`.
+    claims : list of dict
+        All claims with their verdicts.
+    studies : dict
+        Description of each study of the user, if the page begins with them.
+    fault, friction, config, origin, patch_tables, warnings
+        As for :func:`write`.
+
+    Returns
+    -------
+    str
+    """
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for one in pictures:
+        groups.setdefault(one["category"], []).append(one)
+    by_name = {one["name"]: one for one in pictures}
     answer: dict[str, Any] | None = None
-    studies: list[dict[str, Any]] = []
+    sections: list[dict[str, Any]] = []
     fault_rows: list[dict[str, str]] = []
     run_rows: list[dict[str, str]] = []
     seconds = 0.0
+    lengths = results.get("lengths")
     if lengths is not None:
         run_rows = tables.run_rows(lengths, tables.LENGTH_COLUMNS)
         seconds = float(lengths["wall_seconds"].sum())
-        if content.own is None:
-            answer = summary.of_paper(lengths)
-        else:
-            studies = summary.of_studies(content.own, lengths)
+        if studies:
+            sections = summary.of_studies(studies, warnings, lengths)
             fault_rows = tables.fault_rows(lengths)
             groups.pop(catalogue.OWN, None)
-    if answer and "figure_3" in pictures:
-        groups[catalogue.PAPER].remove(pictures["figure_3"])
+        else:
+            answer = summary.of_paper(lengths)
+    if answer and "figure_3" in by_name:
+        groups[catalogue.PAPER].remove(by_name["figure_3"])
     printed = {claim["id"]: claim["paper"] for claim in claims}
     return encode.template("template.html").render(
-        calculator.shown(content.patch_tables, content.fault),
+        calculator.shown(patch_tables, fault),
         level=3,
         answer=answer,
         printed=printed.get("length-shown"),
         groups=groups,
-        pictures=pictures,
-        studies=studies,
+        pictures=by_name,
+        studies=sections,
         fault_rows=fault_rows,
         lengths=run_rows,
         claims=verdicts.claim_rows(claims),
         counts=verdicts.verdict_counts(claims),
-        table_s1=_parameters(content.friction),
+        table_s1=_parameters(friction),
         seconds=seconds,
-        origin=_origin(content),
+        origin=_origin(origin, config, results),
     )
 
 
-def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
-    """The pictures by category."""
-    groups: dict[str, list[dict[str, Any]]] = {}
-    for picture in content.pictures:
-        shown = picture.files[0]
-        content_of_file = shown.read_bytes()
-        own = {
-            "name": picture.name,
-            "title": picture.entry.title,
-            "moves": shown.suffix == ".gif",
-            "image": encode.data_address(content_of_file, shown.name),
-            "width": encode.width(content_of_file),
-            "caption": Markup(encode.caption_html(picture.caption, picture.params)),
-            "downloads": _downloads(picture, content.results),
-        }
-        groups.setdefault(picture.entry.category, []).append(own)
-    return groups
-
-
-def _downloads(picture: Picture, results: Mapping[str, xr.Dataset]) -> list[dict[str, str]]:
-    """The other files of a picture, and its tables as CSV."""
-    downloads = []
-    for path in picture.files[1:]:
-        downloads.append(encode.download(f"{picture.name}{path.suffix}", path.read_bytes()))
-    for data in picture.entry.data:
-        table = tables.csv_of(results[data.dataset], data.variables)
-        downloads.append(encode.download(data.name, table))
-    return downloads
-
-
-def _origin(content: Content) -> dict[str, Any]:
+def _origin(
+    origin: Mapping[str, str],
+    config: dict[str, Any],
+    results: Mapping[str, xr.Dataset],
+) -> dict[str, Any]:
     """Versions, the configuration, and the origin of each dataset."""
-    configuration = json.dumps(content.config, indent=2)
+    configuration = json.dumps(config, indent=2)
     datasets = []
-    for name, dataset in content.results.items():
-        datasets.append({"Dataset": name, **_origin_of(dataset)})
+    for name, dataset in results.items():
+        attributes = dataset.attrs
+        datasets.append(
+            {
+                "Dataset": name,
+                "Code digest": attributes.get("code_digest", "")[:16],
+                "Made": attributes.get("created", ""),
+                "Made again by": attributes.get("command", ""),
+            }
+        )
     return {
-        "versions": json.loads(content.provenance["versions"]),
-        "created": content.provenance["created"],
-        "digest": content.provenance["code_digest"],
+        "versions": json.loads(origin["versions"]),
+        "created": origin["created"],
+        "digest": origin["code_digest"],
         "datasets": datasets,
         "config": configuration,
         "download": encode.download("configuration.json", configuration.encode()),
-    }
-
-
-def _origin_of(dataset: xr.Dataset) -> dict[str, str]:
-    attributes = dataset.attrs
-    return {
-        "Code digest": attributes.get("code_digest", "")[:16],
-        "Made": attributes.get("created", ""),
-        "Made again by": attributes.get("command", ""),
     }
 
 

@@ -1,7 +1,7 @@
 """The first section of the report: the answer on the paper, or the user's own studies."""
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,21 +14,6 @@ from ..configuration.roles import JUDGED, PAPERS
 from .tables import RUN_COLUMNS, run_rows
 
 Row = dict[str, Any]
-
-
-class OwnStudies(NamedTuple):
-    """Studies of the user.
-
-    Attributes
-    ----------
-    descriptions : dict
-        The description of each study.
-    warnings : dict
-        Warnings about each study before its runs (:mod:`nucleation.configuration.advice`).
-    """
-
-    descriptions: dict[str, str]
-    warnings: dict[str, list[str]]
 
 
 def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
@@ -82,13 +67,19 @@ def _numbers(row: Row) -> dict[str, str]:
     }
 
 
-def of_studies(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
+def of_studies(
+    descriptions: dict[str, str],
+    warnings: dict[str, list[str]],
+    lengths: xr.Dataset,
+) -> list[dict[str, Any]]:
     """Texts and rows of each study, for the page's template.
 
     Parameters
     ----------
-    own : OwnStudies
-        The studies.
+    descriptions : dict
+        The description of each study of the user.
+    warnings : dict
+        Warnings about each study before its runs (:mod:`nucleation.configuration.advice`).
     lengths : Dataset
         Table of their lengths.
 
@@ -100,7 +91,7 @@ def of_studies(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
     """
     studies = []
     shown = run_rows(lengths, RUN_COLUMNS)
-    for study, description in own.descriptions.items():
+    for study, description in descriptions.items():
         chosen = np.flatnonzero(lengths["study"].values == study).tolist()
         rows = rows_of(lengths, chosen)
         studies.append(
@@ -110,7 +101,7 @@ def of_studies(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
                 "rows": [shown[i] for i in chosen],
                 "quiet": without_event(rows),
                 "answer": _answer(_with_event(rows)),
-                "warnings": own.warnings.get(study, []),
+                "warnings": warnings.get(study, []),
             }
         )
     return studies
