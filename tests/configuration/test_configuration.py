@@ -179,9 +179,7 @@ def test_constants_of_the_law_in_a_study():
 
 def curves(*runs, **settings):
     made = configure(study(*runs, **settings))
-    return made.runs, theory_curves(
-        list(made.runs), made.studies["s"], made.base, made.main_text_interface
-    )
+    return made.runs, theory_curves(list(made.runs), made)
 
 
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])

@@ -379,17 +379,11 @@ rule figure_sensitivity:
         JOB
 
 
-def theory_over(study, runs):
-    """The theory's lengths over the one number that differs among some runs of a study."""
-    own = settings.studies[study]
-    return theory_curves(runs, own, settings.base, settings.main_text_interface)
-
-
 def theory_of_identical_blocks():
     """The theory's lengths over the height, by study of identical blocks."""
     found = {}
     for study in in_role("pairs_identical"):
-        found |= theory_over(study, one_of_each_fault(runs_of(study)))
+        found |= theory_curves(one_of_each_fault(runs_of(study)), settings)
     return found
 
 
@@ -492,7 +486,7 @@ rule draw_study:
         call="nucleation.figures.beyond.figure_studies:draw_study",
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
-        theory=lambda wildcards: theory_over(wildcards.study, runs_of(wildcards.study)),
+        theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),
     message:
         "Figure of the study {wildcards.study}: simulations and theory"
     shell:

@@ -79,9 +79,9 @@ class Fault(FaultParameters):
             If a name or a value is wrong, or a parameter is missing.
         """
         from ..configuration.given_fault import fault_from
-        from ..configuration.parameter_files import read_parameters, with_second_body
+        from ..configuration.parameter_files import read_parameters
 
-        given = {"second_body": "deformable"} | with_second_body(read_parameters(Path(path)))
+        given = {"second_body": "deformable"} | read_parameters(Path(path))
         of_theory = {name: given.pop(name) for name in OF_THEORY if name in given}
         completed = given | follows_from(given)
         return cls(**fault_from(completed), **of_theory)

@@ -70,9 +70,7 @@ def sourced(
     else:
         found["second_body"] = "rigid" if paper else "deformable"
         if file:
-            found |= with_second_body(
-                read_parameters(file, keys_of_command(), note_typed), note_typed
-            )
+            found |= read_parameters(file, keys_of_command(), note_typed)
     found |= with_second_body(given_of(own), note_typed)
 
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]

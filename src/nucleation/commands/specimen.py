@@ -95,7 +95,7 @@ def command(
     if judged is not None:
         verdict = {"value": own, **as_plain(judged)}
         lines += _judged_lines(length, criterion, fit, own, judged)
-    lines += _fit_lines(length, criterion, fit, fault.plane)
+    lines += _fit_lines(_fits(length, criterion, fault), fit)
     everything = {
         "system": system,
         "specimen": length,
@@ -141,19 +141,19 @@ def _print_quantiles(
     for name in ("intervals", "errors"):
         by_share = getattr(found, name)
         everything[name] = {f"{share:g}": value for share, value in by_share.items()}
-    lines = _quantile_lines(found, length, criterion, middle.plane)
+    lines = _quantile_lines(_fits(length, criterion, middle), found)
     show(as_json, everything, wrapped(*system, "", *lines))
     return DONE if any(found.intervals.values()) else STABLE
 
 
-def _quantile_lines(
-    found: SpecimenQuantiles,
-    length: float,
-    criterion: str,
-    plane: str,
-) -> list[str]:
+def _fits(length: float, criterion: str, fault: FaultParameters) -> str:
+    """The beginning of the sentence that ends with values."""
+    plane = plane_in_words(fault.plane)
+    return f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane},"
+
+
+def _quantile_lines(fits: str, found: SpecimenQuantiles) -> list[str]:
     """The values at which shares of all draws fit."""
-    unit = found.unit
     drawn = f"{found.draws} draws: {found.invalid} left out"
     if found.outside:
         drawn += f" ({', '.join(found.outside)} not allowed)"
@@ -164,38 +164,29 @@ def _quantile_lines(
             f"At the given {found.unknown} {found.share:.0%} (+- {error:.0%}) of the draws "
             "can nucleate."
         )
-    lines.append(
-        f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane_in_words(plane)},"
-    )
+    lines.append(fits)
     for share, intervals in found.intervals.items():
         texts = []
         for ends, errors in zip(intervals, found.errors[share], strict=True):
-            texts.append(_interval(found.unknown, unit, ends, found.searched, errors))
+            texts.append(_interval(found, ends, errors))
         values = f"if {' or '.join(texts)}" if texts else "at no value"
         lines.append(f"  in {share:>4.0%} of the draws {values}")
-    return [*lines, _searched_line(found.unknown, found.searched, unit)]
+    return [*lines, _searched_line(found)]
 
 
-def _searched_line(unknown: str, searched: Interval, unit: str) -> str:
-    low, high = searched
-    span = f"{in_unit(low, unit)} to {in_unit(high, unit)}"
-    return f"searched: {QUANTITIES[unknown].description}, {span}"
+def _searched_line(found: Fit | SpecimenQuantiles) -> str:
+    span = " to ".join(in_unit(end, found.unit) for end in found.searched)
+    return f"searched: {QUANTITIES[found.unknown].description}, {span}"
 
 
-def _interval(
-    unknown: str,
-    unit: str,
-    ends: Interval,
-    searched: Interval,
-    errors: Interval,
-) -> str:
+def _interval(found: Fit | SpecimenQuantiles, ends: Interval, errors: Interval) -> str:
     """An interval of values, with the digits that the errors of its ends leave."""
-    first, last = (_end(value, error, unit) for value, error in zip(ends, errors, strict=True))
-    if ends[1] == searched[1] and ends[0] > searched[0]:
-        return f"{unknown} > {first}"
-    if ends[0] == searched[0] and ends[1] < searched[1]:
-        return f"{unknown} < {last}"
-    return f"{first} < {unknown} < {last}"
+    first, last = map(_end, ends, errors, (found.unit, found.unit))
+    if ends[1] == found.searched[1] and ends[0] > found.searched[0]:
+        return f"{found.unknown} > {first}"
+    if ends[0] == found.searched[0] and ends[1] < found.searched[1]:
+        return f"{found.unknown} < {last}"
+    return f"{first} < {found.unknown} < {last}"
 
 
 def _end(value: float, error: float, unit: str) -> str:
@@ -227,18 +218,12 @@ def _judged_lines(
     return [f"{place} there is no {name}: {verdict}.", f"  {judged.reason}"]
 
 
-def _fit_lines(
-    length: float,
-    criterion: str,
-    fit: Fit,
-    plane: str,
-) -> list[str]:
+def _fit_lines(fits: str, fit: Fit) -> list[str]:
     """The values at which the length fits."""
-    lines = [f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane_in_words(plane)}, if"]
+    lines = [f"{fits} if"]
     for ends in fit.intervals:
-        interval = _interval(fit.unknown, fit.unit, ends, fit.searched, (0.0, 0.0))
-        lines.append(f"  {interval}")
+        lines.append(f"  {_interval(fit, ends, (0.0, 0.0))}")
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values; {fit.reason}")
-    return [*lines, _searched_line(fit.unknown, fit.searched, fit.unit)]
+    return [*lines, _searched_line(fit)]

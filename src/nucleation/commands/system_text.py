@@ -6,8 +6,6 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-import click
-
 from ..answers.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS, number
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
@@ -15,7 +13,7 @@ from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
 from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.of_runs import fault_of_run
-from .text import wrapped
+from .text import warn
 from .unit_text import in_unit
 
 BEGINS = {
@@ -280,4 +278,4 @@ def printed_warnings() -> Iterator[None]:
         warnings.simplefilter("always", ImplausibleWarning)
         yield
     for text in dict.fromkeys(str(warning.message) for warning in caught):
-        click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
+        warn(text)

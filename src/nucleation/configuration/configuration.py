@@ -140,18 +140,8 @@ class Configuration:
         return self._kept[study]
 
     def _expand(self, study: str) -> _Expanded:
-        runs = []
-        found = []
-        for place, run in study_runs(
-            study,
-            self.sections[study],
-            self.base,
-            self.main_text_interface,
-            self.stepping,
-        ):
-            found.append((place, run))
-            if isinstance(run, Run):
-                runs.append(run)
+        found = list(study_runs(study, self))
+        runs = [run for _, run in found if isinstance(run, Run)]
         problems = list(self._run_problems(found))
         if not problems:
             problems += problems_of_runs(
@@ -164,8 +154,7 @@ class Configuration:
         batches: dict[str, list[Run]] = {}
         for run in runs:
             if run.batch:
-                batches.setdefault(run.batch, [])
-                batches[run.batch].append(run)
+                batches.setdefault(run.batch, []).append(run)
         by_id = {run.id: run for run in runs}
         return _Expanded(by_id, batches, problems)
 

@@ -44,7 +44,8 @@ def read_parameters(
     Returns
     -------
     dict
-        In SI units, by names in studies or of :class:`~nucleation.api.fault.Fault`.
+        In SI units, by names in studies or of :class:`~nucleation.api.fault.Fault`; with the
+        parameters of the second body as of :func:`with_second_body`.
 
     Raises
     ------
@@ -63,7 +64,7 @@ def read_parameters(
             given[name] = _value(name, value, typed)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
-    return given
+    return with_second_body(given, typed)
 
 
 def _entries(content: Mapping[Any, Any]) -> list[tuple[str, str, Any]]:
@@ -153,7 +154,7 @@ def _value(
 
 def with_second_body(
     given: dict[str, Any],
-    typed: Typed = _ignored,
+    typed: Typed,
 ) -> dict[str, Any]:
     """The values with ``second_body`` replaced by the parameters of the second body.
 

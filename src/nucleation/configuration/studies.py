@@ -1,11 +1,13 @@
 """Studies: named sets of simulations over lists or ranges of parameters, one `Run` for each."""
 
+from __future__ import annotations
+
 import itertools
 import math
 import random
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
@@ -14,8 +16,10 @@ from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, critical_lengths, run_length
 from ..theory.estimates import growth_time
 from .runs import Run
-from .settings import StudySettings
 from .study_names import by_study_name, expand, identifier
+
+if TYPE_CHECKING:
+    from .configuration import Configuration
 
 _LATEST_END = 1.5
 """Default end of a run over the estimated time until the critical length."""
@@ -23,9 +27,6 @@ _LATEST_END = 1.5
 _AFTER_EVENT = 10.0
 """Default time after the event over D/V."""
 
-
-_Section = Mapping[str, Any]
-"""The section of a study in the configuration."""
 
 _Place = str
 """Place of a run in the configuration, such as ``studies.paper.runs[0]``."""
@@ -43,28 +44,16 @@ class _Prepared(NamedTuple):
     values: dict[str, Any]  # all values that the study gives
 
 
-def study_runs(
-    name: str,
-    study: _Section,
-    base: Parameters,
-    main_text: InterfaceState,
-    stepping: Collection[str] = (),
-) -> Iterator[tuple[_Place, Run | str]]:
+def study_runs(name: str, configuration: Configuration) -> Iterator[tuple[_Place, Run | str]]:
     """The runs of a study.
 
     Parameters
     ----------
     name : str
         The study's name.
-    study : mapping
-        Its section of the configuration, with allowed values.
-    base : Parameters
-        Values of the parameters that the study does not set.
-    main_text : InterfaceState
-        The main text's rounded interface.
-    stepping : collection of str
-        Keys in the section ``stepping``. If neither it nor the study has an end time, it follows
-        from the theory's estimate of the event's time.
+    configuration : Configuration
+        With the study's section. If neither the section ``stepping`` nor the study has an end time,
+        it follows from the theory's estimate of the event's time.
 
     Yields
     ------
@@ -73,35 +62,33 @@ def study_runs(
     run : Run or str
         The run; of a bad run the error message.
     """
-    settings = StudySettings.of(study)
-    given = list(_given(name, study))
+    given = list(_given(name, configuration.sections[name]))
     prepared: list[_Prepared | ParameterError] = []
+    faults = []
     for _, parts in given:
         try:
-            prepared.append(_prepared(settings, parts, base, main_text))
+            run = _prepared(name, parts, configuration)
         except ParameterError as error:
             prepared.append(error)
-    faults = []
-    for run in prepared:
-        if isinstance(run, _Prepared):
-            faults.append((run.parameters, run.interface))
-    lengths = iter(lengths_of(faults))
-    batches = _batches(name, len(given), settings.runs_per_job)
-    for i, run in enumerate(prepared):
-        key, _ = given[i]
-        if isinstance(run, ParameterError):
-            yield key, str(run)
+            continue
+        prepared.append(run)
+        faults.append((run.parameters, run.interface))
+    lengths = iter(critical_lengths(faults).tolist())
+    batches = _batches(name, len(given), configuration.studies[name].runs_per_job)
+    for (key, _), one, batch in zip(given, prepared, batches, strict=True):
+        if isinstance(one, ParameterError):
+            yield key, str(one)
             continue
         critical = next(lengths)
         try:
-            yield key, _run(name, settings, run, critical, batches[i], stepping)
+            yield key, _run(name, one, critical, batch, configuration)
         except ParameterError as error:
             yield key, str(error)
 
 
 def _given(
     name: str,
-    study: _Section,
+    study: Mapping[str, Any],
 ) -> Iterator[tuple[_Place, _Parts]]:
     """Place of each run, with its values."""
     of_study = study.get("defaults", {})
@@ -137,40 +124,34 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
     return batches
 
 
-def _prepared(
-    settings: StudySettings,
-    parts: _Parts,
-    base: Parameters,
-    main_text: InterfaceState,
-) -> _Prepared:
+def _prepared(name: str, parts: _Parts, configuration: Configuration) -> _Prepared:
     """A run from its values."""
     of_study, of_entry, own = map(by_study_name, parts)
     values = of_study | of_entry | own
-    parameters, interface = fault_of(settings, values, base, main_text)
+    parameters, interface = fault_of(name, values, configuration)
     return _Prepared(parameters, interface, own, values)
 
 
 def fault_of(
-    settings: StudySettings,
+    study: str,
     values: dict[str, Any],
-    base: Parameters,
-    main_text: InterfaceState,
+    configuration: Configuration,
 ) -> tuple[Parameters, InterfaceState]:
     """The fault with values of a study.
 
     Parameters
     ----------
-    settings : StudySettings
-        The study's settings.
+    study : str
+        The study's name.
     values : dict
         Values by the standard names of parameters.
-    base, main_text
-        As in :func:`study_runs`.
+    configuration : Configuration
+        With values of the parameters that the study does not set.
 
     Returns
     -------
     parameters : Parameters
-        The run's parameters, with the block length of `base` unless it is given.
+        The run's parameters, with the block length of the configuration unless it is given.
     interface : InterfaceState
         The linearised friction for the theory.
 
@@ -182,14 +163,15 @@ def fault_of(
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     others = [name for name in values if name not in CONSTANTS]
-    parameters = base.replaced({name: values[name] for name in others})
+    parameters = configuration.base.replaced({name: values[name] for name in others})
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
     _ = friction.evolution_law  # raises the error of a file that can't be loaded
     own = linearised(friction, loading)
-    if settings.interface != "main_text":
+    if configuration.studies[study].interface != "main_text":
         return parameters, own
+    main_text = configuration.main_text_interface
     foreign = not_rounded_from(main_text, own)
     if foreign:
         raise ParameterError(
@@ -199,22 +181,15 @@ def fault_of(
     return parameters, loaded(main_text, loading)
 
 
-def lengths_of(
-    faults: Iterable[tuple[Parameters, InterfaceState]],
-) -> list[float]:
-    """The theory's lengths (m) of all faults in one call, NaN where sliding is stable."""
-    return critical_lengths(faults).tolist()
-
-
 def _run(
     study: str,
-    settings: StudySettings,
     prepared: _Prepared,
     critical: float,
     batch: str,
-    stepping: Collection[str],
+    configuration: Configuration,
 ) -> Run:
     """One run; its length, unless given, is a multiple of the theory's critical length (m)."""
+    settings = configuration.studies[study]
     values = prepared.values
     if math.isnan(critical) and "block_length" not in values:
         reason = _reason_of_stability(prepared)
@@ -233,7 +208,7 @@ def _run(
     geometry = replace(prepared.parameters.geometry, length=float(length))
     parameters = replace(prepared.parameters, geometry=geometry)
     parameters.require_consistent()
-    given = {*stepping, *values}
+    given = {*configuration.stepping, *values}
     if "end_time" not in given and not math.isnan(critical):
         parameters = _with_late_end(parameters, critical, given)
     return Run(

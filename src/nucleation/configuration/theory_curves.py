@@ -4,11 +4,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..model.linearised import InterfaceState
-from ..model.parameters import Parameters
+from ..theory.critical import critical_lengths
+from .configuration import Configuration
 from .runs import Run, varied
-from .settings import StudySettings
-from .studies import fault_of, lengths_of
+from .studies import fault_of
 from .study_names import study_parameters
 
 _CURVE_POINTS = 81
@@ -19,20 +18,16 @@ _Curve = dict[str, list[float]]
 
 def theory_curves(
     runs: list[Run],
-    settings: StudySettings,
-    base: Parameters,
-    main_text: InterfaceState,
+    configuration: Configuration,
 ) -> dict[str, _Curve]:
     """The theory's length over the one number that a study varies, closely spaced.
 
     Parameters
     ----------
     runs : list of Run
-        The study's runs.
-    settings : StudySettings
-        The study's settings.
-    base, main_text
-        As in :func:`nucleation.configuration.studies.study_runs`.
+        Runs of one study.
+    configuration : Configuration
+        With the study.
 
     Returns
     -------
@@ -56,8 +51,7 @@ def theory_curves(
     for i, run in enumerate(runs):
         own_words = [str(found[word][i]) for word in words]
         kind = ", ".join(own_words)
-        values.setdefault(kind, [])
-        values[kind].append(found[name][i])
+        values.setdefault(kind, []).append(found[name][i])
         if name in run.given:
             first_runs.setdefault(kind, run)
 
@@ -69,9 +63,8 @@ def theory_curves(
         faults = []
         for value in x:
             given = {**run.given, name: value}
-            fault = fault_of(settings, given, base, main_text)
-            faults.append(fault)
-        lengths = lengths_of(faults)
+            faults.append(fault_of(run.study, given, configuration))
+        lengths = critical_lengths(faults).tolist()
         curves[kind] = {
             "x": _rounded(x),
             "length": _rounded(lengths),

@@ -6,6 +6,7 @@ the surroundings strengthen, ``-outside_zeta/zeta``, and on their direct effect 
 """
 
 import json
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..theory.creep.lengths import stability_length
 from ..theory.creep.runaway import runaway_length
 from ..theory.weakening_patch import weakening_patch_length
 from ..types import Array
+from .stability import FAULT, B
 from .tabulated import PLACES, Table, height_at, tabulate
 
 RUNAWAY_PRECISION = {"rigid_base": 0.12, "identical_layers": 0.06}
@@ -23,33 +25,15 @@ RUNAWAY_PRECISION = {"rigid_base": 0.12, "identical_layers": 0.06}
 PATCH_PRECISION = 0.01
 """Likewise of W_c, against :func:`~nucleation.theory.weakening_patch.weakening_patch_length`."""
 
-_B = 0.02
-_FAULT = {
-    "shear_modulus": 1e9,  # Pa
-    "normal_stress": 1e6,  # Pa
-    "b": _B,
-    "slip_distance": 1e-6,  # m
-    "poisson_ratio": 0.25,
-}
+_FAULT = {**FAULT, "poisson_ratio": 0.25}
 _FRICTION_LENGTH = 0.05 / 0.75  # m: mu D/[(1 - nu) b sigma0] of this fault
-_FRICTION = 0.4
-
-
-def _on_rigid_base(place: Array, zeta_over_a: Array) -> Array:
-    """L_run over L_s of blocks on a rigid base; the arguments broadcast."""
-    return _over_stability(
-        place,
-        zeta_over_a,
-        friction=_FRICTION,
-        second_shear_modulus=np.inf,
-    )
 
 
 def _over_stability(place: Array, zeta_over_a: Array, **more: Any) -> Array:
     """L_run over L_s; without further parameters of two identical layers."""
     fault: dict[str, Any] = {
         **_FAULT,
-        "a": _B / (1.0 + zeta_over_a),
+        "a": B / (1.0 + zeta_over_a),
         "height": height_at(place) * _FRICTION_LENGTH,
         **more,
     }
@@ -62,9 +46,9 @@ def _smallest_patch(
     outside_a_over_a: Array,
 ) -> Array:
     """W_c over L_c between identical half-spaces; the arguments broadcast."""
-    a = _B / (1.0 + zeta_over_a)
+    a = B / (1.0 + zeta_over_a)
     width = weakening_patch_length(
-        outside_zeta=-strengthening * (_B - a),
+        outside_zeta=-strengthening * (B - a),
         outside_a=outside_a_over_a * a,
         a=a,
         **_FAULT,
@@ -73,6 +57,11 @@ def _smallest_patch(
 
 
 _WEAK = {"place": PLACES, "zeta_over_a": (0.4, 2.0)}
+_on_rigid_base = partial(
+    _over_stability,
+    friction=0.4,
+    second_shear_modulus=np.inf,
+)
 RUNAWAY = {
     "rigid_base": Table(_on_rigid_base, _WEAK, (5, 3)),
     "identical_layers": Table(_over_stability, _WEAK, (5, 3)),

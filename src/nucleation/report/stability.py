@@ -24,14 +24,15 @@ PRECISION = 0.01
 
 _SHEAR_MODULUS = 1e9  # Pa
 _NORMAL_STRESS = 1e6  # Pa
-_B = 0.02
+B = 0.02
 _SLIP_DISTANCE = 1e-6  # m
-_FAULT = {
+FAULT = {
     "shear_modulus": _SHEAR_MODULUS,
     "normal_stress": _NORMAL_STRESS,
-    "b": _B,
+    "b": B,
     "slip_distance": _SLIP_DISTANCE,
 }
+"""The fault of the tables, in SI units; a and the height vary."""
 _FRICTION_LENGTH = 0.05  # mu D/(b sigma0) of this fault (m)
 
 
@@ -40,16 +41,12 @@ def _rigid_base(place: Array, zeta_over_a: Array, nu: Array, f: Array) -> Array:
     return _ratio(place, zeta_over_a, nu, friction=f, second_shear_modulus=np.inf)
 
 
-def _identical_layers(place: Array, zeta_over_a: Array, nu: Array) -> Array:
-    """L_s over L_c of two identical layers with free far sides."""
-    return _ratio(place, zeta_over_a, nu)
-
-
 def _ratio(place: Array, zeta_over_a: Array, nu: Array, **more: Any) -> Array:
+    """L_s over L_c; without further parameters of two identical layers with free far sides."""
     fault: dict[str, Any] = {
-        **_FAULT,
+        **FAULT,
         "poisson_ratio": nu,
-        "a": _B / (1.0 + zeta_over_a),
+        "a": B / (1.0 + zeta_over_a),
         "height": height_at(place) * _FRICTION_LENGTH / (1.0 - nu),
         **more,
     }
@@ -58,18 +55,18 @@ def _ratio(place: Array, zeta_over_a: Array, nu: Array, **more: Any) -> Array:
 
 def _half_spaces(zeta_over_a: Array, coupling: Array) -> Array:
     """``zeta sigma0 L_s/(pi M D)`` of two half-spaces with f beta = coupling."""
-    a = _B / (1.0 + zeta_over_a)
+    a = B / (1.0 + zeta_over_a)
     # nu = 0 on a rigid body: beta = 1/2, M = 8/3 mu
     softness = np.where(coupling < 0.0, 1e-6, np.inf)
     fault: dict[str, Any] = {
-        **_FAULT,
+        **FAULT,
         "a": a,
         "poisson_ratio": 0.0,
         "friction": 2.0 * np.abs(coupling),
         "second_shear_modulus": _SHEAR_MODULUS * softness,
     }
     modulus = 8.0 / 3.0 * _SHEAR_MODULUS * np.minimum(softness, 1.0)
-    scale = np.pi * modulus * _SLIP_DISTANCE / ((_B - a) * _NORMAL_STRESS)
+    scale = np.pi * modulus * _SLIP_DISTANCE / ((B - a) * _NORMAL_STRESS)
     return np.asarray(stability_length(**fault) / scale)
 
 
@@ -78,7 +75,7 @@ _POISSON = (0.0, 0.49)
 _LAYERS = {"place": PLACES, "zeta_over_a": _WEAKENING, "nu": _POISSON}
 TABLES = {
     "rigid_base": Table(_rigid_base, {**_LAYERS, "f": (0.0, 1.0)}, (16, 6, 3, 3)),
-    "identical_layers": Table(_identical_layers, _LAYERS, (16, 6, 3)),
+    "identical_layers": Table(_ratio, _LAYERS, (16, 6, 3)),
     "half_spaces": Table(
         _half_spaces,
         {"zeta_over_a": _WEAKENING, "coupling": (-0.5, 0.5)},
