@@ -132,7 +132,8 @@ def _step_over_solve(parameters: Parameters) -> dict[str, float]:
     edge = np.zeros(grid.n_y + 1)
 
     def solve() -> None:
-        operator.solve(load, at_rest, edge)
+        swept = operator.swept_down(load, edge)
+        operator.substitute_up(swept, at_rest, None)
 
     steps, solve_seconds = _fastest(_timed_steps(parameters), solve)
     step_seconds = steps / STEPS

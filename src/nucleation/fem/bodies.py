@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable
 
-from ..model.parameters import Parameters
+from ..model.parameters import Geometry, Mesh, Parameters
 from .block import Block
 from .condensed import ElasticBody
 from .even_half import EvenHalf
@@ -35,43 +35,40 @@ def body_of(parameters: Parameters) -> ElasticBody:
     return BODIES[parameters.loading.kind](parameters)
 
 
-def _pushed_block(parameters: Parameters) -> Block | BlockPair:
+def _pushed_block(parameters: Parameters) -> ElasticBody:
     """The body that is pushed at its left edge."""
-    grid = Grid.of(parameters.geometry, parameters.mesh)
-    upper = Block(grid, parameters.material)
-    below = parameters.below
-    if below is None:
-        return upper
-    grid = Grid.of(below.geometry, below.mesh)
-    lower = Block(grid, below.material, below.far_side)
-    return BlockPair(upper, lower)
+    return _block(parameters, Block, "free")
 
 
 def _free_block(parameters: Parameters) -> FreeBlock:
     """The body that is moved at its top, with free side edges."""
     grid = Grid.of(parameters.geometry, parameters.mesh)
-    odd = _half_block(parameters, Block)
-    even = _half_block(parameters, EvenHalf)
+    odd = _block(parameters, Block, "velocity", parts=2)
+    even = _block(parameters, EvenHalf, "velocity", parts=2)
     return FreeBlock(grid, odd, even)
 
 
-def _half_block(parameters: Parameters, kind: type[Block]) -> Block | BlockPair:
-    """The odd or even half of a free block or pair."""
-    grid = Grid.of(parameters.geometry, parameters.mesh)
-    upper = kind(_half(grid), parameters.material, "velocity")
+def _block(
+    parameters: Parameters,
+    kind: type[Block],
+    far_side: str,
+    parts: int = 1,
+) -> Block | BlockPair:
+    """One of some equal parts along x of a block or pair."""
+    upper = kind(_part(parameters.geometry, parameters.mesh, parts), parameters.material, far_side)
     below = parameters.below
     if below is None:
         return upper
-    grid = Grid.of(below.geometry, below.mesh)
-    lower = kind(_half(grid), below.material, below.far_side)
+    lower = kind(_part(below.geometry, below.mesh, parts), below.material, below.far_side)
     return BlockPair(upper, lower)
 
 
-def _half(grid: Grid) -> Grid:
+def _part(geometry: Geometry, mesh: Mesh, parts: int) -> Grid:
+    grid = Grid.of(geometry, mesh)
     return dataclasses.replace(
         grid,
-        length=grid.length / 2.0,
-        n_x=grid.n_x // 2,
+        length=grid.length / parts,
+        n_x=grid.n_x // parts,
     )
 
 

@@ -49,12 +49,24 @@ class Response:
         Forces along y at the nodes 0..n_x.
     load : Field
         The load of the body (N/m).
+    swept : ndarray, optional
+        The load swept down to the interface (N/m), from where the operator continues.
+    start : ndarray, optional
+        Displacement (m) of a pair's interface under the load at w = 0.
+    edge : ndarray, optional
+        Values of a free right edge (m).
+    halves : tuple of Response
+        The odd and the even part of a body with two free edges.
     """
 
     w: Array
     tangential: Array
     normal: Array
     load: Field
+    swept: Array | None = None
+    start: Array | None = None
+    edge: Array | None = None
+    halves: tuple[Response, ...] = ()
 
 
 class Expectation(NamedTuple):

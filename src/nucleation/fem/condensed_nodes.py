@@ -11,7 +11,6 @@ edge adds a term of low rank. All of this is the same for one block and a pair o
 prediction of the edge through a step.
 """
 
-import dataclasses
 from abc import abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
@@ -21,98 +20,26 @@ from numpy.typing import NDArray
 
 from ..types import Array
 from . import field_kernels, transforms
-from .block_modes import BlockModes
-from .condensed import Balance, Blocks, Expectation, Nodes, Operator, Response
+from .condensed import Balance, Blocks, Expectation, Nodes, Response
+from .elimination import Elimination
 from .grid import Components, Field
 from .right_edge import EdgeValues, predicted
 
 EDGE_FELT = 1e-16  # of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
-@dataclasses.dataclass(frozen=True)
-class _EdgedResponse(Response):
-    """A response with the edge values (m) of all levels.
-
-    If the edge values were predicted, not solved for, `swept` holds the load swept down to the
-    interface with them, (levels, 2, n_x): :meth:`CondensedOnNodes.balance` continues from there.
-    """
-
-    edge: Array
-    start: Array | None  # see `CondensedOnNodes.reduced`
-    swept: Array | None = None
-
-
-class CondensedOnNodes(Operator):
-    """``K + s M`` of a body with the nodes and the modes of a block (:mod:`.block_modes`).
+class CondensedOnNodes(Elimination):
+    """``K + s M`` of a body with the nodes and the modes of a block (:mod:`.block`).
 
     Attributes
     ----------
-    along_x : BlockModes
-        A block with the modes.
-    modal : ndarray
-        D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x).
     edge : EdgeValues
         The right edge.
     """
 
-    along_x: BlockModes
-    modal: Array
     edge: EdgeValues
     _last_key: tuple[bytes, type] | None = None
     _last_blocks: Blocks
-
-    @abstractmethod
-    def swept_down(self, load: Field, edge: Array) -> Array:
-        """Sweep a load down to the interface.
-
-        Parameters
-        ----------
-        load : Field
-            The load (N/m).
-        edge : ndarray
-            Given edge values (m), shape (levels,).
-
-        Returns
-        -------
-        ndarray
-            The swept load (N/m), shape (levels, 2, n_x).
-        """
-
-    @abstractmethod
-    def reduced(self, swept: Array) -> tuple[Array, Array | None]:
-        """Return the effect of a swept load at w = 0.
-
-        Parameters
-        ----------
-        swept : ndarray
-            The swept load (N/m), shape (levels, 2, n_x).
-
-        Returns
-        -------
-        reduced : ndarray
-            This load is subtracted from the modal forces (N/m), shape (2, n_x).
-        start : ndarray or None
-            Displacement of a pair's interface (m), shape (2, n_x); None on a rigid base.
-        """
-
-    @abstractmethod
-    def substitute_up(
-        self,
-        swept: Array,
-        amplitudes: Array,
-        start: Array | None,
-    ) -> None:
-        """Sweep back from the interface, in place.
-
-        Parameters
-        ----------
-        swept : ndarray
-            The swept load (N/m), shape (levels, 2, n_x); the displacement (m) replaces it.
-        amplitudes : ndarray
-            Amplitudes of w at the interface (m), shape (n_x,).
-        start : ndarray or None
-            As returned by :meth:`reduced`.
-        """
 
     @abstractmethod
     def corner_reaction(
@@ -130,7 +57,7 @@ class CondensedOnNodes(Operator):
         load : Field
             The load (N/m).
         swept, amplitudes, start
-            As in :meth:`substitute_up`; `swept` is not changed.
+            As in :meth:`.elimination.Elimination.substitute_up`; `swept` is not changed.
         edge : ndarray
             Edge values (m), shape (levels,).
 
@@ -145,7 +72,7 @@ class CondensedOnNodes(Operator):
         load: Field,
         w: Array,
         edge: Array | None = None,
-    ) -> _EdgedResponse:
+    ) -> Response:
         """Find the forces that hold the interface, the edge in balance.
 
         Parameters
@@ -176,28 +103,28 @@ class CondensedOnNodes(Operator):
                 amplitudes,
                 start,
             )
-            return _EdgedResponse(
+            return Response(
                 w,
                 tangential,
                 normal,
                 load,
-                edge,
-                start,
                 swept,
+                start,
+                edge,
             )
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)
         transforms.add_edge(found, self.edge.felt, tangential, normal)
         normal[-1] = self.edge.schur[0] @ found - residual[0]
-        return _EdgedResponse(w, tangential, normal, load, found, start)
+        return Response(w, tangential, normal, load, edge=found)
 
     def responses(
         self,
         load: Field,
         w: Array,
         expected: Expectation,
-    ) -> Iterator[_EdgedResponse]:
+    ) -> Iterator[Response]:
         """Yield a response with predicted edge values, if that worked last time, then the full one.
 
         Far from slip and waves the right edge moves as predicted, to round-off.
@@ -228,8 +155,9 @@ class CondensedOnNodes(Operator):
         response, w, expected
             As in :meth:`.condensed.Operator.balance`.
         """
-        assert isinstance(response, _EdgedResponse)
-        edge = response.edge
+        given = response.edge
+        assert given is not None
+        edge = given
         if w is not response.w:
             edge = edge + self.edge.change(w - response.w)
         modes = response.swept
@@ -244,25 +172,20 @@ class CondensedOnNodes(Operator):
             residual = self.edge.residual(
                 response.load,
                 modes,
-                response.edge,
+                given,
             )
-            own = response.edge + self.edge.correction(residual)
+            own = given + self.edge.correction(residual)
         displacement = Field(modes, own)
         if expected is None:
             return Balance(displacement, self.along_x.no_memory, True)
-        foreseen = predicted(expected) if solved else response.edge
+        foreseen = predicted(expected) if solved else given
         error = field_kernels.relative_error(own, foreseen, edge)
         holds = solved or error < self.edge.round_off
         return Balance(displacement, np.array(error), holds)
 
     def apply(self, w: Array) -> Components:
         """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) (N/m), for w at nodes 1..n_x (m)."""
-        amplitudes = self.along_x.sine_amplitudes(w)
-        tangential, normal = self.along_x.forces(
-            self.modal,
-            amplitudes,
-            self._no_load,
-        )
+        tangential, normal = super().apply(w)
         transforms.add_edge_in_balance(
             w,
             self.edge.felt,
@@ -272,10 +195,6 @@ class CondensedOnNodes(Operator):
             normal,
         )
         return tangential, normal
-
-    @cached_property
-    def _no_load(self) -> Array:
-        return np.zeros(self.modal.shape)
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:

@@ -5,8 +5,7 @@ from scipy import fft
 
 from ..model.material import Material
 from ..types import Array
-from .block import Block
-from .block_modes import edge_forces
+from .block import Block, edge_forces
 from .grid import Components, Field, Grid
 
 
@@ -83,7 +82,7 @@ class EvenHalf(Block):
         Parameters
         ----------
         stiffness, amplitudes, reduced
-            As in :meth:`.block_modes.BlockModes.forces`.
+            As in :meth:`.separable.SeparableBody.forces`.
         """
         tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
         return tangential, np.append(normal, 0.0)

@@ -192,14 +192,6 @@ class FreeBlock(ElasticBody):
         return self.whole(odd_x, even_x), self.whole(odd_y, even_y)
 
 
-@dataclasses.dataclass(frozen=True)
-class _FreeResponse(Response):
-    """A response with those of both halves."""
-
-    odd: Response
-    even: Response
-
-
 class _FreeOperator(Operator):
     """``K + s M`` of a :class:`FreeBlock` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
@@ -262,7 +254,7 @@ class _FreeOperator(Operator):
         """
         return between(nodes, self._dense, dtype)
 
-    def respond(self, load: Field, w: Array) -> _FreeResponse:
+    def respond(self, load: Field, w: Array) -> Response:
         """Find the forces that hold the interface, edges in balance.
 
         Parameters
@@ -278,7 +270,7 @@ class _FreeOperator(Operator):
             (odd.tangential, odd.normal),
             (even.tangential, even.normal),
         )
-        return _FreeResponse(w, tangential, normal, load, odd, even)
+        return Response(w, tangential, normal, load, halves=(odd, even))
 
     def balance(
         self,
@@ -293,12 +285,12 @@ class _FreeOperator(Operator):
         response, w, expected
             As in :meth:`.condensed.Operator.balance`.
         """
-        assert isinstance(response, _FreeResponse)
         odd_w, even_w = self.body.halved(w)
-        odd = self._odd.balance(response.odd, odd_w).displacement
-        even = self._even.balance(response.even, even_w).displacement
+        odd, even = response.halves
+        odd_half = self._odd.balance(odd, odd_w).displacement
+        even_half = self._even.balance(even, even_w).displacement
         return Balance(
-            self.body.joined(odd, even),
+            self.body.joined(odd_half, even_half),
             self.body.no_memory,
             True,
         )

@@ -1,6 +1,6 @@
 """Two elastic blocks on one another, condensed on their common interface y = 0.
 
-Both blocks have the modes of :mod:`.block_modes`, on grids with the same elements along x, and are
+Both blocks have the modes of :mod:`.block`, on grids with the same elements along x, and are
 put in series (:mod:`.series`). The upper block is driven at its left edge, the lower one is held
 there. The right edge of both is free; at its corner both share the unknown ``u_y(L, 0)``. If no far
 side is held, all of ``u_y`` may shift with it: in motion inertia determines the shift; in statics,
@@ -15,11 +15,11 @@ from functools import cached_property
 import numpy as np
 
 from ..types import Array
-from .block import Block
+from .block import Block, BlockOperator
 from .condensed_nodes import CondensedOnNodes
 from .grid import Components, Field, Motion, Motions
 from .right_edge import EdgeValues, inverse_within
-from .series import SeriesStiffness, TwoBodies
+from .series import SeriesOperator, TwoBodies
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
@@ -94,67 +94,22 @@ class BlockPair(TwoBodies[Block]):
         return dataclasses.replace(motion, displacement=displacement, velocity=velocity)
 
 
-class _PairOperator(CondensedOnNodes):
+class _PairOperator(SeriesOperator, CondensedOnNodes):
     """``K + s M`` of a :class:`BlockPair` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
     body: BlockPair
+    upper: BlockOperator
+    lower: BlockOperator
 
     def __init__(self, body: BlockPair, s: float) -> None:
-        self.body = body
-        self.s = s
-        self.upper = body.upper.operator(s)
-        self.lower = body.lower.operator(s)
-        self.series = SeriesStiffness(self.upper, self.lower)
-        self.along_x = body.upper
-        self.modal = self.series.modal
-        self.levels_above = body.grid.n_y + 1  # in a field, the lower block's levels follow them
+        super().__init__(body, s, body.upper.operator(s), body.lower.operator(s))
         self.edge = _PairEdge(self)
 
     @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
         levels = self.levels_above + self.body.lower.grid.n_y + 1
-        own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
-        return self.upper.megabytes + self.lower.megabytes + own
-
-    def swept_down(self, load: Field, edge: Array) -> Array:
-        """Sweep a load (N/m) down to the interface in both blocks, with given edge values (m).
-
-        Parameters
-        ----------
-        load, edge
-            As in :meth:`.condensed_nodes.CondensedOnNodes.swept_down`.
-        """
-        modes = np.empty_like(load.modes)
-        above, below = self.body.parts(load)
-        into_above, into_below = self.body.parts(Field(modes, edge))
-        self.upper.swept(above, into_above.edge, into_above.modes)
-        self.lower.swept(below, into_below.edge, into_below.modes)
-        return modes
-
-    def reduced(self, swept: Array) -> tuple[Array, Array]:
-        """Return the load that is held, and the displacement of the interface, at w = 0."""
-        return self.series.loaded(swept[0], swept[self.levels_above])
-
-    def substitute_up(
-        self,
-        swept: Array,
-        amplitudes: Array,
-        start: Array | None,
-    ) -> None:
-        """Sweep back from the interface in place.
-
-        Parameters
-        ----------
-        swept, amplitudes, start
-            As in :meth:`.condensed_nodes.CondensedOnNodes.substitute_up`.
-        """
-        assert start is not None
-        above = swept[: self.levels_above]
-        below = swept[self.levels_above :]
-        self.series.set_interface(above, below, amplitudes, start)
-        self.upper.substitute(above)
-        self.lower.substitute(below)
+        return super().megabytes + 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
 
     def corner_reaction(
         self,
@@ -173,12 +128,7 @@ class _PairOperator(CondensedOnNodes):
         """
         assert start is not None
         lowest = swept[:2].copy()
-        self.series.set_interface(
-            lowest,
-            np.empty_like(lowest),
-            amplitudes,
-            start,
-        )
+        lowest[0] = start + self.by_slip * amplitudes
         self.upper.substitute(lowest)
         load_above, _ = self.body.parts(load)
         edge_above = edge[: self.levels_above]
@@ -245,7 +195,7 @@ class _PairEdge(EdgeValues):
         stiffness = np.zeros((len(x), len(x)))
         stiffness[:n, :n] = self._above.schur
         stiffness[n:, n:] = self._below.schur
-        xx, xy, yy = self._operator.series.compliance
+        xx, xy, yy = self._operator.compliance
         moved_x = xx * x + xy * y
         moved_y = xy * x + yy * y
         scale = self._operator.along_x.mode_scale
@@ -272,7 +222,7 @@ class _PairEdge(EdgeValues):
         (x, y), lower = self._to_modes
         above = y.copy()
         above[self._first_below :] = 0.0  # the upper block's own
-        _, _, yx1, yy1, xx2, xy2, _, _ = self._operator.series.forces
+        _, _, yx1, yy1, xx2, xy2, _, _ = self._operator.forces
         from_below = xx2 * x + xy2 * y
         from_above = yx1 * x + yy1 * y
         modal = np.array([from_below - lower, above - from_above])

@@ -25,9 +25,10 @@ from scipy.linalg import circulant
 
 from ..model.material import Material
 from ..types import Array, ComplexArray
-from .condensed import Balance, Blocks, Expectation, Nodes, Operator, Response, between
+from .condensed import Balance, Blocks, Expectation, Nodes, Response, between
+from .elimination import Elimination, SeparableOperator
 from .grid import Components, Field, Grid
-from .separable import SeparableBody, SeparableOperator
+from .separable import SeparableBody
 
 
 class PeriodicBlock(SeparableBody):
@@ -119,6 +120,22 @@ class PeriodicBlock(SeparableBody):
         mean, a, b = self._split(amplitudes)
         return self._values(mean, a + 1j * b)
 
+    def forces(
+        self,
+        stiffness: Array,
+        amplitudes: Array,
+        reduced: Array,
+    ) -> Components:
+        """Return the nodal forces along x at i = 1..n_x and along y at i = 0..n_x.
+
+        Parameters
+        ----------
+        stiffness, amplitudes, reduced
+            As in :meth:`.separable.SeparableBody.forces`.
+        """
+        tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
+        return tangential, with_entry_zero(normal)
+
     def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces along x and y of modal ones, (2, n_x)."""
         along_x, along_y = modal
@@ -152,46 +169,41 @@ class PeriodicBlock(SeparableBody):
         return with_entry_zero(x), with_entry_zero(y)
 
 
-class Circulant(Operator):
-    """D and N between the nodes of a period, which are circulant matrices.
+class Circulant(Elimination):
+    """D and N between the nodes of a period, which are circulant matrices."""
 
-    Attributes
-    ----------
-    along_x : PeriodicBlock
-        A layer with the modes.
-    modal : ndarray
-        D and N per mode, times 2/n_x (N/m per m), (2, n_x).
-    """
-
-    along_x: PeriodicBlock
-    modal: Array
-
-    def interface_forces(
-        self,
-        w_amplitudes: Array,
-        reduced: Array | float = 0.0,
-    ) -> Components:
-        """Return the nodal forces along x and y on the (upper) layer at all nodes.
+    def respond(self, load: Field, w: Array) -> Response:
+        """Find the forces that hold the interface.
 
         Parameters
         ----------
-        w_amplitudes : ndarray
-            Amplitudes of w (m), shape (n_x,).
-        reduced : ndarray
-            Load that is subtracted per mode (N/m), shape (2, n_x).
-
-        Returns
-        -------
-        tangential, normal : ndarray
-            Forces (N/m), shape (n_x,) each.
+        load, w
+            As in :meth:`.condensed.Operator.respond`.
         """
-        return self.along_x.interface_forces(self.modal * w_amplitudes - reduced)
-
-    def apply(self, w: Array) -> Components:
-        """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) with entry 0 (N/m)."""
+        swept = self.swept_down(load, np.zeros_like(load.edge))
+        reduced, start = self.reduced(swept)
         amplitudes = self.along_x.sine_amplitudes(w)
-        tangential, normal = self.interface_forces(amplitudes)
-        return tangential, with_entry_zero(normal)
+        tangential, normal = self.along_x.forces(self.modal, amplitudes, reduced)
+        return Response(w, tangential, normal, load, swept, start)
+
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
+        """Find the displacement.
+
+        Parameters
+        ----------
+        response, w, expected
+            As in :meth:`.condensed.Operator.balance`.
+        """
+        modes = response.swept
+        assert modes is not None
+        self.substitute_up(modes, self.along_x.sine_amplitudes(w), response.start)
+        displacement = Field(modes, np.zeros_like(response.load.edge))
+        return Balance(displacement, self.body.no_memory, True)
 
     @cached_property
     def _columns(self) -> Components:
@@ -226,48 +238,6 @@ class Circulant(Operator):
 
 class PeriodicOperator(SeparableOperator, Circulant):
     """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
-
-    body: PeriodicBlock
-
-    def __init__(self, body: PeriodicBlock, s: float) -> None:
-        super().__init__(body, s)
-        self.along_x = body
-        self.modal = self.pivot[:2]
-
-    def respond(self, load: Field, w: Array) -> Response:
-        """Find the forces that hold the interface.
-
-        Parameters
-        ----------
-        load, w
-            As in :meth:`.condensed.Operator.respond`.
-        """
-        amplitudes = self.body.sine_amplitudes(w)
-        _, reduced = self.solve(
-            load,
-            amplitudes,
-            np.zeros_like(load.edge),
-        )
-        tangential, normal = self.interface_forces(amplitudes, reduced)
-        return Response(w, tangential, with_entry_zero(normal), load)
-
-    def balance(
-        self,
-        response: Response,
-        w: Array,
-        expected: Expectation | None = None,
-    ) -> Balance:
-        """Find the displacement of the layer.
-
-        Parameters
-        ----------
-        response, w, expected
-            As in :meth:`.condensed.Operator.balance`.
-        """
-        edge = np.zeros_like(response.load.edge)
-        amplitudes = self.body.sine_amplitudes(w)
-        modes, _ = self.solve(response.load, amplitudes, edge)
-        return Balance(Field(modes, edge), self.body.no_memory, True)
 
 
 def with_entry_zero(nodal: Array) -> Array:

@@ -13,10 +13,10 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ..types import Array
 from . import edge_kernels, field_kernels, kernels
-from .block_modes import BlockModes
 from .condensed import Expectation
 from .grid import Components, Field
 from .matrices import dense, product, transposed
+from .separable import SeparableBody
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 
@@ -119,7 +119,7 @@ class RightEdge(EdgeValues):
 
     Parameters
     ----------
-    body : BlockModes
+    body : SeparableBody
         The block.
     s : float
         Factor of the mass matrix (1/s^2).
@@ -129,7 +129,7 @@ class RightEdge(EdgeValues):
 
     def __init__(
         self,
-        body: BlockModes,
+        body: SeparableBody,
         s: float,
         inverse: Array,
         lower: Array,

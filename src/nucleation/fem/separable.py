@@ -14,8 +14,8 @@ import numpy as np
 
 from ..model.material import Material
 from ..types import Array
-from . import field_kernels, kernels, matrices
-from .condensed import ElasticBody, Operator
+from . import field_kernels, matrices
+from .condensed import ElasticBody
 from .grid import Components, Field, Grid, Motion, Terms
 
 HELD = {
@@ -93,6 +93,39 @@ class SeparableBody(ElasticBody):
     @abstractmethod
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Return the amplitudes of nodal values of u_x (last axis) at the free nodes."""
+
+    @abstractmethod
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Return the nodal values of amplitudes of u_x (last axis)."""
+
+    @abstractmethod
+    def cosine_values(self, amplitudes: Array) -> Array:
+        """Return the nodal values of amplitudes of u_y (last axis)."""
+
+    @abstractmethod
+    def forces(
+        self,
+        stiffness: Array,
+        amplitudes: Array,
+        reduced: Array,
+    ) -> Components:
+        """Return the nodal forces of ``stiffness * amplitudes - reduced`` per mode.
+
+        Parameters
+        ----------
+        stiffness : ndarray
+            Tangential and normal stiffness per mode, times 2/n_x (N/m per m), (2, modes).
+        amplitudes : ndarray
+            Amplitudes of w (m), shape (modes,).
+        reduced : ndarray
+            The load reduced to the interface (N/m), shape (2, modes).
+
+        Returns
+        -------
+        tangential, normal : ndarray
+            Forces (N/m) at the free nodes, and at the nodes 0..n_x. At a free right edge the last
+            normal force is the edge's; here it is zero.
+        """
 
     @abstractmethod
     def interface_forces(self, modal: Array) -> Components:
@@ -177,132 +210,3 @@ class SeparableBody(ElasticBody):
         """Return the momentum along x (kg/s per unit depth) of a velocity field w_t (m/s)."""
         along_x = velocity.modes[:, 0] @ self.x_integral
         return self.material.density * float(self.row_sums @ along_x)
-
-
-class SeparableOperator(Operator):
-    """``K + s M`` of a body for one ``s`` (1/s^2), with ``s = 0`` for statics.
-
-    Attributes
-    ----------
-    pivot : ndarray
-        Stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy, (3, modes).
-    """
-
-    body: SeparableBody
-
-    def __init__(self, body: SeparableBody, s: float) -> None:
-        self.body = body
-        self.s = s
-        grid = body.grid
-        material = body.material
-        density = s * material.density
-        self.pivot = np.empty((3, body.modes))
-        self._inverse = np.zeros((grid.n_y + 1, 3, body.modes))
-        self._lower = np.empty((grid.n_y, 4, body.modes))
-        kernels.factorise(
-            material.p_wave_modulus * body.x_stiffness + density * body.x_mass,
-            material.shear_modulus * body.x_mass,
-            material.shear_modulus * body.x_stiffness + density * body.x_mass,
-            material.p_wave_modulus * body.x_mass,
-            body.sine,
-            body.mass,
-            body.stiffness,
-            body.derivative,
-            material.lame_modulus,
-            material.coupling_modulus,
-            HELD[body.far_side],
-            self.pivot,
-            self._inverse,
-            self._lower,
-        )
-
-    @property
-    def megabytes(self) -> float:
-        """Memory that the operator holds once all of its parts are in use (MB)."""
-        grid = self.body.grid
-        levels = grid.n_y + 1
-        return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
-
-    def solve(
-        self,
-        load: Field,
-        w_amplitudes: Array,
-        edge: Array,
-    ) -> tuple[Array, Array]:
-        """Solve for the modes of the bulk, interface and edge given.
-
-        Parameters
-        ----------
-        load : Field
-            The load (N/m), in the scaling of the body's ``top_load``.
-        w_amplitudes : ndarray
-            Amplitudes of w at the interface (m), shape (modes,).
-        edge : ndarray
-            Values of u_y on the right edge (m), shape (n_y + 1,).
-
-        Returns
-        -------
-        modes : ndarray
-            Amplitudes of the displacement (m), shape (n_y + 1, 2, modes).
-        reduced : ndarray
-            The load reduced to the interface (N/m), shape (2, modes).
-        """
-        modes = self.swept(load, edge)
-        reduced = modes[0].copy()
-        modes[0, 0] = w_amplitudes
-        modes[0, 1] = 0.0
-        self.substitute(modes)
-        return modes, reduced
-
-    def substitute(self, modes: Array) -> None:
-        """Sweep back from the interface, where the displacement is known, in place.
-
-        Parameters
-        ----------
-        modes : ndarray
-            The swept load, with the displacement in level 0; at least the two lowest levels.
-        """
-        levels = len(modes)
-        kernels.substitute(
-            self._inverse[:levels],
-            self._lower[: levels - 1],
-            modes,
-        )
-
-    def swept(
-        self,
-        load: Field,
-        edge: Array,
-        modes: Array | None = None,
-    ) -> Array:
-        """Sweep a load from the top down to the interface.
-
-        Parameters
-        ----------
-        load : Field
-            The load (N/m).
-        edge : ndarray
-            Given values of u_y on the right edge (m), shape (n_y + 1,).
-        modes : ndarray, optional
-            Array for the result.
-
-        Returns
-        -------
-        ndarray
-            The swept load (N/m), shape (n_y + 1, 2, modes).
-        """
-        if modes is None:
-            modes = np.empty_like(load.modes)
-        kernels.eliminate(
-            self._lower,
-            load.modes,
-            self._profiles(edge),
-            self.body.edge_weights,
-            self.body.mode_scale,
-            modes,
-        )
-        return modes
-
-    def _profiles(self, edge: Array) -> Array:
-        """Profiles along y of the forces that edge values exert on the modes; here none."""
-        return np.zeros((3, edge.size))

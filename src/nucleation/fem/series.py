@@ -14,15 +14,16 @@ So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / d
 of identical bodies vanishes exactly.
 """
 
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from ..types import Array
 from . import kernels
 from .condensed import ElasticBody
+from .elimination import Elimination, SeparableOperator
 from .grid import Components, Field, Motion, Terms
-from .separable import SeparableBody, SeparableOperator
+from .separable import SeparableBody
 
 Layer = TypeVar("Layer", bound=SeparableBody)
 
@@ -161,18 +162,22 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         return x, -y
 
 
-class SeriesStiffness:
-    """The stiffness of two bodies in series, per mode times 2/n_x (N/m per m).
+class SeriesOperator(Elimination):
+    """``K + s M`` of two bodies for one ``s`` (1/s^2), with ``s = 0`` for statics.
 
     Parameters
     ----------
+    body : TwoBodies
+        The bodies.
+    s : float
+        Factor of the mass matrix (1/s^2).
     upper, lower : SeparableOperator
-        Operators of the bodies.
+        Their operators.
 
     Attributes
     ----------
-    modal : ndarray
-        D and N, (2, n_x).
+    levels_above : int
+        Levels of the upper body; in a field, those of the lower one follow them.
     compliance : ndarray
         ``T^-1``: xx, xy, yy, (3, n_x).
     forces : ndarray
@@ -181,7 +186,21 @@ class SeriesStiffness:
         (w1, u_y) per unit of w, (2, n_x).
     """
 
-    def __init__(self, upper: SeparableOperator, lower: SeparableOperator) -> None:
+    body: TwoBodies[Any]
+
+    def __init__(
+        self,
+        body: TwoBodies[Any],
+        s: float,
+        upper: SeparableOperator,
+        lower: SeparableOperator,
+    ) -> None:
+        self.body = body
+        self.s = s
+        self.upper = upper
+        self.lower = lower
+        self.along_x = body.upper
+        self.levels_above = body.grid.n_y + 1
         a1, b1, c1 = upper.pivot
         a2, b2, c2 = lower.pivot
         b2 = -b2  # by the mirror
@@ -220,55 +239,58 @@ class SeriesStiffness:
             ]
         )
 
-    def loaded(
-        self,
-        upper: Array,
-        lower: Array,
-    ) -> tuple[Array, Array]:
-        """Return the effect of reduced loads at zero slip.
+    @property
+    def megabytes(self) -> float:
+        """Memory that the operator holds once all of its parts are in use (MB)."""
+        return self.upper.megabytes + self.lower.megabytes
+
+    def swept_down(self, load: Field, edge: Array) -> Array:
+        """Sweep a load (N/m) down to the interface in both bodies, with given edge values (m).
 
         Parameters
         ----------
-        upper, lower : ndarray
-            The reduced loads of the bodies (N/m), shape (2, n_x).
-
-        Returns
-        -------
-        held : ndarray
-            This load is subtracted from the forces on the upper body (N/m), (2, n_x).
-        start : ndarray
-            Displacement of the interface (m), (2, n_x).
+        load, edge
+            As in :meth:`.elimination.Elimination.swept_down`.
         """
+        modes = np.empty_like(load.modes)
+        above, below = self.body.parts(load)
+        into_above, into_below = self.body.parts(Field(modes, edge))
+        self.upper.swept_down(above, into_above.edge, into_above.modes)
+        self.lower.swept_down(below, into_below.edge, into_below.modes)
+        return modes
+
+    def reduced(self, swept: Array) -> tuple[Array, Array]:
+        """Return the load that is held, and the displacement of the interface, at w = 0."""
         held = np.empty_like(self.modal)
         start = np.empty_like(self.modal)
         kernels.load_couple(
             self.compliance,
             self.forces,
-            upper,
-            lower,
+            swept[0],
+            swept[self.levels_above],
             held,
             start,
         )
         return held, start
 
-    def set_interface(
+    def substitute_up(
         self,
-        upper: Array,
-        lower: Array,
+        swept: Array,
         amplitudes: Array,
-        start: Array,
+        start: Array | None,
     ) -> None:
-        """Write the displacement of both bodies at the interface into their level 0.
+        """Sweep back from the interface in place.
 
         Parameters
         ----------
-        upper, lower : ndarray
-            Modes of the bodies (m), shape (levels, 2, n_x), changed in place.
-        amplitudes : ndarray
-            Amplitudes of w (m), shape (n_x,).
-        start : ndarray
-            Displacement at zero slip, as returned by :meth:`loaded`.
+        swept, amplitudes, start
+            As in :meth:`.elimination.Elimination.substitute_up`.
         """
-        upper[0] = start + self.by_slip * amplitudes
-        lower[0, 0] = upper[0, 0] - amplitudes
-        lower[0, 1] = -upper[0, 1]
+        assert start is not None
+        above = swept[: self.levels_above]
+        below = swept[self.levels_above :]
+        above[0] = start + self.by_slip * amplitudes
+        below[0, 0] = above[0, 0] - amplitudes
+        below[0, 1] = -above[0, 1]
+        self.upper.substitute(above)
+        self.lower.substitute(below)
