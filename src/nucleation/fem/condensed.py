@@ -19,6 +19,7 @@ from __future__ import annotations
 import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -120,10 +121,20 @@ class Operator(ABC):
     body: ElasticBody
     s: float
 
+    @cached_property
+    def dense(self) -> Components:
+        """D and N between all free nodes (N/m per m), a column for each node that moves."""
+        units = np.eye(self.body.free_nodes)
+        columns = [self.apply(unit) for unit in units]
+        stiffness = np.column_stack([tangential for tangential, _ in columns])
+        coupling = np.column_stack([normal for _, normal in columns])
+        return stiffness, coupling
+
     @property
-    @abstractmethod
     def diagonal(self) -> Array:
         """Diagonal of D (N/m per m) at the free nodes."""
+        stiffness, _ = self.dense
+        return np.ascontiguousarray(stiffness.diagonal())
 
     @property
     @abstractmethod
@@ -134,7 +145,6 @@ class Operator(ABC):
     def apply(self, w: Array) -> Components:
         """Return ``D w`` at the free nodes and ``N w`` at the nodes 0..n_x (N/m), for w (m)."""
 
-    @abstractmethod
     def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
         """Return dense blocks of D and N between some free nodes.
 
@@ -150,6 +160,12 @@ class Operator(ABC):
         stiffness, coupling : ndarray
             D and N (N/m per m), shape (n, n) each.
         """
+        stiffness, coupling = self.dense
+        if nodes.size < len(stiffness):
+            block = np.ix_(nodes - 1, nodes - 1)
+            stiffness = stiffness[block]
+            coupling = coupling[block]
+        return stiffness.astype(dtype), coupling.astype(dtype)
 
     @abstractmethod
     def respond(self, load: Field, w: Array) -> Response:
@@ -206,31 +222,6 @@ class Operator(ABC):
         -------
         Balance
         """
-
-
-def between(nodes: Nodes, matrices: Components, dtype: type) -> Blocks:
-    """Select the blocks of dense matrices between some free nodes.
-
-    Parameters
-    ----------
-    nodes : ndarray of int
-        Numbers of the nodes from one on, sorted, shape (n,).
-    matrices : pair of ndarray
-        D and N between all free nodes.
-    dtype : type
-        Type of the result's numbers.
-
-    Returns
-    -------
-    stiffness, coupling : ndarray
-        Shape (n, n) each.
-    """
-    stiffness, coupling = matrices
-    if nodes.size < len(stiffness):
-        block = np.ix_(nodes - 1, nodes - 1)
-        stiffness = stiffness[block]
-        coupling = coupling[block]
-    return stiffness.astype(dtype), coupling.astype(dtype)
 
 
 class ElasticBody(ABC):

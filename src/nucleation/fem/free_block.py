@@ -12,13 +12,12 @@ All nodes 0..n_x of the interface are free.
 from __future__ import annotations
 
 import dataclasses
-from functools import cached_property
 
 import numpy as np
 
 from ..types import Array
 from .block import Block
-from .condensed import Balance, Blocks, ElasticBody, Expectation, Nodes, Operator, Response, between
+from .condensed import Balance, ElasticBody, Expectation, Operator, Response
 from .grid import Components, Field, Grid, Motion, Terms
 from .pair import BlockPair
 
@@ -228,31 +227,6 @@ class _FreeOperator(Operator):
             self._odd.apply(odd),
             self._even.apply(even),
         )
-
-    @cached_property
-    def _dense(self) -> Components:
-        """D and N between all nodes, a column for each node that moves."""
-        units = np.eye(self.body.free_nodes)
-        columns = [self.apply(unit) for unit in units]
-        stiffness = np.column_stack([tangential for tangential, _ in columns])
-        coupling = np.column_stack([normal for _, normal in columns])
-        return stiffness, coupling
-
-    @property
-    def diagonal(self) -> Array:
-        """Diagonal of D (N/m per m), (n_x + 1,)."""
-        stiffness, _ = self._dense
-        return np.ascontiguousarray(stiffness.diagonal())
-
-    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
-        """Return dense blocks of D and N.
-
-        Parameters
-        ----------
-        nodes, dtype
-            As in :meth:`.condensed.Operator.tangent`.
-        """
-        return between(nodes, self._dense, dtype)
 
     def respond(self, load: Field, w: Array) -> Response:
         """Find the forces that hold the interface, edges in balance.

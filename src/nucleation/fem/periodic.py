@@ -25,7 +25,7 @@ from scipy.linalg import circulant
 
 from ..model.material import Material
 from ..types import Array, ComplexArray
-from .condensed import Balance, Blocks, Expectation, Nodes, Response, between
+from .condensed import Balance, Expectation, Response
 from .elimination import Elimination, SeparableOperator
 from .grid import Components, Field, Grid
 from .separable import SeparableBody
@@ -220,20 +220,10 @@ class Circulant(Elimination):
         return np.full(self.along_x.grid.n_x, column[0])
 
     @cached_property
-    def _dense(self) -> Components:
+    def dense(self) -> Components:
         """D and N between all nodes."""
         stiffness, coupling = self._columns
         return circulant(stiffness), circulant(coupling)
-
-    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
-        """Return dense blocks of D and N.
-
-        Parameters
-        ----------
-        nodes, dtype
-            As in :meth:`.condensed.Operator.tangent`.
-        """
-        return between(nodes, self._dense, dtype)
 
 
 class PeriodicOperator(SeparableOperator, Circulant):

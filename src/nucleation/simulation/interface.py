@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lapack
@@ -97,16 +97,13 @@ class Past(NamedTuple):
         return cls(formula.from_past(state.past_w), log_state, formula.beta, at_rest)
 
 
-class Solver(Protocol):
-    """Determines the displacement of the interface in a step: friction, or a prescribed one."""
+@dataclasses.dataclass(frozen=True)
+class Interface:
+    """Friction between a body and its base or a second body, and the accuracy of its solution."""
 
-    @property
-    def friction(self) -> Friction:
-        """The friction law, with the characteristic slip distance."""
-
-    @property
-    def extra_normal(self) -> Array | float:
-        """Normal force (N/m) on the nodes 0..n_x in addition to that of the body."""
+    friction: Friction  # its parameters may be arrays over the nodes 0..n_x
+    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
+    extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x in addition to the body's
 
     def solve(
         self,
@@ -141,39 +138,6 @@ class Solver(Protocol):
             If there is no convergence, or a force is not finite.
         Tension
             If a nodal normal force of the solution is tensile.
-        """
-
-
-@dataclasses.dataclass(frozen=True)
-class Interface:
-    """Friction between a body and its base or a second body, and the accuracy of its solution."""
-
-    friction: Friction  # its parameters may be arrays over the nodes 0..n_x
-    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
-    extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x in addition to the body's
-
-    def solve(
-        self,
-        operator: Operator,
-        response: Response,
-        past: Past,
-        imposed: Imposed,
-        guess: Array,
-    ) -> InterfaceSolution:
-        """Solve for the slip rates at the new time, see :meth:`Solver.solve`.
-
-        Parameters
-        ----------
-        operator, response, past, imposed, guess
-            As of :meth:`Solver.solve`.
-
-        Returns
-        -------
-        InterfaceSolution
-
-        Raises
-        ------
-        NewtonFailure, Tension
         """
         law, body = self.friction, operator.body
         beta, velocity = past.beta, imposed.velocity

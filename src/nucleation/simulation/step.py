@@ -19,7 +19,7 @@ from ..fem.grid import Field, Motion
 from ..types import Array
 from . import passes
 from .drive import Drive, Imposed
-from .interface import InterfaceSolution, Past, Solver
+from .interface import Interface, InterfaceSolution, Past
 from .state import State, pushed
 from .stepping import BDF, Step
 
@@ -49,7 +49,7 @@ class Dynamics:
     ----------
     body : ElasticBody
         The elastic body, or the pair of bodies.
-    interface : Solver
+    interface : Interface
         The interface on which it slides.
     drive : Drive
         Loads and boundary conditions.
@@ -60,7 +60,7 @@ class Dynamics:
     def __init__(
         self,
         body: ElasticBody,
-        interface: Solver,
+        interface: Interface,
         drive: Drive,
         scheme: BDF,
     ) -> None:

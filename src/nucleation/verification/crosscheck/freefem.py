@@ -283,7 +283,7 @@ def of_run(
     """
     with TemporaryDirectory() as directory:
         try:
-            found = solve(
+            return solve(
                 scripts[0].parent,
                 Path(directory),
                 parameters,
@@ -292,4 +292,3 @@ def of_run(
             )
         except FreeFemError as error:
             raise ParameterError(str(error)) from None
-    return found.assign_attrs(parameters=parameters.to_json())

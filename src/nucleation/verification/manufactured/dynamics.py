@@ -15,17 +15,16 @@ The solver needs no hooks: only drive and interface are replaced.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
-from scipy import fft
 
 from ...fem.block import Block
 from ...fem.condensed import Operator, Response
 from ...fem.grid import Field, Grid, Motion
-from ...model.friction.law import Friction
 from ...model.parameters import Parameters
 from ...simulation.drive import Drive, Imposed
-from ...simulation.interface import Interface, InterfaceSolution, Past, Solver
+from ...simulation.interface import Interface, InterfaceSolution, Past
 from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
 from ...simulation.stepping import BDF
@@ -36,12 +35,10 @@ NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
 
 
 @dataclasses.dataclass(frozen=True)
-class _GivenDisplacement:
+class _GivenDisplacement(Interface):
     """An interface with a prescribed displacement, in place of the frictional one."""
 
-    friction: Friction
-    problem: Manufactured
-    extra_normal: float = 0.0
+    exact_w: Callable[[float], Array] = dataclasses.field(kw_only=True)
 
     def solve(
         self,
@@ -58,7 +55,7 @@ class _GivenDisplacement:
         operator, response, past, imposed, guess
             As in :meth:`.Interface.solve`.
         """
-        w = self.problem.exact_w(imposed.time)
+        w = self.exact_w(imposed.time)
         change, change_normal = operator.apply(w - response.w)
         tangential = response.tangential + change
         rates = (w - past.w) / past.beta
@@ -110,9 +107,9 @@ class Manufactured(Drive):
         self.grid = self.body.grid
         self.exact = exact
         self.loads = Loads(self.grid, exact)
-        frictional = Interface(self.friction, NEWTON_TOLERANCE)
-        prescribed = _GivenDisplacement(self.friction, self)
-        interface: Solver = frictional if log_state else prescribed
+        interface = Interface(self.friction, NEWTON_TOLERANCE)
+        if not log_state:
+            interface = _GivenDisplacement(self.friction, exact_w=self.exact_w)
         scheme = BDF(self.body.crossing_time)
         self.dynamics = Dynamics(self.body, interface, self, scheme)
 
@@ -315,5 +312,5 @@ def block_field(block: Block, values: Array) -> Field:
     x, y = values
     modes = np.empty((grid.n_y + 1, 2, grid.n_x))
     modes[:, 0] = block.sine_amplitudes(x[:, 1:])
-    modes[:, 1] = fft.dct(y[:, :-1], type=3) / grid.n_x
+    modes[:, 1] = block.cosine_amplitudes(y[:, :-1])
     return Field(modes, y[:, -1].copy())
