@@ -21,7 +21,7 @@ def table():
     runs = {run.id: run for run in papers().runs}
     lengths = [0.4428, 0.4408, 0.3537, np.nan]
     simulated = xr.Dataset({"id": ("run", list(IDS)), "stability_length": ("run", lengths)})
-    return theory_table.gather_theory([runs[i].to_dict() for i in IDS], [simulated])
+    return theory_table.theory_files([runs[i].to_dict() for i in IDS], [simulated])[".nc"]
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..patch.tables.pairs import chosen, of_role, over_realisations
+from ..patch.tables.pairs import over_realisations
 from ..types import Array
 from .expected import Missing
 
@@ -90,14 +90,15 @@ def faults(
     Missing
         If there are none.
     """
-    rows = of_role(evidence["pairs"], role)
+    pairs = evidence["pairs"]
+    rows = pairs.isel(run=pairs["role"].values == role)
     required(rows, f"The table of pairs has no runs with the role {role}")
     return over_realisations(rows)
 
 
 def half_spaces(rows: xr.Dataset) -> xr.Dataset:
     """The rows with blocks as high as half-spaces."""
-    return chosen(rows, _are_high(rows))
+    return rows.isel(run=_are_high(rows))
 
 
 def _are_high(rows: xr.Dataset) -> np.ndarray:
@@ -144,7 +145,7 @@ def settled(evidence: Tables) -> tuple[xr.Dataset, str]:
             rf" $\zeta/a = {value:g}$ is left out: between identical blocks the length over $L_c$ "
             f"depends on their height, {each}."
         )
-    rows = chosen(rows, ~np.isin(weakening, list(unsettled)))
+    rows = rows.isel(run=~np.isin(weakening, list(unsettled)))
     return required(rows, "All lengths depend on the height of the blocks"), left_out
 
 
@@ -152,11 +153,11 @@ def _depending_on_height(evidence: Tables) -> dict[float, xr.Dataset]:
     """Rows of identical half-spaces with lengths that depend on the blocks' height, by zeta/a."""
     rows = over_realisations(evidence["pairs"])
     identical = np.abs(rows["f_beta"].values) < 1e-9
-    rows = chosen(rows, identical & _are_high(rows))
+    rows = rows.isel(run=identical & _are_high(rows))
     weakening = weakenings(rows)
     found = {}
     for value in np.unique(weakening):
-        own = chosen(rows, weakening == value)
+        own = rows.isel(run=weakening == value)
         lengths = own["length_ratio"].values
         if np.ptp(lengths) > _HEIGHT_TOLERANCE * lengths.min():
             found[float(value)] = own

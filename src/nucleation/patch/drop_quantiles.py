@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.special import ndtri
@@ -84,15 +84,13 @@ def drop_quantiles(
     found: dict[str, list[_Answer]] = {key: [] for key in TITLES if key in lengths}
     doubts: list[str] = []
     for i, parameters in enumerate(cases):
-        critical = _critical(parameters)
+        critical = _answer(_critical, parameters)
         if "critical_length" in found:
             found["critical_length"].append(critical)
         if "stability_length" in found:
-            found["stability_length"].append(_stability(parameters, critical))
+            found["stability_length"].append(_answer(_stability, parameters, critical.length))
         if "expected_length" in found:
-            answer, doubt = _drop(parameters, shares[i])
-            found["expected_length"].append(answer)
-            doubts += [doubt] if doubt else []
+            found["expected_length"].append(_answer(_drop, parameters, shares[i], doubts))
         if progress is not None:
             progress(i + 1, len(cases))
     return _table(found, doubts, seed)
@@ -117,13 +115,27 @@ def _table(found: dict[str, list[_Answer]], doubts: list[str], seed: int) -> xr.
     return table.assign(why_not=("key", reasons, {"long_name": "why draws lack the length"}))
 
 
-def _drop(parameters: Parameters, share: float) -> tuple[_Answer, str]:
-    """The length at the drop of one realisation, and why it should not be relied upon."""
+def _answer(length: Callable[..., float], *arguments: Any) -> _Answer:
+    """The length (m) that a function has for some arguments, or why there is none."""
     try:
-        drop = expected_drop(parameters)
-    except NoDrop as none:
-        return _Answer(np.nan, none.status, str(none)), ""
-    return _Answer(of_realisation(drop, share), VALUE), drop.doubt
+        return _Answer(length(*arguments), VALUE)
+    except (NoInstability, NoPatch, NoDrop) as none:
+        return _Answer(np.nan, none.status, str(none))
+
+
+def _critical(parameters: Parameters) -> float:
+    return run_length(parameters, interface_state(parameters))
+
+
+def _stability(parameters: Parameters, critical: float) -> float:
+    return stability_point(Patches.of(parameters), critical).length
+
+
+def _drop(parameters: Parameters, share: float, doubts: list[str]) -> float:
+    """The length (m) at the drop of one realisation; why it is doubtful is added to the doubts."""
+    drop = expected_drop(parameters)
+    doubts += [drop.doubt] if drop.doubt else []
+    return of_realisation(drop, share)
 
 
 def of_realisation(found: ExpectedDrop, share: float) -> float:
@@ -145,17 +157,3 @@ def of_realisation(found: ExpectedDrop, share: float) -> float:
     end = found.low if share < 0.5 else found.high
     width = abs(np.log(end) - middle) / ndtri(0.84)
     return float(np.exp(middle + width * ndtri(share)))
-
-
-def _critical(parameters: Parameters) -> _Answer:
-    try:
-        return _Answer(run_length(parameters, interface_state(parameters)), VALUE)
-    except NoInstability as none:
-        return _Answer(np.nan, none.status, str(none))
-
-
-def _stability(parameters: Parameters, critical: _Answer) -> _Answer:
-    try:
-        return _Answer(stability_point(Patches.of(parameters), critical.length).length, VALUE)
-    except NoPatch as none:
-        return _Answer(np.nan, none.status, str(none))

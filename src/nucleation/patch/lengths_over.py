@@ -66,13 +66,13 @@ def lengths_over(
     keys = [key for key in TITLES if key in lengths]
     found = np.full((len(keys), len(BAND), *shape), np.nan)
     doubtful = np.zeros(shape)
-    doubts: dict[str, None] = {}
+    doubts: list[str] = []
     why = np.full((len(keys), *shape), "", dtype=object)
     for done, point in enumerate(np.ndindex(shape)):
         runs = cases(point)
         if runs:
             values, doubtful[point], doubt, reasons = _at(runs, keys)
-            doubts |= dict.fromkeys([doubt] if doubt else [])
+            doubts += [doubt] if doubt else []
             found[(slice(None), slice(None), *point)] = values
             why[(slice(None), *point)] = reasons
         if progress is not None:
@@ -89,23 +89,22 @@ def lengths_over(
             "why_not": (("key", *names), why, {"long_name": "why the length is missing"}),
         },
         coords={"key": keys, "end": ["low", "middle", "high"], **coordinates},
-        attrs={"doubts": "; ".join(list(doubts)[:DOUBTS])},
+        attrs={"doubts": "; ".join(list(dict.fromkeys(doubts))[:DOUBTS])},
     )
 
 
 def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, str, list[str]]:
     """Lengths (m) of shape (key, end) at a point; share of doubtful drops, doubts, reasons."""
     others = [key for key in keys if key != "expected_length" or len(runs) > 1]
-    table = drop_quantiles(runs, lengths=others) if others else None
     rows: list[Any] = []
     reasons: list[str] = []
-    if table is not None:
+    doubtful, doubt = 0.0, ""
+    if others:
+        table = drop_quantiles(runs, lengths=others)
         rows += list(table["value"].sel(quantile=list(BAND)).values)
         reasons += [str(text) for text in table["why_not"].values]
-    doubtful, doubt = 0.0, ""
-    if table is not None:
         doubtful, doubt = table.attrs["doubtful"] / len(runs), table.attrs["doubts"]
-    if "expected_length" in keys and "expected_length" not in others:
+    if len(others) < len(keys):
         try:
             drop = expected_drop(runs[0])
         except NoDrop as none:

@@ -11,7 +11,6 @@ realisations, with their range.
 import numpy as np
 import xarray as xr
 
-from ...patch.tables.pairs import chosen
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Computation, Result
@@ -136,7 +135,7 @@ def pairs_bimaterial(evidence: Tables) -> Result:
 def pairs_smaller(evidence: Tables) -> Result:
     rows, left_out = settled(evidence)
     contrast = np.abs(rows["f_beta"].values)
-    strong = chosen(rows, contrast > _STRONG)
+    strong = rows.isel(run=contrast > _STRONG)
     ours = _lengths(strong, unit=strong["half_space_ratio"].values)
     ratio = over_effective_modulus(strong)
     note = _note(rows) + _each_sense(strong, ratio) + left_out

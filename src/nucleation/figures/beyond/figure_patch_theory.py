@@ -16,7 +16,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.tables.theory.gather_theory`.
+        From :func:`nucleation.patch.tables.theory.theory_files`.
 
     Returns
     -------

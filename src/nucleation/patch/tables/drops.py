@@ -155,7 +155,7 @@ class _Law:
 
 def gather_drops(
     drops: Iterable[xr.Dataset],
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     quiet: Iterable[xr.Dataset] = (),
 ) -> xr.Dataset:
     """The drops of all runs beside the law, for the faults of some runs.
@@ -178,7 +178,7 @@ def gather_drops(
 
 def drop_files(
     drops: Iterable[xr.Dataset],
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     quiet: Iterable[xr.Dataset] = (),
 ) -> dict[str, Any]:
     """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`.
@@ -208,20 +208,23 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
             drop = law.drop(strength)
             closed = law.closed_form(laws[name].history, strength)
             values[:, i, j] = drop.length, drop.low, drop.high, closed.length
-    names = ("curve_length", "curve_low", "curve_high", "curve_closed_form")
-    on_curve = {name: (("case", "curve"), own) for name, own in zip(names, values, strict=True)}
+    length, low, high, closed_form = values
+    along = ("case", "curve")
     found = xr.Dataset(
         {
             "curve_fault": ("case", [name for name, _ in cases]),
             "curve_kind": ("case", [kind for _, kind in cases]),
             "curve_strength": ("curve", CURVE_STRENGTHS),
-            **on_curve,
+            "curve_length": (along, length),
+            "curve_low": (along, low),
+            "curve_high": (along, high),
+            "curve_closed_form": (along, closed_form),
         }
     )
     return annotate(found, CURVES)
 
 
-def _laws(runs: Iterable[dict[str, Any]]) -> dict[str, _Law]:
+def _laws(runs: Iterable[Row]) -> dict[str, _Law]:
     """The law by fault, without faults that have no patches the theory can follow."""
     laws = {}
     for run in runs:
@@ -245,7 +248,7 @@ def _beside(laws: dict[str, _Law], tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 def noise_floors(
     quiet: Iterable[xr.Dataset],
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
 ) -> xr.Dataset:
     """The noise of the meshes of quiet runs with their steps.
 

@@ -1,7 +1,6 @@
 """Simulated drops beside the expected ones, one row for each fault."""
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -46,7 +45,7 @@ COLUMNS = {
 
 def gather_other_faults(
     drops: xr.Dataset,
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
 ) -> xr.Dataset:
     """The simulated drops of each fault beside the theory.
 

@@ -1,11 +1,9 @@
 """The table of two deformable bodies: patch lengths over the theory with the same far sides."""
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...analysis import lengths
 from ...analysis.definitions import ExtractionSettings
@@ -13,7 +11,7 @@ from ...analysis.extraction import MEASURED as EXTRACTED
 from ...analysis.extraction import extract
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.lengths import description
-from ...analysis.rows import RATIO_COLUMNS, ratios
+from ...analysis.rows import RATIO_COLUMNS, Row, ratios
 from ...datasets.shared import SHARED
 from ...datasets.variables import Variable, some, table
 from ...model.linearised import linearised
@@ -54,7 +52,7 @@ COLUMNS = {
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
 
-def pair_description(run: dict[str, Any]) -> dict[str, Any]:
+def pair_description(run: Row) -> Row:
     """The columns that describe a run's bodies, interface and perturbation.
 
     Raises ValueError if it has one body only.
@@ -77,7 +75,7 @@ def pair_description(run: dict[str, Any]) -> dict[str, Any]:
 
 
 def gather_pairs(
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     simulations: Iterable[xr.Dataset],
     patches: Iterable[xr.Dataset],
     settings: ExtractionSettings,
@@ -133,45 +131,3 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     }
     on_run = {name: ("run", np.array(values)) for name, values in columns.items()}
     return lengths.over_realisations(table).assign(on_run)
-
-
-def chosen(
-    table: xr.Dataset,
-    rows: NDArray[np.bool_],
-) -> xr.Dataset:
-    """Some rows of the table.
-
-    Parameters
-    ----------
-    table : Dataset
-        A table on ``run``.
-    rows : ndarray
-        True for the wanted rows.
-
-    Returns
-    -------
-    Dataset
-        The table without the others.
-    """
-    return table.isel(run=np.flatnonzero(rows))
-
-
-def of_role(
-    table: xr.Dataset,
-    role: str,
-) -> xr.Dataset:
-    """The rows of the studies with one role.
-
-    Parameters
-    ----------
-    table : Dataset
-        A table on ``run``.
-    role : str
-        Role of a study.
-
-    Returns
-    -------
-    Dataset
-        The table without the others.
-    """
-    return chosen(table, table["role"].values == role)

@@ -2,12 +2,13 @@
 
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Protocol
+from typing import Protocol
 
 import xarray as xr
 
 from ...analysis import lengths
 from ...analysis.definitions import ExtractionSettings
+from ...analysis.rows import Row
 from ...datasets.variables import some
 from ..growth import FITTED, follow_patch
 
@@ -23,7 +24,7 @@ class _Records(Protocol):
 
 
 def measured_runs(
-    runs: Sequence[dict[str, Any]],
+    runs: Sequence[Row],
     records: _Records,
     settings: ExtractionSettings,
     measure: str,
@@ -51,7 +52,7 @@ def measured_runs(
 
 
 def _measured(
-    run: dict[str, Any],
+    run: Row,
     record: xr.Dataset,
     settings: ExtractionSettings,
     measure: str,

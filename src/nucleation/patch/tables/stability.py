@@ -1,12 +1,11 @@
 """The table of the lengths at which patches of many runs turn unstable."""
 
 from collections.abc import Iterable
-from typing import Any
 
 import xarray as xr
 
 from ...analysis.lengths import COLUMNS, description
-from ...analysis.rows import RATIO_COLUMNS
+from ...analysis.rows import RATIO_COLUMNS, Row
 from ...datasets.variables import Variable, some, table
 from ..growth import FITTED
 
@@ -34,7 +33,7 @@ STABILITY = {
 
 
 def gather_stability(
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     patches: Iterable[xr.Dataset],
 ) -> xr.Dataset:
     """The lengths at which the frozen patches turn unstable.

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.lengths import description
+from ...analysis.rows import Row
 from ...datasets.shared import SHARED
 from ...datasets.variables import Variable, annotate, some, table, to_csv
 from ...model.identity import fault
@@ -62,11 +63,11 @@ PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 _PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
 
 
-def gather_theory(
-    runs: Iterable[dict[str, Any]],
+def theory_files(
+    runs: Iterable[Row],
     tables: Iterable[xr.Dataset],
-) -> xr.Dataset:
-    """The table, the thin limit's curve and the creep of some faults.
+) -> dict[str, Any]:
+    """The table, the thin limit's curve and the creep of some faults; the table also as CSV.
 
     Parameters
     ----------
@@ -77,50 +78,31 @@ def gather_theory(
 
     Returns
     -------
-    Dataset
-        :data:`COLUMNS` on ``run``, :data:`DRAWN` on ``curve``, ``case`` and ``place``.
+    dict
+        By the ending of the file's name. The dataset has :data:`COLUMNS` on ``run``,
+        :data:`DRAWN` on ``curve``, ``case`` and ``place``.
     """
     known = _stability_lengths(tables)
-    faults: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:
         if run["id"] in known:
             key = run["study"], fault(Parameters.from_dict(run["parameters"]))
             faults.setdefault(key, []).append(run)
+    firsts = {}
     rows = []
-    for same in faults.values():
-        mean = float(np.mean([known[run["id"]] for run in same]))
-        rows.append(_row(same[0], mean))
-    firsts = [same[0] for same in faults.values()]
-    by_name = {run["id"]: run for run in firsts}
-    length_ratios = [thin_limit(ratio).length_ratio for ratio in CURVE]
+    for first, *others in faults.values():
+        mean = float(np.mean([known[run["id"]] for run in (first, *others)]))
+        rows.append(_row(first, mean))
+        firsts[first["id"]] = first
     drawn = xr.Dataset(
         {
             "curve_ratio": ("curve", CURVE),
-            "curve_stability": ("curve", length_ratios),
-            **_profiles(rows, by_name),
+            "curve_stability": ("curve", [thin_limit(ratio).length_ratio for ratio in CURVE]),
+            **_profiles(rows, firsts),
         }
     )
-    return annotate(table(rows, COLUMNS).merge(drawn), DRAWN)
-
-
-def theory_files(
-    runs: Iterable[dict[str, Any]],
-    tables: Iterable[xr.Dataset],
-) -> dict[str, Any]:
-    """The dataset of :func:`gather_theory`, and its rows as CSV.
-
-    Parameters
-    ----------
-    runs, tables : iterable
-        As for :func:`gather_theory`.
-
-    Returns
-    -------
-    dict
-        By the ending of the file's name.
-    """
-    found = gather_theory(runs, tables)
-    return {".nc": found, ".csv": to_csv(found[list(COLUMNS)])}
+    listed = table(rows, COLUMNS)
+    return {".nc": annotate(listed.merge(drawn), DRAWN), ".csv": to_csv(listed)}
 
 
 def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
@@ -136,9 +118,9 @@ def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
 
 
 def _row(
-    run: dict[str, Any],
+    run: Row,
     measured: float,
-) -> dict[str, Any]:
+) -> Row:
     """The columns of one fault, from its first run and its mean simulated L_s (m)."""
     parameters = Parameters.from_dict(run["parameters"])
     interface = linearised(parameters.friction, parameters.loading)
@@ -168,9 +150,9 @@ def _row(
 
 
 def _profiles(
-    rows: list[dict[str, Any]],
-    runs: dict[str, dict[str, Any]],
-) -> dict[str, Any]:
+    rows: list[Row],
+    runs: dict[str, Row],
+) -> Row:
     """The creep of some faults at their L_s, over the range of contrasts."""
     known = [row for row in rows if row["front_length"] > 0.0]
     if not known:
@@ -197,7 +179,7 @@ def _profiles(
     }
 
 
-def _evenly_over_contrast(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _evenly_over_contrast(rows: list[Row]) -> list[Row]:
     """Up to :data:`PROFILES` rows with different contrasts, in their order."""
     ordered = sorted(rows, key=lambda row: row["f_beta"])
     different = list({round(row["f_beta"], 6): row for row in ordered}.values())

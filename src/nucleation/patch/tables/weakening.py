@@ -98,7 +98,7 @@ def expected(parameters: Parameters) -> Row:
 
 def gather_weakening(
     drops: Iterable[xr.Dataset],
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
 ) -> xr.Dataset:
     """The simulated drops of all runs beside the theory of their faults.
 
@@ -130,7 +130,7 @@ def gather_weakening(
 
 def weakening_files(
     drops: Iterable[xr.Dataset],
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
 ) -> dict[str, Any]:
     """The table of :func:`gather_weakening` as CSV, and with :data:`CURVES`.
 
@@ -150,7 +150,7 @@ def weakening_files(
 
 
 def weakening_curves(
-    runs: Iterable[dict[str, Any]],
+    runs: Iterable[Row],
     ratios: Iterable[float] = CURVE,
 ) -> xr.Dataset:
     """Lengths by theory over zeta/a, of each study, base and height.
@@ -170,7 +170,7 @@ def weakening_curves(
     Dataset
         :data:`CURVES` on ``system`` and ``curve``.
     """
-    systems: dict[tuple[str, str, float], list[dict[str, Any]]] = {}
+    systems: dict[tuple[str, str, float], list[Row]] = {}
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
         below = "rigid" if parameters.below is None else "deformable"
@@ -188,7 +188,8 @@ def weakening_curves(
         for j, ratio in enumerate(ratios):
             lengths[:, i, j] = _over_critical(parameters, ratio)
     studies, bases, heights = zip(*systems, strict=True)
-    names = ("curve_stability", "curve_runaway", "curve_law")
+    stability, runaway, law = lengths
+    along = ("system", "curve")
     found = xr.Dataset(
         {
             "curve_study": ("system", list(studies)),
@@ -196,7 +197,9 @@ def weakening_curves(
             "curve_height": ("system", list(heights)),
             "curve_half_spaces": ("system", high),
             "curve_ratio": ("curve", ratios),
-            **{n: (("system", "curve"), own) for n, own in zip(names, lengths, strict=True)},
+            "curve_stability": (along, stability),
+            "curve_runaway": (along, runaway),
+            "curve_law": (along, law),
         }
     )
     return annotate(found, CURVES)
