@@ -7,6 +7,7 @@ import jinja2
 import xarray as xr
 
 from ..analysis.lengths import over_realisations
+from ..analysis.rows import rows_of
 from .claim import Row, Verdict
 from .phrases import caution, mesh, span
 from .table import counts, escaped
@@ -93,7 +94,7 @@ def _faults(lengths: Iterable[xr.Dataset]) -> list[Row]:
     """The rows of all tables, one for each fault."""
     rows: list[Row] = []
     for table in lengths:
-        rows += over_realisations(table).to_dataframe().to_dict("records")
+        rows += rows_of(over_realisations(table))
     return rows
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import over_realisations, realisations
+from ..analysis.rows import rows_of
 from ..configuration.roles import JUDGED, PAPERS
 from ..model.friction.law import Friction
 from ..model.identity import fault
@@ -243,17 +244,13 @@ class _LengthsRow(dict[str, Any]):
 
 def _faults(table: xr.Dataset) -> list[Row]:
     """The rows of a table of lengths, one for each fault, with the rows of its realisations."""
-    runs = [_LengthsRow(row) for row in _records(table)]
-    means = _records(over_realisations(table))
+    runs = [_LengthsRow(row) for row in rows_of(table)]
+    means = rows_of(over_realisations(table))
     faults: list[Row] = []
     for row, members in zip(means, realisations(table), strict=True):
         own = [runs[i] for i in members]
         faults.append(_LengthsRow(row, members=own))
     return faults
-
-
-def _records(table: xr.Dataset) -> list[Row]:
-    return table.to_dataframe().to_dict("records")
 
 
 def _matches(row: Row, wanted: dict[str, str | float]) -> bool:

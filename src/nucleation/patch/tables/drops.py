@@ -125,6 +125,12 @@ class _Law:
             self._known[key] = growth(self.history, declared)
         return self._known[key]
 
+    def lengths(self, kind: str, strength: float) -> tuple[float, float, float, float]:
+        """Lengths (m) by which the median, 16 and 84 % have dropped, and that of the one line."""
+        law = self.growth(kind)
+        drop = law.drop(strength)
+        return drop.length, drop.low, drop.high, law.closed_form(self.history, strength).length
+
     def row(self, run: Row) -> Row:
         """The columns :data:`PREDICTED` of one run; NaN where they do not apply."""
         none = dict.fromkeys(PREDICTED, float("nan"))
@@ -201,14 +207,9 @@ def drop_files(
 def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
     """:data:`CURVES` on ``case`` and ``curve``, from the law by fault."""
     cases = [(name, kind) for name in laws for kind in QUIET_KINDS]
-    values = np.full((4, len(cases), CURVE_STRENGTHS.size), np.nan)
-    for i, (name, kind) in enumerate(cases):
-        law = laws[name].growth(kind)
-        for j, strength in enumerate(CURVE_STRENGTHS):
-            drop = law.drop(strength)
-            closed = law.closed_form(laws[name].history, strength)
-            values[:, i, j] = drop.length, drop.low, drop.high, closed.length
-    length, low, high, closed_form = values
+    values = [[laws[name].lengths(kind, x) for x in CURVE_STRENGTHS] for name, kind in cases]
+    shape = len(cases), CURVE_STRENGTHS.size, 4
+    length, low, high, closed_form = np.moveaxis(np.reshape(values, shape), -1, 0)
     along = ("case", "curve")
     found = xr.Dataset(
         {

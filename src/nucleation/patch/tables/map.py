@@ -67,23 +67,12 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     DatasetError
         If runs differ in anything else: each place of the grid has one.
     """
-    values = [table[name].values for name in AXES]
-    axes = [np.unique(column) for column in values]
-    shape = tuple(axis.size for axis in axes)
-    places = tuple(np.searchsorted(axis, column) for axis, column in zip(axes, values, strict=True))
-    different = np.unique(np.array(places), axis=1)
-    if different.shape[1] < table.sizes["run"]:
+    frame = table.to_dataframe().set_index(list(AXES))
+    if not frame.index.is_unique:
         raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
-    data: dict[str, Any] = {}
-    for name in ON_GRID:
-        grid = np.full(shape, np.nan)
-        grid[places] = table[name].values
-        data[name] = AXES, grid
-    theory = np.full(shape[:2], np.nan)
-    theory[places[:2]] = table["critical_length"].values
-    data["critical_length"] = AXES[:2], theory
-    coordinates = dict(zip(AXES, axes, strict=True))
-    return annotate(xr.Dataset(data, coords=coordinates), COLUMNS)
+    grid = frame[list(ON_GRID)].to_xarray()
+    theory = frame["critical_length"].groupby(level=AXES[:2]).first()
+    return annotate(grid.assign(critical_length=theory.to_xarray()), COLUMNS)
 
 
 def mean_over_seeds(

@@ -5,7 +5,6 @@ in a limit cycle up to L_run, and where it is large the law of the drop holds.
 """
 
 import dataclasses
-import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -178,17 +177,17 @@ def weakening_curves(
         systems.setdefault(key, []).append(run)
     ratios = list(ratios)
     high = []
-    lengths = np.full((len(_OVER_CRITICAL), len(systems), len(ratios)), math.nan)
-    for i, ((_, below, height), own) in enumerate(systems.items()):
+    lengths = []
+    for (_, below, height), own in systems.items():
         longest = max(run["critical_length"] for run in own)
-        high.append(below == "deformable" and height > longest)
+        is_high = below == "deformable" and height > longest
         parameters = Parameters.from_dict(own[0]["parameters"])
-        if high[i]:
+        if is_high:
             parameters = _as_half_spaces(parameters)
-        for j, ratio in enumerate(ratios):
-            lengths[:, i, j] = _over_critical(parameters, ratio)
+        high.append(is_high)
+        lengths.append([_over_critical(parameters, ratio) for ratio in ratios])
     studies, bases, heights = zip(*systems, strict=True)
-    stability, runaway, law = lengths
+    stability, runaway, law = np.moveaxis(np.array(lengths), -1, 0)
     along = ("system", "curve")
     found = xr.Dataset(
         {
