@@ -186,6 +186,19 @@ def shear_stress(
         values: Callable[[Field], tuple[Array, Array]],
         material: Material,
     ) -> Array:
+        """The stress (Pa) in one body.
+
+        Parameters
+        ----------
+        grid : Grid
+            Its mesh.
+        up : float
+            1 if the mesh's y points upwards, else -1.
+        values : callable
+            Displacements (m) along x and y at the nodes.
+        material : Material
+            Its material.
+        """
         along_x, along_y = values(state.displacement)
         along_x_by_y = np.gradient(along_x, up * grid.y, axis=0)
         along_y_by_x = np.gradient(along_y, grid.x, axis=1)

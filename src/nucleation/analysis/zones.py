@@ -72,14 +72,14 @@ def zone_length(
     """
     x = simulation["x"].values
 
-    def width(rates: Array, states: Array) -> float:
+    def _width(rates: Array, states: Array) -> float:
         threshold = definition.share * float(rates.max())
         if definition.between_tips:
             rates = _filled_between_tips(rates)
         begin, end = slipping_zone(x, rates, threshold, periodic=True)
         return (end - begin) / definition.part
 
-    return _when_passing(simulation, slip_rate, width)
+    return _when_passing(simulation, slip_rate, _width)
 
 
 def _filled_between_tips(rates: Array) -> Array:
@@ -118,16 +118,11 @@ def far_ahead(
         stuck there.
     """
 
-    def far_slip_rate(rates: Array, states: Array) -> float:
-        return float(rates[_opposite(rates)])
-
-    def far_state(rates: Array, states: Array) -> float:
-        return float(states[_opposite(rates)])
-
-    rate = _when_passing(simulation, slip_rate, far_slip_rate)
+    rate = _when_passing(simulation, slip_rate, lambda rates, _: rates[_opposite(rates)])
     if not rate > 0.0:  # slip rates of a stuck fault are not recorded
         return math.nan, math.nan
-    return rate, rate * _when_passing(simulation, slip_rate, far_state) / slip_distance
+    state = _when_passing(simulation, slip_rate, lambda rates, states: states[_opposite(rates)])
+    return rate, rate * state / slip_distance
 
 
 def _opposite(rates: Array) -> int:

@@ -183,6 +183,15 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
         length: float,
         x: Array,
     ) -> ComplexArray:
+        """The weights for a front.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        x : ndarray
+            Positions (m).
+        """
         weights = fitted(length)
         return np.interp(x - length, behind, weights, left=0.0, right=0.0)
 

@@ -93,7 +93,19 @@ class Layer:
         rows: Array,
         values: tuple[float, float],
     ) -> Array:
-        """(U, W) for the values of two rows at the interface."""
+        """(U, W) for the values of two rows at the interface.
+
+        Parameters
+        ----------
+        rows : array, shape (2, 2 points)
+            Two of the rows at the interface.
+        values : tuple of float
+            The value that each has.
+
+        Returns
+        -------
+        array, shape (2 points,)
+        """
         equations = np.vstack([self.own, rows])
         return _solve(equations, values)
 

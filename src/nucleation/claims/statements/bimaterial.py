@@ -34,11 +34,10 @@ _STRENGTHENING = (
 
 def _transfer_ratios(component: int) -> Array:
     """G1 (component 0) or G2 (component 1) by collocation over Eq. (7), for all pairs."""
-
-    def by_collocation(psi: float, nu: float, nu2: float) -> tuple[float, float]:
-        return half_spaces(nu, psi, nu2)
-
-    return over_formula(by_collocation, printed.bimaterial_transfer, _PAIRS)[:, component]
+    ratios = over_formula(
+        lambda psi, nu, nu2: half_spaces(nu, psi, nu2), printed.bimaterial_transfer, _PAIRS
+    )
+    return ratios[:, component]
 
 
 def bimaterial_modulus_limit(evidence: Evidence) -> Result:

@@ -116,7 +116,15 @@ class _Law:
         kind: str,
         correlation_length: float = 0.0,
     ) -> Growth:
-        """The mode's growth under one kind of perturbation; 0 is the usual correlation length."""
+        """The mode's growth under one kind of perturbation.
+
+        Parameters
+        ----------
+        kind : str
+            What is perturbed.
+        correlation_length : float
+            Along x (m); 0 is the usual one.
+        """
         key = kind, correlation_length
         if key not in self._known:
             declared = Perturbation(kind=kind)
@@ -126,7 +134,15 @@ class _Law:
         return self._known[key]
 
     def lengths(self, kind: str, strength: float) -> tuple[float, float, float, float]:
-        """Lengths (m) by which the median, 16 and 84 % have dropped, and that of the one line."""
+        """Lengths (m) at the drop: the median, 16 and 84 %, and that of the law in one line.
+
+        Parameters
+        ----------
+        kind : str
+            What is perturbed.
+        strength : float
+            Relative strength of the perturbation.
+        """
         law = self.growth(kind)
         drop = law.drop(strength)
         return drop.length, drop.low, drop.high, law.closed_form(self.history, strength).length
