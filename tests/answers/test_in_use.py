@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 from two_bodies import Body, transfer_functions
 
 from nucleation.answers import formulas
-from nucleation.answers.in_use import LENGTHS, expanding_length, lengths_in_use
+from nucleation.answers.expanding_zone import expanding_length
+from nucleation.answers.in_use import LENGTHS, lengths_in_use
 from nucleation.answers.length import TWO_MATERIALS
 from nucleation.api import Fault
 from nucleation.model.linearised import InterfaceState

@@ -11,13 +11,14 @@ from collections.abc import Iterable, Iterator
 
 import xarray as xr
 
+from ..answers.expanding_zone import expanding_length
 from ..answers.formulas import (
     CRACK_LIMIT,
     LOCALISED_FACTOR,
     LOCALISED_LIMIT,
     between_localised_and_crack,
 )
-from ..answers.in_use import LENGTHS, expanding_length, values_of
+from ..answers.in_use import LENGTHS, values_of
 from ..answers.length import TWO_MATERIALS
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table

@@ -20,6 +20,7 @@ from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length
 from ..theory.of_runs import fault_of_run
+from .options import parameter_options, source_options, together
 from .system_text import system_of_run
 from .uncertainty import ranges_among
 
@@ -41,6 +42,9 @@ def _counts(name: str) -> bool:
 
 COUNTING = tuple(filter(_counts, study_parameters()))
 """The parameters with an effect on the drop, by their names in studies."""
+
+case_options = together(parameter_options(COUNTING, USUAL, ranges=True), source_options)
+"""Options for the runs of a command and for the source of other parameters."""
 
 
 def uncertain_of(given: Mapping[str, Any], samples: Path | None) -> dict[str, Any]:

@@ -19,8 +19,8 @@ from ..theory.arrays import critical_length, reasons_of_stability
 from ..theory.fault import FaultParameters
 from ..theory.of_runs import fault_of_run
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
-from .cases import COUNTING, USUAL, case_of, run_of, system_of_case, uncertain_of
-from .options import draws_option, json_option, parameter_options, samples_option, source_options
+from .cases import USUAL, case_of, case_options, run_of, system_of_case, uncertain_of
+from .options import draws_option, json_option, samples_option
 from .sources import sourced
 from .system_text import plane_in_words
 from .text import Row, show, table, warn, wrapped
@@ -43,8 +43,7 @@ _COMPARED_SLOW = (
 
 
 @click.command("drop", epilog=EXIT_CODES)
-@parameter_options(COUNTING, USUAL, ranges=True)
-@source_options
+@case_options
 @samples_option
 @draws_option(50)
 @json_option

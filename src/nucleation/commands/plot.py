@@ -24,8 +24,8 @@ from ..types import Array
 from . import DONE, EXIT_CODES, STABLE
 from .cases import (
     COUNTING,
-    USUAL,
     case_of,
+    case_options,
     cases_of,
     drawn_from,
     medians_of,
@@ -36,9 +36,7 @@ from .options import (
     draws_option,
     force_option,
     option,
-    parameter_options,
     samples_option,
-    source_options,
 )
 from .pictures import require_picture, save
 from .progress import progress_of
@@ -86,8 +84,7 @@ _OVER = re.compile(r"([\w.-]+)=(.+):(.+)")
     help="a length to draw: L_c, L_s or the length at the drop; may be given several times. All if "
     "left out, and L_c on a map",
 )
-@parameter_options(COUNTING, USUAL, ranges=True)
-@source_options
+@case_options
 @samples_option
 @draws_option(20)
 @force_option

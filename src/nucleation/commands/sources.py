@@ -10,9 +10,9 @@ from ..answers.draws import Range
 from ..configuration.installed import require
 from ..configuration.load import load
 from ..configuration.parameter_files import read_parameters, with_second_body
-from ..configuration.study_names import study_parameters
+from ..configuration.study_names import other_names, study_parameters
 from ..model.own_fault import follows_from
-from ..model.parameters import Parameters, names
+from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES
 from .unit_text import note_typed
@@ -105,18 +105,7 @@ def _of_dataset(path: Path) -> Parameters:
 def keys_of_command() -> list[str]:
     """The parameters among the options of the current command; all parameters without one."""
     context = click.get_current_context(silent=True)
-    declared = study_parameters()
     if context is None:
-        return list(declared)
-    options = [str(option.name) for option in context.command.params]
-    return [name for name in options if name in declared or _is_parameter(name)]
-
-
-def _is_parameter(name: str) -> bool:
-    if name in QUANTITIES:
-        return True
-    try:
-        names().full(name)
-    except ParameterError:
-        return False
-    return True
+        return list(study_parameters())
+    known = {*study_parameters(), *other_names(), *QUANTITIES}
+    return [str(option.name) for option in context.command.params if option.name in known]

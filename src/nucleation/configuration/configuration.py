@@ -2,21 +2,16 @@
 
 import dataclasses
 import difflib
-from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from typing import NamedTuple, TypeVar
 
-from ..analysis.definitions import ExtractionSettings
-from ..model.linearised import InterfaceState
-from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.settings import Curves
-from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import run_problems
 from .refusals import stop_on
 from .role_problems import problems_of_runs
 from .roles import PAPERS
 from .runs import Run, shown
-from .settings import FigureSettings, Limits, StudySettings
+from .settings import Settings
 from .studies import study_runs
 
 _Named = TypeVar("_Named")
@@ -31,27 +26,12 @@ class _Expanded(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True)
-class Configuration:
+class Configuration(Settings):
     """Everything the workflow does.
 
     A study is expanded into its runs when one of them is first used, and the runs are kept.
     Methods that return runs raise a ParameterError with all problems of the study if it has any.
     """
-
-    results: str
-    base: Parameters
-    main_text_interface: InterfaceState
-    curves: Curves
-    extraction: ExtractionSettings
-    figures: FigureSettings
-    limits: Limits
-    crosscheck: CrosscheckSettings
-    studies: dict[str, StudySettings]
-    sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
-    """The section of each study in the configuration."""
-
-    stepping: Collection[str] = ()
-    """The keys in the section ``stepping``."""
 
     _kept: dict[str, _Expanded] = dataclasses.field(
         default_factory=dict,

@@ -1,12 +1,16 @@
 """Settings beside the simulations' parameters: of studies, of figures, and limits."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Self
 
+from ..analysis.definitions import ExtractionSettings
 from ..model.checked import Checked
+from ..model.linearised import InterfaceState
 from ..model.parameters import Parameters
 from ..model.quantities import quantity
+from ..theory.settings import Curves
+from ..verification.crosscheck.plan import CrosscheckSettings
 from .roles import OWN, ROLES
 
 
@@ -80,6 +84,26 @@ class Limits(Checked):
     runtime: float = quantity(
         "time after which a cluster may end a simulation", "[1.0, 1e5] min", default=60.0
     )
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """All settings of the workflow, and the sections of its studies."""
+
+    results: str
+    base: Parameters
+    main_text_interface: InterfaceState
+    curves: Curves
+    extraction: ExtractionSettings
+    figures: FigureSettings
+    limits: Limits
+    crosscheck: CrosscheckSettings
+    studies: dict[str, StudySettings]
+    sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
+    """The section of each study in the configuration."""
+
+    stepping: Collection[str] = ()
+    """The keys in the section ``stepping``."""
 
 
 def estimated_megabytes(parameters: Parameters) -> float:

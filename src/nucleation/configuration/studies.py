@@ -1,13 +1,11 @@
 """Studies: named sets of simulations over lists or ranges of parameters, one `Run` for each."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
@@ -16,10 +14,8 @@ from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, critical_lengths, run_length
 from ..theory.estimates import growth_time
 from .runs import Run
+from .settings import Settings
 from .study_names import by_study_name, expand, identifier
-
-if TYPE_CHECKING:
-    from .configuration import Configuration
 
 _LATEST_END = 1.5
 """Default end of a run over the estimated time until the critical length."""
@@ -44,14 +40,14 @@ class _Prepared(NamedTuple):
     values: dict[str, Any]  # all values that the study gives
 
 
-def study_runs(name: str, configuration: Configuration) -> Iterator[tuple[_Place, Run | str]]:
+def study_runs(name: str, configuration: Settings) -> Iterator[tuple[_Place, Run | str]]:
     """The runs of a study.
 
     Parameters
     ----------
     name : str
         The study's name.
-    configuration : Configuration
+    configuration : Settings
         With the study's section. If neither the section ``stepping`` nor the study has an end time,
         it follows from the theory's estimate of the event's time.
 
@@ -124,7 +120,7 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
     return batches
 
 
-def _prepared(name: str, parts: _Parts, configuration: Configuration) -> _Prepared:
+def _prepared(name: str, parts: _Parts, configuration: Settings) -> _Prepared:
     """A run from its values."""
     of_study, of_entry, own = map(by_study_name, parts)
     values = of_study | of_entry | own
@@ -135,7 +131,7 @@ def _prepared(name: str, parts: _Parts, configuration: Configuration) -> _Prepar
 def fault_of(
     study: str,
     values: dict[str, Any],
-    configuration: Configuration,
+    configuration: Settings,
 ) -> tuple[Parameters, InterfaceState]:
     """The fault with values of a study.
 
@@ -145,7 +141,7 @@ def fault_of(
         The study's name.
     values : dict
         Values by the standard names of parameters.
-    configuration : Configuration
+    configuration : Settings
         With values of the parameters that the study does not set.
 
     Returns
@@ -186,7 +182,7 @@ def _run(
     prepared: _Prepared,
     critical: float,
     batch: str,
-    configuration: Configuration,
+    configuration: Settings,
 ) -> Run:
     """One run; its length, unless given, is a multiple of the theory's critical length (m)."""
     settings = configuration.studies[study]

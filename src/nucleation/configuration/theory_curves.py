@@ -5,8 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..theory.critical import critical_lengths
-from .configuration import Configuration
 from .runs import Run, varied
+from .settings import Settings
 from .studies import fault_of
 from .study_names import study_parameters
 
@@ -18,7 +18,7 @@ _Curve = dict[str, list[float]]
 
 def theory_curves(
     runs: list[Run],
-    configuration: Configuration,
+    configuration: Settings,
 ) -> dict[str, _Curve]:
     """The theory's length over the one number that a study varies, closely spaced.
 
@@ -26,7 +26,7 @@ def theory_curves(
     ----------
     runs : list of Run
         Runs of one study.
-    configuration : Configuration
+    configuration : Settings
         With the study.
 
     Returns
