@@ -14,7 +14,7 @@ import pytest
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch.frozen import Freezer
-from nucleation.simulation.patch import Extent
+from nucleation.simulation.patch import slipping_edge
 from nucleation.simulation.run import composed, run
 from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
 from nucleation.theory.creep.front import advance, oscillating
@@ -84,9 +84,10 @@ def twins(shares, kick=KICK):
     """Twins of the run, each followed to its end."""
     threshold = ExtractionSettings().edge_threshold * PARAMETERS.loading.velocity
     freezer = Freezer(PARAMETERS, threshold)
-    extent, waiting, active, found = Extent(freezer.grid.x, threshold), [*shares], [], []
+    length, waiting, active, found = 0.0, [*shares], [], []
     for instant in run(PARAMETERS):
-        length = extent.reach(instant.report.interface.slip_rate)
+        rate = instant.report.interface.slip_rate
+        length = max(length, float(slipping_edge(freezer.grid.x, rate, threshold)))
         for twin in active:
             twin.advance(instant, length)
         active = [twin for twin in active if instant.state.time < twin.end]

@@ -154,34 +154,3 @@ def patch_lengths(
     periodic = kind == "remote"
     zones = [slipping_zone(x, rate, threshold, periodic) for rate in slip_rates]
     return np.array([end - begin for begin, end in zones])
-
-
-class Extent:
-    """Length of the patch during a run, updated from one instant to the next.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    threshold : float
-        Slip rate (m/s) at the edge of the patch.
-    kind : str
-        Kind of the loading.
-    """
-
-    def __init__(
-        self,
-        x: Array,
-        threshold: float,
-        kind: str = "edge",
-    ) -> None:
-        self._x = x
-        self._threshold = threshold
-        self._kind = kind
-        self.length = 0.0  # m
-
-    def reach(self, slip_rate: Array) -> float:
-        """Update the length (m) by the slip rates (m/s) at the nodes, and return it."""
-        (now,) = patch_lengths(self._kind, self._x, slip_rate[None], self._threshold)
-        self.length = max(self.length, float(now))
-        return self.length

@@ -17,10 +17,11 @@ from ..fem.grid import Grid
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..theory.critical import NoInstability, run_length
+from ..types import Array
 from . import run
 from .control import Instant, SimulationFailure
 from .event import SLIPPING, Outcome
-from .patch import Extent
+from .patch import patch_lengths
 
 PAUSE = 10.0  # s of wall time between the lines of a log
 PAUSE_ON_TERMINAL = 0.2
@@ -55,8 +56,9 @@ class Progress:
         name: str = "",
     ) -> None:
         loading = parameters.loading
-        x = Grid.of(parameters.geometry, parameters.mesh).x
-        self._patch = Extent(x, SLIPPING * loading.velocity, loading.kind)
+        self._loading = loading
+        self._x = Grid.of(parameters.geometry, parameters.mesh).x
+        self._length = 0.0  # m, of the patch
         self._end = parameters.stepping.end_time
         self._critical_length = math.inf  # if sliding is stable by the theory
         with contextlib.suppress(NoInstability):
@@ -83,7 +85,7 @@ class Progress:
         self._next = now + self._pause
         state, control = instant.state, instant.control
         rate = instant.report.interface.slip_rate
-        length = self._patch.reach(rate)
+        length = self._reached(rate)
         done = int(100.0 * self.part_done(state.time, length))
         speed = self._speed(control.steps, now)
         text = (
@@ -125,6 +127,13 @@ class Progress:
         by_time = simulated / self._end
         self._part = min(max(self._part, by_time, by_length), 1.0)
         return self._part
+
+    def _reached(self, slip_rate: Array) -> float:
+        """Largest length (m) of the patch so far, with the slip rates (m/s) of this step."""
+        edge = SLIPPING * self._loading.velocity
+        (now,) = patch_lengths(self._loading.kind, self._x, slip_rate[None], edge)
+        self._length = max(self._length, float(now))
+        return self._length
 
     def close(self) -> None:
         """Remove the bar."""
