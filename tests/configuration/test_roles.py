@@ -1,7 +1,6 @@
 """What studies are for: roles with their requirements, and names that say nothing."""
 
 import copy
-import re
 
 import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
@@ -96,9 +95,9 @@ def test_figures_stand_on_roles_that_there_are():
     assert catalogue.drawable(found) == list(catalogue.FIGURES)
 
 
-def test_page_names_every_role_and_the_schema_has_its_purpose():
-    page = DOCS.read_text("utf-8").partition("## What a study is for")[2].partition("\n## ")[0]
-    assert set(re.findall(r"`(\w+)`", page)) >= set(ROLES)
+def test_the_schema_has_the_purpose_of_every_role():
+    """The page of studies refers to it."""
+    assert "`make schema`" in DOCS.read_text("utf-8")
     description = build()["$defs"]["study"]["properties"]["role"]["description"]
     for name, role in ROLES.items():
         assert f"{name}: {role.purpose}" in description, name
