@@ -44,7 +44,7 @@ CORE = named(PROJECT["dependencies"])
 BEYOND = {
     "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
     "pipeline": "workflow",
-    "figures": "figures", "commands/show.py": "figures", "commands/plot.py": "figures",
+    "figures": "figures", "commands/pictures.py": "figures",
     "analysis": "solver", "fem": "solver",
     "simulation": "solver", "verification": "solver", "claims/table.py": "solver",
 }  # fmt: skip
