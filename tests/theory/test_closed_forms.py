@@ -13,7 +13,7 @@ from nucleation.theory.closed_forms import (
     bimaterial_length_ratio,
     thin_limit_length,
 )
-from nucleation.theory.critical import NoInstability
+from nucleation.theory.status import NoLength
 
 SOFT, STIFF = Material(3.1e9, 1 / 3), Material(9.3e9, 0.2)
 INTERFACE = InterfaceState()
@@ -119,5 +119,5 @@ def test_thin_limit():
 
 
 def test_velocity_strengthening_is_refused():
-    with pytest.raises(NoInstability, match="zeta"):
+    with pytest.raises(NoLength, match="zeta"):
         thin_limit_length(0.1, SOFT, dataclasses.replace(INTERFACE, zeta=-0.001))

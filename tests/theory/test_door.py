@@ -15,7 +15,7 @@ from nucleation.api import (
     stability_length,
 )
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.values import FLOORS, QUANTITIES
+from nucleation.theory.values import QUANTITIES
 
 FAULT = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
@@ -67,7 +67,7 @@ MORE = {
 
 
 @pytest.mark.filterwarnings("ignore::nucleation.model.plausible.ImplausibleWarning")
-@pytest.mark.parametrize("name", FLOORS)
+@pytest.mark.parametrize("name", [name for name, entry in QUANTITIES.items() if entry.low > 0.0])
 def test_the_least_value_of_each_parameter_has_an_answer(name):
     entry = QUANTITIES[name]
     more = MORE.get(name, {})

@@ -11,7 +11,7 @@ from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
-from ..theory.status import UNKNOWN, VALUE
+from ..theory.status import UNKNOWN, VALUE, NoLength
 from ..types import Array
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
@@ -154,7 +154,7 @@ def _stability(run: Row) -> Row:
 
     Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
     """
-    from ..theory.creep.lengths import NoPatch, Patches, stability_point  # with SciPy, takes long
+    from ..theory.creep.lengths import Patches, stability_point  # with SciPy, takes long
 
     parameters = Parameters.from_dict(run["parameters"])
     length, status = float("nan"), UNKNOWN
@@ -163,7 +163,7 @@ def _stability(run: Row) -> Row:
         try:
             length = stability_point(Patches.of(parameters), run["critical_length"]).length
             status = VALUE
-        except NoPatch as none:
+        except NoLength as none:
             status = none.status
     return {"stability_length": length, "stability_status": status}
 

@@ -20,7 +20,8 @@ from ..configuration.installed import require
 from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, run_length
+from ..theory.critical import run_length
+from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
 from .options import json_option
 from .pictures import require_picture, save
@@ -141,7 +142,7 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     try:
         theory = run_length(parameters, interface)
         theory_text = f"{theory:.4g} m, of the friction law expanded at V"
-    except NoInstability as error:
+    except NoLength as error:
         theory = math.nan
         theory_text = f"no critical length: {error}"
     duration = float(dataset["step_time"][-1])

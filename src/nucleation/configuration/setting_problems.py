@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 from ..model.linearised import linearised, not_rounded_from
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, modes_on_rigid_base
+from ..theory.critical import modes_on_rigid_base
+from ..theory.status import NoLength
 from ..verification.crosscheck.plan import runs as crosscheck_runs
 from .configuration import Configuration
 from .contradictions import memory_problems
@@ -23,7 +24,7 @@ def setting_problems(settings: Configuration) -> Iterator[str]:
     try:
         for height in (min(heights), max(heights)):
             modes_on_rigid_base(height, base.material, interface)
-    except NoInstability as error:
+    except NoLength as error:
         yield (
             f"main_text_interface: zeta = {interface.zeta:g} with a = {interface.a:g} is not "
             f"allowed: the theory's curve needs an instability at H = {height:g} m; {error}"
@@ -31,7 +32,7 @@ def setting_problems(settings: Configuration) -> Iterator[str]:
         return
     try:
         runs = crosscheck_runs(base, settings.crosscheck, interface)
-    except (ParameterError, NoInstability) as error:
+    except (ParameterError, NoLength) as error:
         yield f"crosscheck: {error}"
         return
     for run in runs.values():

@@ -11,8 +11,9 @@ from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, critical_lengths, run_length
+from ..theory.critical import critical_lengths, run_length
 from ..theory.estimates import growth_time
+from ..theory.status import NoLength
 from .runs import Run
 from .settings import Settings
 from .study_names import by_study_name, expand, identifier
@@ -223,7 +224,7 @@ def _reason_of_stability(prepared: _Prepared) -> str:
     """Why the theory has no critical length."""
     try:
         run_length(prepared.parameters, prepared.interface)
-    except NoInstability as error:
+    except NoLength as error:
         return str(error)
     return "the theory has no critical length"
 

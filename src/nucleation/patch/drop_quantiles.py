@@ -11,9 +11,9 @@ from scipy.special import ndtri
 from ..answers.uncertainty import table_of_quantiles, with_never
 from ..model.linearised import interface_state
 from ..model.parameters import Parameters
-from ..theory.creep.lengths import NoPatch, Patches, stability_point
-from ..theory.critical import NoInstability, run_length
-from ..theory.status import VALUE
+from ..theory.creep.lengths import Patches, stability_point
+from ..theory.critical import run_length
+from ..theory.status import VALUE, NoLength
 from .expected_drop import ExpectedDrop, NoDrop, expected_drop
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def _answer(length: Callable[..., float], *arguments: Any) -> _Answer:
     """The length (m) that a function has for some arguments, or why there is none."""
     try:
         return _Answer(length(*arguments), VALUE)
-    except (NoInstability, NoPatch, NoDrop) as none:
+    except (NoLength, NoDrop) as none:
         return _Answer(np.nan, none.status, str(none))
 
 

@@ -10,10 +10,10 @@ import numpy as np
 from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import stability_length_of
-from ..theory.creep.patches import NoPatch, Patches
+from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import ERROR, runaway_point
-from ..theory.critical import NoInstability, run_length
-from ..theory.status import UNKNOWN, VALUE
+from ..theory.critical import run_length
+from ..theory.status import UNKNOWN, VALUE, NoLength
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -130,7 +130,7 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     try:
         critical = run_length(parameters, interface_state(parameters))
         history = mode_history(parameters, critical)
-    except (NoInstability, NoPatch) as error:
+    except NoLength as error:
         raise NoDrop(str(error), error.status) from None
     found = growth(history, declared)
     stable = stability_length_of(parameters, critical)
@@ -167,7 +167,7 @@ def _runaway_length(
         patches = dataclasses.replace(patches, law=None)
     try:
         length = runaway_point(patches, critical)
-    except NoPatch as none:
+    except NoLength as none:
         return math.nan, none.status, str(none)
     return length, VALUE, ""
 

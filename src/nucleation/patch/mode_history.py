@@ -27,9 +27,9 @@ from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, oscillating
 from ..theory.creep.front_onset import first_growing
 from ..theory.creep.linearised import local_coefficients
-from ..theory.creep.patches import NoPatch, Patches
+from ..theory.creep.patches import Patches
 from ..theory.creep.steady import edge_slip
-from ..theory.status import STABLE
+from ..theory.status import STABLE, NoLength
 from ..types import Array, ComplexArray
 
 FIRST, LAST = 0.8, 1.7  # lengths over L_s that are followed
@@ -80,12 +80,12 @@ def mode_history(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If no patch of the lengths tried turns unstable, its creep opens the fault, or the mode
         oscillates in too few of them.
     """
     if not np.isfinite(critical_length):
-        raise NoPatch("homogeneous sliding is stable", STABLE)
+        raise NoLength("homogeneous sliding is stable", STABLE)
     patches, loading = Patches.of(parameters), parameters.loading
     initial_stress = loading.initial_shear_stress / loading.normal_stress
     stable = first_growing(patches, critical_length, loading.initial_state, initial_stress)
@@ -98,7 +98,7 @@ def mode_history(
             break
         lengths = _narrower(lengths, known, stable)
     else:
-        raise NoPatch(
+        raise NoLength(
             f"growth begins at a patch length of {stable:.4g} m, and the mode does not oscillate "
             "long enough around it to determine its growth"
         )

@@ -44,10 +44,6 @@ _SHOWN_PROBLEMS = 5
 _Members = dict[str, tarfile.TarInfo]
 
 
-class BundleError(Exception):
-    """An archive can't be written, or is damaged or foreign."""
-
-
 def write(archive: Path, configuration: Path | None, directory: Path = Path()) -> int:
     """Write an archive of the shown results of a configuration.
 
@@ -67,18 +63,18 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
 
     Raises
     ------
-    BundleError, StoreError
+    StoreError
         If the archive exists already, there are no results, or one of them is damaged.
     """
     configured = [configuration] if configuration else DEFAULTS
     results = directory / load(*configured, lazy=True).results
     if archive.exists():
-        raise BundleError(f"{archive} exists already: remove it or give another name")
+        raise StoreError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
     recipes = _stored_recipes(store)
     entries, digests = _packed_entries(store, {recipe.key for recipe in recipes})
     if not entries:
-        raise BundleError(f"there are no results in {results}: make them first")
+        raise StoreError(f"there are no results in {results}: make them first")
     copies = _packed_copies(results, recipes, digests)
     packed = dict(zip(_CONFIGURATION, configured, strict=False))
     packed |= copies
@@ -160,19 +156,19 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
 
     Raises
     ------
-    BundleError
+    StoreError
         If the archive is damaged or foreign; then nothing is written.
     """
     place = Path(os.path.normpath(directory.resolve() / results / "store"))
     if place.resolve() != place:
-        raise BundleError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
+        raise StoreError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
     with contextlib.ExitStack() as stack:
         try:
             # without compression, so that it can't hold more than its own size
             tar = stack.enter_context(tarfile.open(archive, "r:"))
             entries = _entries(tar)
         except (tarfile.TarError, EOFError, *BAD) as error:
-            raise BundleError(f"{archive} is damaged or no archive of results: {error}") from None
+            raise StoreError(f"{archive} is damaged or no archive of results: {error}") from None
         store = Store(place)
         new = {key: files for key, files in entries.items() if store.note(key) is None}
         for key, files in new.items():
@@ -255,7 +251,7 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo]) -> None:
         shown = "".join(problems[:_SHOWN_PROBLEMS])
         hidden = len(problems) - _SHOWN_PROBLEMS
         more = f", and {hidden} more" if hidden > 0 else ""
-        raise BundleError(f"nothing is written, as this is foreign:{shown}{more}")
+        raise StoreError(f"nothing is written, as this is foreign:{shown}{more}")
 
 
 def _problem(member: tarfile.TarInfo) -> str | None:
@@ -293,5 +289,5 @@ def main(command: str, archive: str, configuration: str = "") -> None:
 if __name__ == "__main__":
     try:
         main(*sys.argv[1:])
-    except (BundleError, ValueError, OSError) as error:
+    except (ValueError, OSError) as error:
         sys.exit(str(error))

@@ -16,7 +16,8 @@ from tqdm import tqdm
 from ..fem.grid import Grid
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
-from ..theory.critical import NoInstability, run_length
+from ..theory.critical import run_length
+from ..theory.status import NoLength
 from ..types import Array
 from . import run
 from .control import Instant, SimulationFailure
@@ -61,7 +62,7 @@ class Progress:
         self._length = 0.0  # m, of the patch
         self._end = parameters.stepping.end_time
         self._critical_length = math.inf  # if sliding is stable by the theory
-        with contextlib.suppress(NoInstability):
+        with contextlib.suppress(NoLength):
             interface = linearised(parameters.friction, loading)
             self._critical_length = run_length(parameters, interface)
         self._stream = stream

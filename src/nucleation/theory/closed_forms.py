@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from .critical import NoInstability
 from .crossings import marginal_stiffness
+from .status import STABLE, NoLength
 from .stiffness import Array
 
 
@@ -98,13 +98,14 @@ def thin_limit_length(
 
     Raises
     ------
-    NoInstability
+    NoLength
         Unless ``zeta > 0``.
     """
     if interface.zeta <= 0.0:
-        raise NoInstability(
+        raise NoLength(
             f"zeta = {interface.zeta:g} is not positive: "
-            "without velocity weakening a thin layer slides stably"
+            "without velocity weakening a thin layer slides stably",
+            STABLE,
         )
     modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
     weakening_length = interface.slip_length / (interface.zeta * interface.normal_stress)

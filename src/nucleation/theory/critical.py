@@ -17,17 +17,11 @@ from ..model.parameters import Parameters
 from .crossings import largest_crossings, marginal_frequencies
 from .of_runs import Case, blocks_on_rigid_base, far_sides, systems_of
 from .spectrum import Systems
-from .status import STABLE
+from .status import STABLE, NoLength
 from .stiffness import Array
 
 _Distinct = tuple[Any, ...]
 """All parameters on which the system of a run depends."""
-
-
-class NoInstability(ValueError):
-    """Homogeneous sliding is stable at every wavenumber: there is no critical length."""
-
-    status = STABLE
 
 
 class CriticalMode(NamedTuple):
@@ -70,11 +64,11 @@ def critical_modes(systems: Systems) -> CriticalMode:
 
 
 def unstable_modes(systems: Systems) -> CriticalMode:
-    """The same; raises NoInstability with the reason if one of the systems is stable."""
+    """The same; raises NoLength with the reason if one of the systems is stable."""
     found = critical_modes(systems)
     stable = np.flatnonzero(np.isnan(found.wavenumber))
     if stable.size:
-        raise NoInstability(stability_reason(systems.at(stable[:1])))
+        raise NoLength(stability_reason(systems.at(stable[:1])), STABLE)
     return found
 
 
@@ -154,7 +148,7 @@ def modes_on_rigid_base(
 
     Raises
     ------
-    NoInstability
+    NoLength
         If sliding is stable at one of the heights.
     """
     found = unstable_modes(blocks_on_rigid_base(material, np.ravel(height), interface))
@@ -182,7 +176,7 @@ def run_length(
 
     Raises
     ------
-    NoInstability
+    NoLength
         If sliding is stable at every wavenumber.
     """
     return float(unstable_modes(systems_of([(parameters, interface)])).length[0])

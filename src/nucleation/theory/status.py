@@ -16,3 +16,19 @@ UNKNOWN = "unknown"
 """The theory or the formula does not apply to this fault."""
 
 STATUSES = (VALUE, STABLE, BEYOND, UNKNOWN)
+
+
+class NoLength(ValueError):
+    """There is no such length of this fault.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        The kind of reason.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
+        super().__init__(reason)
+        self.status = status

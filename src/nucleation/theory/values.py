@@ -32,97 +32,69 @@ Numbers: TypeAlias = "Array | xr.DataArray"
 Conditions: TypeAlias = "bool | NDArray[np.bool_] | xr.DataArray"
 """Where something holds of such parameters."""
 
-FLOORS = {
-    "shear_modulus": 1e-9,
-    "second_shear_modulus": 1e-9,
-    "normal_stress": 1e-6,
-    "a": 1e-12,
-    "slip_distance": 1e-15,
-    "height": 1e-12,
-    "second_height": 1e-12,
-    "zone_thickness": 1e-12,
-    "zone_shear_modulus": 1e-9,
-    "velocity": 1e-30,
-}
-"""Lower bounds (SI units) of the positive parameters: far below any known value, and computable."""
-
 
 def _declared() -> dict[str, Quantity]:
-    """Unit, range and meaning of each parameter, from its declaration in the model."""
+    """Unit, range and meaning of each parameter, from its declaration in the model.
+
+    Positive parameters begin at a value far below any known one, so that all is computable.
+    """
     material = declarations(Material)
     interface = declarations(InterfaceState)
-    height = declared("height of the body (inf: half-space)", "(0.0, inf] m", symbol="H")
+    friction = declarations(Friction)
+    replace = dataclasses.replace
+    modulus = replace(material["shear_modulus"], low=1e-9, closed="low")
+    ratio = material["poisson_ratio"]
+    height = declared("height of the body (inf: half-space)", "[1e-12, inf] m", symbol="H")
     far_side = Quantity(
         "condition on the side away from the interface: velocity (u_x and sigma_yy imposed), "
         "traction or free (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "
         "roller (u_y and sigma_xy imposed)",
         choices=tuple(FAR_SIDES),
     )
-    second_modulus = dataclasses.replace(
-        material["shear_modulus"],
-        closed="high",
-        high=math.inf,
-        description="shear modulus of the second body (inf: rigid)",
-    )
-    zone_thickness = dataclasses.replace(
-        height,
-        symbol="h",
-        description="thickness of a zone of other stiffness on each side of the fault",
-    )
-    zone_modulus = dataclasses.replace(
-        material["shear_modulus"],
-        symbol="mu_z",
-        description="shear modulus of the zone beside the fault",
-    )
-    zone_ratio = dataclasses.replace(
-        material["poisson_ratio"],
-        symbol="nu_z",
-        description="Poisson's ratio of the zone beside the fault",
-    )
-    b = dataclasses.replace(
-        interface["a"],
-        symbol="b",
-        description="coefficient b = a + zeta of the log of the state",
-    )
-    found = {
-        "shear_modulus": material["shear_modulus"],
-        "poisson_ratio": material["poisson_ratio"],
+    return {
+        "shear_modulus": modulus,
+        "poisson_ratio": ratio,
         "height": height,
-        "normal_stress": interface["normal_stress"],
-        "a": interface["a"],
+        "normal_stress": replace(interface["normal_stress"], low=1e-6, closed="low"),
+        "a": replace(interface["a"], low=1e-12, closed="low"),
         "zeta": interface["zeta"],
         "friction": interface["friction"],
-        "velocity": interface["velocity"],
-        "b": b,
-        "slip_distance": declarations(Friction)["slip_distance"],
-        "second_shear_modulus": second_modulus,
-        "second_poisson_ratio": material["poisson_ratio"],
+        "velocity": replace(interface["velocity"], low=1e-30, closed="low"),
+        "b": replace(
+            interface["a"],
+            symbol="b",
+            description="coefficient b = a + zeta of the log of the state",
+        ),
+        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="low"),
+        "second_shear_modulus": replace(
+            modulus,
+            closed="both",
+            high=math.inf,
+            description="shear modulus of the second body (inf: rigid)",
+        ),
+        "second_poisson_ratio": ratio,
         "second_height": height,
         "far_side": far_side,
         "second_far_side": far_side,
-        "zone_thickness": zone_thickness,
-        "zone_shear_modulus": zone_modulus,
-        "zone_poisson_ratio": zone_ratio,
+        "zone_thickness": replace(
+            height,
+            symbol="h",
+            description="thickness of a zone of other stiffness on each side of the fault",
+        ),
+        "zone_shear_modulus": replace(
+            modulus, symbol="mu_z", description="shear modulus of the zone beside the fault"
+        ),
+        "zone_poisson_ratio": replace(
+            ratio, symbol="nu_z", description="Poisson's ratio of the zone beside the fault"
+        ),
         "plane": material["plane"],
-        "loading": dataclasses.replace(
+        "loading": replace(
             declarations(Loading)["kind"],
             description="start of the creeping patch: an edge that is pushed, a free side under a "
             "top that moves, or the interior under a remote load",
         ),
-        "evolution": declarations(Friction)["evolution"],
+        "evolution": friction["evolution"],
     }
-    return {name: _bounded(name, entry) for name, entry in found.items()}
-
-
-def _bounded(
-    name: str,
-    entry: Quantity,
-) -> Quantity:
-    """The declaration with a range that begins at the parameter's floor, if it has one."""
-    if name not in FLOORS:
-        return entry
-    closed = "both" if entry.closed in ("high", "both") else "low"
-    return dataclasses.replace(entry, low=FLOORS[name], closed=closed)
 
 
 QUANTITIES = _declared()
@@ -231,6 +203,6 @@ def inside(
     ndarray
         Of bool, same shape.
     """
-    low = values >= entry.low if entry.closed in ("low", "both") else values > entry.low
-    high = values <= entry.high if entry.closed in ("high", "both") else values < entry.high
+    low = values >= entry.low if entry.includes_low else values > entry.low
+    high = values <= entry.high if entry.includes_high else values < entry.high
     return low & high

@@ -19,13 +19,13 @@ from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Parameters
 from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep.lengths import (
-    NoPatch,
     Patches,
     stability_answers,
     stability_length_of,
     stability_point,
 )
 from nucleation.theory.critical import run_length
+from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 FAULT = {
@@ -127,7 +127,7 @@ def test_scales_of_friction_near_the_velocity():
 
 def test_no_patch():
     assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
-    with pytest.raises(NoPatch, match="stable"):
+    with pytest.raises(NoLength, match="stable"):
         stability_point(Patches.of(Parameters()), np.nan)
     with pytest.raises(ParameterError, match=r"loading = 'side' .* one of edge, top"):
         stability_length(**FAULT, height=0.1, zeta=0.01, loading="side")

@@ -8,7 +8,8 @@ from configurations import CONFIG, papers
 from nucleation.theory.creep import front
 from nucleation.theory.creep.front import advance
 from nucleation.theory.creep.front_onset import first_growing
-from nucleation.theory.creep.lengths import NoPatch, Patches
+from nucleation.theory.creep.lengths import Patches
+from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 RUNS = {run.id: run for run in papers().runs}
@@ -95,5 +96,5 @@ def test_the_older_the_interface_the_later():
 
 def test_no_patch_grows():
     run = RUNS["converged-aging-H0.1-phi1-seed1"]
-    with pytest.raises(NoPatch, match="no patch up to"):
+    with pytest.raises(NoLength, match="no patch up to"):
         first_growing(Patches.of(run.parameters), 0.05, 1.0)

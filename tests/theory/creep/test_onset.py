@@ -15,9 +15,10 @@ from nucleation.model.parameters import Geometry, Parameters
 from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep import front, front_onset, lengths
 from nucleation.theory.creep.front_onset import first_growing
-from nucleation.theory.creep.lengths import NoPatch, Patches, stability_point
+from nucleation.theory.creep.lengths import Patches, stability_point
 from nucleation.theory.critical import run_length
 from nucleation.theory.crossings import largest_crossings
+from nucleation.theory.status import NoLength
 
 DIRECT = 1e-4  # a of the faults below
 SOFTNESS = 3e9 * 1e-6 / 1e6  # mu D/sigma0 (m)
@@ -161,5 +162,5 @@ def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
 def test_no_patch_up_to_the_longest(monkeypatch):
     patches, critical = patches_of(fault(1.0, 1.0, "identical"))
     monkeypatch.setattr(lengths, "LONGEST", 0.3)
-    with pytest.raises(NoPatch, match=r"no patch up to 0\.3 L_c = .* m has a growing mode"):
+    with pytest.raises(NoLength, match=r"no patch up to 0\.3 L_c = .* m has a growing mode"):
         stability_point(patches, critical)

@@ -21,7 +21,7 @@ from ...model.identity import fault
 from ...model.parameters import Parameters
 from ...model.perturbation import Perturbation
 from ...theory.creep.lengths import stability_length_of
-from ...theory.creep.patches import NoPatch
+from ...theory.status import NoLength
 from ..delay import Growth, growth
 from ..mode_history import ModeHistory, mode_history
 
@@ -246,7 +246,7 @@ def _laws(runs: Iterable[Row]) -> dict[str, _Law]:
     laws = {}
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
-        with contextlib.suppress(NoPatch):
+        with contextlib.suppress(NoLength):
             critical = run["critical_length"]
             history = mode_history(parameters, critical)
             laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))

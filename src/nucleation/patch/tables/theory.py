@@ -21,8 +21,9 @@ from ...theory.closed_forms import bimaterial_contrast
 from ...theory.creep.front import advance, oscillating
 from ...theory.creep.front_onset import first_growing
 from ...theory.creep.lengths import stability_point
-from ...theory.creep.patches import NoPatch, Patches
+from ...theory.creep.patches import Patches
 from ...theory.creep.thin import thin_limit
+from ...theory.status import NoLength
 from ..growth import FITTED
 
 COLUMNS = {
@@ -144,7 +145,7 @@ def _row(
         made = advance(patches, [row["front_length"]], *start)
         row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time
         row["front_time"] = float(made.time[0])
-    except NoPatch:
+    except NoLength:
         pass
     return row
 

@@ -21,9 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from ...types import Array
+from ..status import NoLength
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import mirror_modes
-from .patches import NoPatch, Patches, require_contact
+from .patches import Patches, require_contact
 from .response import MORE_MODES, response
 from .steady import Creep, EdgeSlip, edge_slip
 
@@ -205,11 +206,13 @@ def advance(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If the creep removes all of the compression somewhere, or no edge is pushed.
     """
     if patches.loading != "edge":
-        raise NoPatch("only a patch that is pushed at its edge has a theory of the advancing front")
+        raise NoLength(
+            "only a patch that is pushed at its edge has a theory of the advancing front"
+        )
     length = np.atleast_1d(np.asarray(lengths, dtype=float))
     front = _Front(patches, length, initial_state, initial_stress, number)
     for _ in range(ROUNDS):

@@ -7,9 +7,9 @@ from numpy.typing import ArrayLike
 
 from ...types import Array
 from ..bisection import bisected
-from ..status import BEYOND
+from ..status import BEYOND, NoLength
 from .front import Advance, advance, fastest, oscillating
-from .patches import NoPatch, Patches
+from .patches import Patches
 
 SHORTEST = 0.3  # where the search for L_s starts, over L_c
 TRIED = 14  # number of patches that are tried
@@ -50,7 +50,7 @@ def first_growing(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If no patch of these lengths has a growing mode, or its creep opens the fault.
     """
 
@@ -82,14 +82,14 @@ def _bracket(
             break
     else:
         longest = lengths[-1]
-        raise NoPatch(
+        raise NoLength(
             f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
             BEYOND,
         )
     i = int(np.argmax(growing))
     if i == 0:
         first = lengths[0] / critical
-        raise NoPatch(f"a mode of the patch grows at {first:.2g} L_c already, or before")
+        raise NoLength(f"a mode of the patch grows at {first:.2g} L_c already, or before")
     low, high = lengths[i - 1 : i + 1]
     return low, high, oscillating(found)[i - 1 : i + 1].real
 

@@ -29,9 +29,9 @@ from ..arrays import fault_of, named
 from ..crossings import largest_crossings
 from ..fault import FaultParameters, takes_fault
 from ..spectrum import Systems
-from ..status import BEYOND, STABLE, VALUE
+from ..status import BEYOND, STABLE, VALUE, NoLength
 from ..values import Values
-from .patches import NoPatch, Patches
+from .patches import Patches
 from .response import extrapolation_error
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
@@ -70,12 +70,12 @@ def stability_point(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its
         creep opens the fault.
     """
     if not math.isfinite(critical):
-        raise NoPatch("homogeneous sliding is stable", STABLE)
+        raise NoLength("homogeneous sliding is stable", STABLE)
 
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
@@ -90,7 +90,7 @@ def stability_point(
         low = high
         high += step
         if low > longest:
-            raise NoPatch(
+            raise NoLength(
                 f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
                 BEYOND,
             )
@@ -197,7 +197,7 @@ def stability_answers(fault: FaultParameters) -> tuple[Any, Any, Any, Any, Any]:
                 patches = _with_law(patches, law)
             try:
                 point = stability_point(patches, float(length))
-            except NoPatch as none:
+            except NoLength as none:
                 found[3:, i] = none.status, str(none)
                 continue
             found[:, i] = point.length, point.frequency, point.error, VALUE, ""
@@ -259,5 +259,5 @@ def stability_length_of(
         patches = dataclasses.replace(patches, law=None)
     try:
         return stability_point(patches, critical).length
-    except NoPatch:
+    except NoLength:
         return math.nan

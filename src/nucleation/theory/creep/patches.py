@@ -13,26 +13,10 @@ from ...model.parameters import Parameters
 from ..estimates import loading_rate
 from ..of_runs import systems_of
 from ..spectrum import Systems
-from ..status import UNKNOWN
+from ..status import NoLength
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
 from .response import modes_for, response
 from .steady import Creep, creep
-
-
-class NoPatch(ValueError):
-    """No patch of the lengths tried turns unstable, or none keeps contact.
-
-    Parameters
-    ----------
-    reason : str
-        Why, in words.
-    status : {"stable", "beyond", "unknown"}
-        The kind of reason, of :mod:`nucleation.theory.status`.
-    """
-
-    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
-        super().__init__(reason)
-        self.status = status
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,7 +90,7 @@ class Patches:
 
         Raises
         ------
-        NoPatch
+        NoLength
             If the creep removes all of the compression somewhere.
         """
         bodies = response(self.one, length, number or self.number, self.loading)
@@ -136,7 +120,7 @@ class Patches:
 
         Raises
         ------
-        NoPatch
+        NoLength
             If the creep removes all of the compression somewhere.
         """
         creep = self.creep(length, number)
@@ -177,7 +161,7 @@ class Patches:
 
 
 def require_contact(creep: Creep) -> None:
-    """Raise NoPatch if the creep removes all of the compression somewhere."""
+    """Raise NoLength if the creep removes all of the compression somewhere."""
     if creep.normal_stress.min() <= 0.0:
         length = creep.response.length
-        raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
+        raise NoLength(f"the creep opens the fault at a patch length of {length:.4g} m")

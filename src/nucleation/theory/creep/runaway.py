@@ -31,10 +31,10 @@ from ..bisection import bisected
 from ..crossings import largest_crossings
 from ..fault import takes_fault
 from ..spectrum import Systems
-from ..status import BEYOND
+from ..status import BEYOND, NoLength
 from ..values import Values
 from .lengths import stability_point
-from .patches import NoPatch, Patches
+from .patches import Patches
 from .response import MODES
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
@@ -109,7 +109,7 @@ def runs_away(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If the creep removes all of the compression somewhere.
     """
     creep = patches.creep(length, MODES)
@@ -177,13 +177,13 @@ def runaway_point(
 
     Raises
     ------
-    NoPatch
+    NoLength
         If no patch is unstable, none up to ``LONGEST L_c`` runs away, or its creep opens the fault.
     """
     low = stability_point(patches, critical).length
     high = LONGEST * critical
     if not runs_away(patches, high):
-        raise NoPatch(
+        raise NoLength(
             f"no slow slip of a patch up to {LONGEST:g} L_c = {high:.4g} m runs away", BEYOND
         )
     return bisected(lambda length: runs_away(patches, length), low, high, PRECISION)
@@ -230,7 +230,7 @@ def runaway_length(**fault: Values) -> Any:
         found = np.full((1, critical.size), np.nan)
         for i, length in enumerate(critical):
             patches = Patches(systems.at(np.array([i])), evolution=str(own.evolution))
-            with contextlib.suppress(NoPatch):
+            with contextlib.suppress(NoLength):
                 found[0, i] = runaway_point(patches, float(length))
         return found
 
