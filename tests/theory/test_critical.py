@@ -17,7 +17,8 @@ from two_bodies import (
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.crossings import certainly_stable, marginal_stiffness
+from nucleation.theory.crossings import certainly_stable
+from nucleation.theory.marginal import marginal_stiffness
 from nucleation.theory.status import NoLength
 from nucleation.theory.stiffness import FAR_SIDES
 

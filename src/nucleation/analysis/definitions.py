@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.checked import Checked
-from ..model.parameters import EVENT_DROP
 from ..model.quantities import quantity
+from ..model.stepping import EVENT_DROP
 from ..simulation.event import SLIPPING, DropWatch
 from ..types import Array
 

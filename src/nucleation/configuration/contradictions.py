@@ -6,9 +6,10 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..analysis.definitions import ExtractionSettings
-from ..model.parameters import FIRST_STEP, Parameters
+from ..model.parameters import Parameters
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.recording import STUCK_BELOW
+from ..model.stepping import FIRST_STEP
 from .roles import LITERATURE
 from .runs import Run
 from .settings import Limits, estimated_megabytes

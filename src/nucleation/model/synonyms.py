@@ -1,80 +1,35 @@
 """Suggestions for unknown names of parameters, also for names in the literature."""
 
 import difflib
-from collections.abc import Collection, Iterable
-from typing import NamedTuple
+from collections.abc import Collection
 
+_ELSEWHERE = {
+    "slip_distance": "d dc drs l lc ell criticalslipdistance characteristicslipdistance "
+    "stateevolutiondistance",
+    "normal_stress": "sigma sigma0 sigman effectivenormalstress appliedstress pressure",
+    "shear_modulus": "g mu rigidity modulusofrigidity",
+    "poisson_ratio": "nu poisson poissonsratio",
+    "a": "a directeffect",
+    "b": "b evolutioneffect agingcoefficient",
+    "aging_coefficient": "b evolutioneffect agingcoefficient",
+    "friction": "f f0 mu0 mus coefficientoffriction frictioncoefficient",
+    "velocity": "v vp vpl v0 platerate loadingrate sliprate",
+    "height": "h thickness width depth",
+    "density": "rho",
+}
+"""Names and symbols of the same quantity in the literature, in plain form."""
 
-class _Synonym(NamedTuple):
-    """The names of one quantity in this project and elsewhere."""
-
-    names: tuple[str, ...]  # in the API, in commands and in configurations
-    elsewhere: tuple[str, ...]  # names and symbols in plain form
-    conversion: str = ""  # how the value follows, if the quantities differ
-
-
-_SYNONYMS = (
-    _Synonym(
-        names=("slip_distance",),
-        elsewhere=(
-            *("d", "dc", "drs", "l", "lc", "ell"),
-            *("criticalslipdistance", "characteristicslipdistance"),
-            "stateevolutiondistance",
-        ),
+_CONVERTED = {
+    "shear_modulus": (
+        "e young youngmodulus youngsmodulus elasticmodulus",
+        "mu = E/(2 (1 + nu))",
     ),
-    _Synonym(
-        names=("normal_stress",),
-        elsewhere=(
-            *("sigma", "sigma0", "sigman"),
-            *("effectivenormalstress", "appliedstress", "pressure"),
-        ),
+    "zeta": (
+        "ab aminusb ba bminusa weakening ratedependence",
+        "zeta = b - a, which is positive where friction weakens",
     ),
-    _Synonym(
-        names=("shear_modulus",),
-        elsewhere=("g", "mu", "rigidity", "modulusofrigidity"),
-    ),
-    _Synonym(
-        names=("shear_modulus",),
-        elsewhere=("e", "young", "youngmodulus", "youngsmodulus", "elasticmodulus"),
-        conversion="mu = E/(2 (1 + nu))",
-    ),
-    _Synonym(
-        names=("poisson_ratio",),
-        elsewhere=("nu", "poisson", "poissonsratio"),
-    ),
-    _Synonym(
-        names=("zeta",),
-        elsewhere=("ab", "aminusb", "ba", "bminusa", "weakening", "ratedependence"),
-        conversion="zeta = b - a, which is positive where friction weakens",
-    ),
-    _Synonym(
-        names=("a",),
-        elsewhere=("a", "directeffect"),
-    ),
-    _Synonym(
-        names=("b", "aging_coefficient"),
-        elsewhere=("b", "evolutioneffect", "agingcoefficient"),
-    ),
-    _Synonym(
-        names=("friction",),
-        elsewhere=(
-            *("f", "f0", "mu0", "mus"),
-            *("coefficientoffriction", "frictioncoefficient"),
-        ),
-    ),
-    _Synonym(
-        names=("velocity",),
-        elsewhere=("v", "vp", "vpl", "v0", "platerate", "loadingrate", "sliprate"),
-    ),
-    _Synonym(
-        names=("height",),
-        elsewhere=("h", "thickness", "width", "depth"),
-    ),
-    _Synonym(
-        names=("density",),
-        elsewhere=("rho",),
-    ),
-)
+}
+"""Quantities of the literature from which one of ours follows, and how it does."""
 
 
 def hint(name: str, known: Collection[str]) -> str:
@@ -94,27 +49,16 @@ def hint(name: str, known: Collection[str]) -> str:
         if no allowed name is similar.
     """
     plain = _plain(name)
-    for synonym in _SYNONYMS:
-        if plain not in synonym.elsewhere:
-            continue
-        here = _first_known(synonym.names, known)
-        if here and synonym.conversion:
-            return f"give {here}: {synonym.conversion}"
-        if here:
-            return f"did you mean {here}?"
+    spelling = {_plain(key): key for key in known}
+    for own, (elsewhere, conversion) in _CONVERTED.items():
+        if plain in elsewhere.split() and _plain(own) in spelling:
+            return f"give {spelling[_plain(own)]}: {conversion}"
+    for own, elsewhere in _ELSEWHERE.items():
+        if plain in elsewhere.split() and _plain(own) in spelling:
+            return f"did you mean {spelling[_plain(own)]}?"
     words = [str(key) for key in known]
     close = difflib.get_close_matches(name, words, n=1)
     return f"did you mean {close[0]}?" if close else ""
-
-
-def _first_known(names: Iterable[str], known: Collection[str]) -> str | None:
-    """The first of some names that is known, in the spelling of the known one."""
-    spelling = {_plain(key): key for key in known}
-    for name in names:
-        plain = _plain(name)
-        if plain in spelling:
-            return spelling[plain]
-    return None
 
 
 def _plain(name: str) -> str:

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from ..model.parameters import Stepping
+from ..model.stepping import Stepping
 from .event import Outcome
 from .interface import NewtonFailure, Tension
 from .state import State

@@ -16,7 +16,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.parameters import EVENT_DROP, Parameters
+from ..model.parameters import Parameters
+from ..model.stepping import EVENT_DROP
 from ..types import Array
 
 

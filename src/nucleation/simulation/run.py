@@ -15,7 +15,8 @@ import xarray as xr
 
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
-from ..model.parameters import FIRST_STEP, Parameters
+from ..model.parameters import Parameters
+from ..model.stepping import FIRST_STEP
 from ..types import Array, Arrays
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .drive import drive_of

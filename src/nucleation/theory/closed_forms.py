@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from .crossings import marginal_stiffness
+from .marginal import marginal_stiffness
 from .status import STABLE, NoLength
 from .stiffness import Array
 
@@ -64,7 +64,7 @@ def bimaterial_length_ratio(
     Notes
     -----
     The paper's bracket subtracts nearly equal numbers for small ``zeta/a``. Times its conjugate
-    it is ``zeta / h_plus`` with h_plus of :func:`.crossings.marginal_stiffness`, which adds
+    it is ``zeta / h_plus`` with h_plus of :func:`.marginal.marginal_stiffness`, which adds
     positive numbers. Equally ``1 - |f beta|/w`` with ``w = |omega| ell / V`` the positive root of
     ``a w^2 - |f beta| (a + zeta) w - zeta = 0``.
     """

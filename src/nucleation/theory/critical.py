@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Parameters
-from .crossings import largest_crossings, marginal_frequencies
+from .crossings import largest_crossings
+from .marginal import marginal_frequencies
 from .of_runs import Case, blocks_on_rigid_base, far_sides, systems_of
 from .spectrum import Systems
 from .status import STABLE, NoLength

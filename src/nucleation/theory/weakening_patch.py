@@ -2,7 +2,7 @@
 
 A fault creeps at a uniform V. On a patch of width W friction weakens, ``zeta > 0``; outside it
 strengthens, ``zeta < 0``. The linearisation about this creep is exact. With ``s = Lambda ell/V``
-and the elastic load ``m(k) = g (1 - i rho)`` of a Fourier mode over sigma0/ell (:mod:`.crossings`),
+and the elastic load ``m(k) = g (1 - i rho)`` of a Fourier mode over sigma0/ell (:mod:`.marginal`),
 
     m u + c(x, s) u = 0 ,      c = s (a s - zeta)/(1 + s) ,
 

@@ -36,14 +36,6 @@ class PatchResponse:
         """Shear stress lost plus friction that is gained: ``K1 + f S2``."""
         return self.shear + np.reshape(friction, (-1, 1)) * self.normal
 
-    def scaled(
-        self,
-        shear: float,
-        normal: float,
-    ) -> "PatchResponse":
-        """The response with both stresses multiplied."""
-        return dataclasses.replace(self, shear=shear * self.shear, normal=normal * self.normal)
-
 
 def modes_for(one: Systems) -> int:
     """Number of modes that one fault needs."""
@@ -221,7 +213,8 @@ def _thickened(
         by_normal = float(g2[0] / thick_g2[0])
     if not np.isfinite(by_normal):
         by_normal = 0.0
-    return _resolved(thicker, length, number, even).scaled(by_shear, by_normal)
+    found = _resolved(thicker, length, number, even)
+    return dataclasses.replace(found, shear=by_shear * found.shear, normal=by_normal * found.normal)
 
 
 def _with_heights_times(
