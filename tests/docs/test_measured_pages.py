@@ -266,8 +266,9 @@ def test_weakening_patches_creep_below_their_critical_width():
     always = width[width > slow.max()].min()
     says(
         "creeping_patch.md",
-        f"slow slip in limit cycles is found up to {slow.max():.2f} $W_c$, events (slip faster "
-        f"than 0.1 m/s) from {first:.2f} $W_c$ on, and in all from {always:.2f} $W_c$ on",
+        f"Limit cycles of slow slip are found up to {slow.max():.2f} $W_c$.",
+        f"Events (slip faster than 0.1 m/s) are found from {first:.2f} $W_c$ on, and in all "
+        f"patches from {always:.2f} $W_c$ on.",
     )
 
 
