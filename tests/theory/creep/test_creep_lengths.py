@@ -125,6 +125,16 @@ def test_scales_of_friction_near_the_velocity():
     assert own / constant > 0.99
 
 
+@pytest.mark.parametrize(("ratio", "percent"), [(1.0, 13), (2.2883, 5)])
+def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
+    """By as much as docs/creeping_patch.md has for ten times v*."""
+    law = Friction(slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
+    law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
+    run = Parameters(friction=law, geometry=Geometry(height=0.03))
+    own, constant = (stability_length_of(run, length_of(run), x) for x in (False, True))
+    assert 1.0 - own / constant == pytest.approx(0.01 * percent, abs=5e-3)
+
+
 def test_no_patch():
     assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
     with pytest.raises(NoLength, match="stable"):
