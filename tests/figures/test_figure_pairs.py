@@ -37,7 +37,7 @@ def table():
 
 def test_identical_blocks_and_ratios(table):
     """The mean of the realisations, 0.75, with their range as bars."""
-    left, right = figure_pairs.draw(table).axes
+    left, right = figure_pairs.draw(table, {}).axes
     np.testing.assert_allclose(left.lines[1].get_ydata(), 0.3)
     np.testing.assert_allclose(left.lines[2].get_ydata(), 0.2)
     np.testing.assert_allclose(right.lines[0].get_ydata(), 0.75)
@@ -51,7 +51,7 @@ def test_finer_meshes_are_not_among_the_pairs_drawn(table):
     finer = table.isel(run=[0]).assign(
         n_x=("run", [1600]), seed=("run", [9]), ensemble=("run", ["finer"])
     )
-    drawn = figure_pairs.draw(xr.concat([table, finer], dim="run")).axes[1]
+    drawn = figure_pairs.draw(xr.concat([table, finer], dim="run"), {}).axes[1]
     assert drawn.lines[0].get_xdata().size == 3
 
 

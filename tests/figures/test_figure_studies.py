@@ -1,5 +1,7 @@
 """The figure of any study: its form by what is varied, its numbers, its labels."""
 
+from dataclasses import asdict
+
 import drawn_layout
 import numpy as np
 import pytest
@@ -21,8 +23,8 @@ def table(theory, length):
 
 
 def draw(theory, length, **varied):
-    entries = {name: study_parameters()[name] for name in varied}
-    return figure_studies.draw(table(theory, length), varied, entries)
+    entries = {name: asdict(study_parameters()[name]) for name in varied}
+    return figure_studies.draw(table(theory, length), varied, entries, {})
 
 
 def points(figure):
@@ -54,7 +56,7 @@ def test_words_tell_curves_apart(theory, curves):
 
 def test_theory_is_a_smooth_curve_where_it_is_given():
     x = np.linspace(1.0, 2.0, 81)
-    given = {"height": [1.0, 2.0]}, {"height": study_parameters()["height"]}
+    given = {"height": [1.0, 2.0]}, {"height": asdict(study_parameters()["height"])}
     theory = {"": {"x": x, "length": np.sqrt(x)}}
     axes = figure_studies.draw(table([1, 1.4], [0.9, 1.3]), *given, theory).axes[0]
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), np.sqrt(x))

@@ -62,18 +62,30 @@ def test_every_run_is_beside_the_theory_of_its_fault():
     np.testing.assert_allclose(found["zeta_over_a"], 2.0)
 
 
-def test_the_figure_has_a_panel_for_each_base_with_curves():
+def drawn_rows():
+    """Two realisations for each of three weakenings."""
     one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
-    weakenings = (0.5, 1.0, 3.0)
-    rows = [one.assign(zeta_over_a=("run", np.full(2, value))) for value in weakenings]
-    alone = one.assign(height=("run", np.full(2, 1.0)))  # of one weakening: no curve
-    figure = figure_weakening.draw(xr.concat([*rows, alone], dim="run"))
-    (axes,) = figure.axes
-    curve = axes.lines[0]
-    np.testing.assert_allclose(curve.get_xdata(), weakenings)
-    np.testing.assert_allclose(curve.get_ydata(), float(one["stability_length"][0]))
-    points = axes.containers[0].lines[0]
-    assert points.get_ydata() == pytest.approx(0.75)
+    return [one.assign(zeta_over_a=("run", np.full(2, value))) for value in (0.5, 1.0, 3.0)]
+
+
+def with_curves(rows):
+    """A table with the same curve for all lengths."""
+    x = np.geomspace(0.2, 6.0, 9)
+    lines = ("curve_stability", "curve_runaway", "curve_law")
+    curves = {name: (("system", "curve"), [1.0 / np.sqrt(x)]) for name in lines}
+    curves |= {"curve_study": ("system", ["own"]), "curve_below": ("system", ["rigid"])}
+    curves |= {"curve_height": ("system", [0.02]), "curve_half_spaces": ("system", [False])}
+    curves["curve_ratio"] = ("curve", x)
+    return xr.concat(rows, dim="run").merge(xr.Dataset(curves))
+
+
+def test_the_figure_has_a_panel_for_each_base_with_curves():
+    rows = drawn_rows()
+    alone = rows[0].assign(height=("run", np.full(2, 1.0)))  # of one weakening: no curve
+    (axes,) = figure_weakening.draw(with_curves([*rows, alone])).axes
+    points = [container.lines[0] for container in axes.containers]
+    assert [float(point.get_xdata()[0]) for point in points] == [0.5, 1.0, 3.0]
+    assert points[0].get_ydata() == pytest.approx(0.75)
 
 
 @pytest.mark.slow
@@ -99,15 +111,9 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
 
 
 def test_the_figure_draws_the_curves_that_are_given():
-    one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
-    rows = [one.assign(zeta_over_a=("run", np.full(2, value))) for value in (0.5, 1.0, 3.0)]
-    x = np.geomspace(0.2, 6.0, 9)
-    lines = ("curve_stability", "curve_runaway", "curve_law")
-    curves = {name: (("system", "curve"), [1.0 / np.sqrt(x)]) for name in lines}
-    curves |= {"curve_study": ("system", ["own"]), "curve_below": ("system", ["rigid"])}
-    curves |= {"curve_height": ("system", [0.02]), "curve_half_spaces": ("system", [False])}
-    curves["curve_ratio"] = ("curve", x)
-    (axes,) = figure_weakening.draw(xr.concat(rows, dim="run").merge(xr.Dataset(curves))).axes
+    table = with_curves(drawn_rows())
+    x = table["curve_ratio"].values
+    (axes,) = figure_weakening.draw(table).axes
     for line in axes.lines[:3]:
         np.testing.assert_array_equal(line.get_xdata(), x)
         np.testing.assert_array_equal(line.get_ydata(), 1.0 / np.sqrt(x))

@@ -483,7 +483,7 @@ rule draw_study:
         f"{RESULTS}/logs/figures/study_{{study}}.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_studies:draw_study",
+        call="nucleation.figures.beyond.figure_studies:draw",
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),

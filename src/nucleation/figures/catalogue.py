@@ -45,31 +45,15 @@ FIGURES: dict[str, Entry] = {
         "Figure 3: critical length against height",
         PAPER,
         roles=("paper",),
-        data=(
-            Data("theory", ("critical_length", "thin_limit_length")),
-            _LENGTHS,
-        ),
+        data=(Data("theory", ("critical_length", "thin_limit_length")), _LENGTHS),
     ),
     "figure_s1": Entry(
         "Figure S1: steady-state friction",
         PAPER,
-        data=(
-            Data(
-                "theory",
-                ("steady_friction", "steady_friction_logarithmic"),
-            ),
-        ),
+        data=(Data("theory", ("steady_friction", "steady_friction_logarithmic")),),
     ),
-    "figure_s2": Entry(
-        "Figure S2: stress in space and time",
-        PAPER,
-        roles=("paper",),
-    ),
-    "animation": Entry(
-        "Creep, nucleation and rupture",
-        BEYOND,
-        roles=("paper",),
-    ),
+    "figure_s2": Entry("Figure S2: stress in space and time", PAPER, roles=("paper",)),
+    "animation": Entry("Creep, nucleation and rupture", BEYOND, roles=("paper",)),
     "figure_3_extended": Entry(
         "Lengths of the drop and of the patch's stability",
         BEYOND,
@@ -95,16 +79,10 @@ FIGURES: dict[str, Entry] = {
         data=(Data("weakening_patches"),),
     ),
     "figure_map": Entry(
-        "Lengths over height and weakening: a map",
-        BEYOND,
-        roles=("map",),
-        data=(Data("map"),),
+        "Lengths over height and weakening: a map", BEYOND, roles=("map",), data=(Data("map"),)
     ),
     "figure_patch_stability": Entry(
-        "Stability of the creeping patch",
-        BEYOND,
-        roles=("paper",),
-        data=(_PATCHES,),
+        "Stability of the creeping patch", BEYOND, roles=("paper",), data=(_PATCHES,)
     ),
     "figure_patch_theory": Entry(
         "Stability of the creeping patch by theory",
@@ -119,10 +97,7 @@ FIGURES: dict[str, Entry] = {
         data=(Data("sensitivity"),),
     ),
     "figure_pairs": Entry(
-        "Two deformable bodies",
-        BEYOND,
-        roles=("pairs_identical",),
-        data=(_PAIRS,),
+        "Two deformable bodies", BEYOND, roles=("pairs_identical",), data=(_PAIRS,)
     ),
     "figure_2_simulated": Entry(
         "Figure 2 with simulations, in both senses of the contrast",
@@ -156,16 +131,11 @@ FIGURES: dict[str, Entry] = {
                     "theory_frequency",
                 ),
             ),
-            Data(
-                "dispersion",
-                ("curve_wavenumber", "curve_growth", "curve_frequency"),
-            ),
+            Data("dispersion", ("curve_wavenumber", "curve_growth", "curve_frequency")),
         ),
     ),
     "figure_verification": Entry(
-        "Orders of convergence on manufactured solutions",
-        CHECKS,
-        data=(Data("verification"),),
+        "Orders of convergence on manufactured solutions", CHECKS, data=(Data("verification"),)
     ),
 }
 

@@ -37,12 +37,7 @@ PAPERS = {
     ("slip", True): Look("v", 7.2, style.SLIP, "slip law"),
 }
 
-_OTHERS = (
-    ("D", style.GREEN),
-    ("P", style.PURPLE),
-    ("X", style.SKY_BLUE),
-    ("<", style.ORANGE),
-)
+_OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
 
 
 def looks(laws: Iterable[str]) -> dict[Kind, Look]:
@@ -125,34 +120,32 @@ def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
         yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
 
 
-def draw(
-    axes: Axes,
-    x: Array,
-    table: xr.Dataset,
-    name: str,
-    scale: float | Array = 1.0,
-    **look: Any,
-) -> None:
+def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
     """Draw a column as points, with bars from its ``_low`` to its ``_high``.
 
     Parameters
     ----------
     axes : Axes
         The panel.
-    x : array on ``run``
-        Abscissae.
+    x : str
+        The column along the abscissa.
     table : Dataset
         A table on ``run``.
     name : str
-        The column. A bar is left out if an end is NaN.
-    scale : float or array on ``run``
-        Divides the column and the ends of its bars.
+        The column along the ordinate. A bar is left out if an end is NaN or not in the table.
     **look
         Options of :meth:`matplotlib.axes.Axes.errorbar`.
     """
-    middle = table[name].values / scale
-    low = table[f"{name}_low"].values / scale
-    high = table[f"{name}_high"].values / scale
+    middle = table[name].values
+    low = table.get(f"{name}_low", table[name]).values
+    high = table.get(f"{name}_high", table[name]).values
     bars = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
     usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
-    axes.errorbar(x, middle, bars, **usual | look)
+    axes.errorbar(table[x].values, middle, bars, **usual | look)
+
+
+def draw_range(axes: Axes, x: float, values: Array, **look: Any) -> None:
+    """Draw the mean of realisations as a point, with a bar from the least to the largest."""
+    mean = values.mean()
+    bar = [[mean - values.min()], [values.max() - mean]]
+    axes.errorbar(x, mean, bar, **look)

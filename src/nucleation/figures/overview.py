@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.extraction import extract
@@ -13,12 +12,7 @@ from ..analysis.film import film_dataset
 from ..analysis.record import Record
 from ..figures import style
 from ..model.quantities import ParameterError
-from ..theory.arrays import (
-    critical_length,
-    critical_mode,
-    fault_of,
-    spectrum,
-)
+from ..theory.arrays import critical_length, critical_mode, fault_of, spectrum
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, takes_fault
 from ..types import Array
@@ -92,19 +86,8 @@ def plot_length(over: str, **fault: Any) -> Figure:
     some = np.unique(np.linspace(0, values.size - 1, _MOST_PATCHES).astype(int))
     patch = np.asarray(stability_length(**fault | {over: values[some]}))
     figure, axes = style.column(6.6)
-    axes.plot(
-        values,
-        length,
-        color=style.THEORY,
-        label="$L_c$, homogeneous sliding",
-    )
-    axes.plot(
-        values[some],
-        patch,
-        color=style.GREEN,
-        linestyle="--",
-        label="$L_s$, creeping patch",
-    )
+    axes.plot(values, length, color=style.THEORY, label="$L_c$, homogeneous sliding")
+    axes.plot(values[some], patch, color=style.GREEN, linestyle="--", label="$L_s$, creeping patch")
     if values.min() > 0.0 and values.max() >= _WIDE * values.min():
         axes.set(xscale="log", yscale="log")
     entry = QUANTITIES[over]
@@ -152,39 +135,24 @@ def plot_spectrum(**fault: Any) -> Figure:
     faster, slower = _magnitude(spectrum(k, **fault))
     figure = style.new_figure(style.SINGLE_COLUMN, 8.4 * style.CENTIMETRE)
     growth, frequency = figure.subplots(2, 1, sharex=True)
-    for name, rate, dashes in (
-        ("faster mode", faster, "-"),
-        ("slower mode", slower, "--"),
-    ):
+    for name, rate, dashes in (("faster mode", faster, "-"), ("slower mode", slower, "--")):
         growth.plot(k, rate.real, dashes, color=style.THEORY, label=name)
         frequency.plot(k, rate.imag, dashes, color=style.THEORY)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
     for axes in (growth, frequency):
         axes.axvline(critical, color=style.GUIDE, linestyle=":")
-    _name_critical(growth, critical)
+    top = growth.get_xaxis_transform()
+    look: style.Options = {"textcoords": "offset points", "color": style.GUIDE}
+    growth.annotate("$k_c$", (critical, 1.0), (3.0, -10.0), top, **look)
     growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
     growth.legend()
-    frequency.set(
-        xlabel="Wavenumber $k$ (1/m)",
-        ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)",
-    )
+    frequency.set(xlabel="Wavenumber $k$ (1/m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
     return figure
 
 
 def _magnitude(value: Any) -> Array:
     """An array, without the unit that pint has given it."""
     return np.asarray(getattr(value, "magnitude", value))
-
-
-def _name_critical(axes: Axes, critical: float) -> None:
-    axes.annotate(
-        "$k_c$",
-        (critical, 1.0),
-        (3.0, -10.0),
-        axes.get_xaxis_transform(),
-        "offset points",
-        color=style.GUIDE,
-    )
 
 
 def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:

@@ -2,13 +2,14 @@
 
 import functools
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -51,17 +52,7 @@ LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
 
 MARKERS = "osD^vP*X"
-COLOURS = (
-    VERMILLION,
-    BLUE,
-    BLACK,
-    GREEN,
-    PURPLE,
-    ORANGE,
-    SKY_BLUE,
-    OLD_AGE,
-    FULL_LAW,
-)
+COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE, OLD_AGE, FULL_LAW)
 
 SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
@@ -72,6 +63,7 @@ STYLE: dict[Any, Any] = {
     "font.size": 9.0,
     "axes.labelsize": 9.0,
     "axes.titlesize": 9.0,
+    "axes.titlelocation": "left",
     "legend.fontsize": 8.5,
     "axes.linewidth": 0.7,
     "axes.unicode_minus": True,
@@ -199,11 +191,7 @@ def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
 
 
 def key(
-    label: str,
-    marker: str = "",
-    line: Any = "",
-    colour: Any = GUIDE,
-    **options: Any,
+    label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **options: Any
 ) -> Line2D:
     """An entry of a legend for several sets of data.
 
@@ -225,15 +213,7 @@ def key(
     Line2D
         A handle for the legend.
     """
-    return Line2D(
-        [],
-        [],
-        marker=marker,
-        linestyle=line,
-        color=colour,
-        label=label,
-        **options,
-    )
+    return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **options)
 
 
 def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
@@ -249,7 +229,7 @@ def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
         Options of :meth:`matplotlib.axes.Axes.set_title`.
     """
     for axes, letter in zip(panels, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        axes.set_title(f"({letter})", loc="left", **options)
+        axes.set_title(f"({letter})", **options)
         if minor:
             axes.minorticks_on()
 
@@ -263,13 +243,15 @@ def entries(*panels: Axes) -> dict[str, Artist]:
     return found
 
 
-def level(
-    axes: Axes,
-    y: float,
-    line: Any = "-",
-    width: float = 0.7,
-    **options: Any,
-) -> None:
+def plain_numbers(axis: Axis, ticks: Sequence[float] = ()) -> None:
+    """Label a logarithmic axis without powers of ten, at some ticks or at matplotlib's."""
+    if ticks:
+        axis.set_ticks(ticks)
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter("")
+
+
+def level(axes: Axes, y: float, line: Any = "-", width: float = 0.7, **options: Any) -> None:
     """Draw a horizontal line that marks a value.
 
     Parameters
@@ -289,6 +271,11 @@ def level(
     axes.axhline(y, **usual | options)
 
 
+def vertical(axes: Axes, x: float, line: Any = "--", width: float = 0.9, **options: Any) -> None:
+    """Draw a vertical line that marks a value, with the options of :func:`level`."""
+    axes.axvline(x, color=GUIDE, linestyle=line, linewidth=width, **options)
+
+
 def band(axes: Axes, low: float, high: float, label: str) -> None:
     """Draw a horizontal band of agreement.
 
@@ -305,12 +292,7 @@ def band(axes: Axes, low: float, high: float, label: str) -> None:
 
 
 def arrow(
-    axes: Axes,
-    tail: Point,
-    head: Point,
-    colour: str = BLACK,
-    kind: str = "-|>",
-    **options: Any,
+    axes: Axes, tail: Point, head: Point, colour: str = BLACK, kind: str = "-|>", **options: Any
 ) -> None:
     """Draw an arrow between two points.
 
@@ -335,6 +317,12 @@ def arrow(
         "shrinkB": 0.0,
     }
     axes.annotate("", head, tail, arrowprops=look, **options)
+
+
+def note(axes: Axes, text: str, point: Point, offset: Point, **options: Any) -> None:
+    """Write a small text beside a point, at an offset in points (1/72 inch)."""
+    usual: Options = {"textcoords": "offset points", "fontsize": SMALL}
+    axes.annotate(text, point, offset, **usual | options)
 
 
 def aside(axes: Axes, points: float) -> Transform:
@@ -383,10 +371,7 @@ def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[P
     png: Options = {"Software": None}
     if key:
         png[KEY] = key
-    paths = (
-        stem.with_name(f"{stem.name}.pdf"),
-        stem.with_name(f"{stem.name}.png"),
-    )
+    paths = (stem.with_name(f"{stem.name}.pdf"), stem.with_name(f"{stem.name}.png"))
     with mpl.rc_context(STYLE):
         for path, metadata in zip(paths, (pdf, png), strict=True):
             with replacing(path) as temporary:

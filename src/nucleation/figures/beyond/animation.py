@@ -64,11 +64,7 @@ def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
             yield Image.fromarray(pixels).convert("RGB")
 
 
-def save(
-    images: Iterable[Image.Image],
-    path: str | os.PathLike[str],
-    still: int = 0,
-) -> None:
+def save(images: Iterable[Image.Image], path: str | os.PathLike[str], still: int = 0) -> None:
     """Write a GIF that repeats for ever, completely or not at all.
 
     Parameters
@@ -107,7 +103,7 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[_Update]]:
     rate, block, whole, near = panels.values()
     onset = float(row["onset_time"])
     start, end = event_interval(film, onset)
-    title = rate.set_title("", loc="left")
+    title = rate.set_title("")
     times = film["time"].values
     last = float(times[-1])
     run = figure_s2.Window(0.0, last, 0.0, *time_unit(last))
@@ -127,12 +123,7 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[_Update]]:
     return figure, updates
 
 
-def _clock(
-    time: float,
-    near_onset: float,
-    run: figure_s2.Window,
-    event: figure_s2.Window,
-) -> str:
+def _clock(time: float, near_onset: float, run: figure_s2.Window, event: figure_s2.Window) -> str:
     """The time (s), and near the onset the time from it, in the units of two panels."""
     shown = run.shown(np.array(time))
     if not time >= near_onset:
@@ -148,7 +139,7 @@ def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) ->
     values = np.maximum(film["slip_rate"].values, 1e-3 * lowest)
     (line,) = axes.plot(x, values[0], color=style.VERMILLION)
     if np.isfinite(length):
-        axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9)
+        style.vertical(axes, length)
         up = axes.get_xaxis_transform()
         axes.annotate("$L$", (length, 0.06), (4, 0), up, "offset points")
     axes.set_yscale("log")
@@ -176,12 +167,7 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Updat
             axes.collections[0].remove()
         for own in bodies:
             drawn = axes.contourf(
-                x,
-                y[own],
-                ratio[i, own],
-                colours,
-                extend="both",
-                cmap=style.SEQUENCE,
+                x, y[own], ratio[i, own], colours, extend="both", cmap=style.SEQUENCE
             )
         return drawn
 
@@ -190,10 +176,7 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Updat
     bar.ax.set_yticklabels([f"{level:.2f}" for level in ticks])
     bar.set_label(r"$\sigma_{xy}/\sigma_0$")
     below = parameters.below
-    axes.set_ylim(
-        -below.geometry.height if below else 0.0,
-        parameters.geometry.height,
-    )
+    axes.set_ylim(-below.geometry.height if below else 0.0, parameters.geometry.height)
     if below:
         axes.axhline(0.0, color="white", linewidth=1.2)
     axes.set_xlabel("$x$ (m)", labelpad=1.0)

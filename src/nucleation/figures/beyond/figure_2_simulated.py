@@ -11,10 +11,7 @@ from ...theory.closed_forms import bimaterial_length_ratio
 from ..paper import figure_2
 
 _CONTRAST = np.linspace(-0.42, 0.42, 169)
-_PANELS = (
-    ("length_ratio", "(a) at the drop"),
-    ("stability_ratio", "(b) patch turns unstable"),
-)
+_PANELS = (("length_ratio", "(a) at the drop"), ("stability_ratio", "(b) patch turns unstable"))
 _MARKERS = "osD^v"
 _UNKNOWN = 0.14  # ordinate of runs without the length
 
@@ -45,23 +42,12 @@ def draw(table: xr.Dataset, theory: xr.Dataset) -> Figure:
     looks = figure_2.looks(np.union1d(theory["zeta_over_a"].values, simulated))
     for axes, (name, title) in zip(panels, _PANELS, strict=True):
         _draw_lengths(axes, rows, name, looks)
-        axes.set_title(title, loc="left")
-        axes.set_xlabel(r"Bimaterial contrast $f\beta$")
-        axes.axvline(0.0, color=style.GUIDE, linewidth=0.6, linestyle=":")
-        for place, side, which in (
-            (0.02, "left", "above"),
-            (0.98, "right", "below"),
-        ):
-            axes.text(
-                place,
-                0.03,
-                f"stiffer body {which}",
-                transform=axes.transAxes,
-                ha=side,
-                fontsize=style.SMALL,
-            )
-    panels[0].set_ylim(bottom=0.0)
-    panels[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
+        axes.set(title=title, xlabel=r"Bimaterial contrast $f\beta$")
+        style.vertical(axes, 0.0, ":", 0.6)
+        look: style.Options = {"transform": axes.transAxes, "fontsize": style.SMALL}
+        axes.text(0.02, 0.03, "stiffer body above", ha="left", **look)
+        axes.text(0.98, 0.03, "stiffer body below", ha="right", **look)
+    panels[0].set(ylim=(0.0, None), ylabel=r"Length over $L_c^{\mathcal{M}}$")
     entries = style.entries(*panels)
     figure.legend(
         entries.values(),
@@ -74,15 +60,9 @@ def draw(table: xr.Dataset, theory: xr.Dataset) -> Figure:
 
 
 def _draw_lengths(
-    axes: Axes,
-    rows: xr.Dataset,
-    name: str,
-    looks: dict[float, style.Options],
+    axes: Axes, rows: xr.Dataset, name: str, looks: dict[float, style.Options]
 ) -> None:
     """Curves of Eq. (9) and the simulated lengths of one panel, for each zeta/a."""
-    for end in ("_low", "_high"):
-        if name + end not in rows:
-            rows = rows.assign({name + end: rows[name]})
     ratios = np.unique(rows["zeta_over_a"].values)[::-1]
     for ratio, marker in zip(ratios, _MARKERS, strict=False):
         look = looks[float(ratio)]
@@ -90,16 +70,15 @@ def _draw_lengths(
         curve = bimaterial_length_ratio(np.abs(_CONTRAST), ratio)
         axes.plot(_CONTRAST, curve, linewidth=1.1, label=f"Eq. (9), {weakening}", **look)
         own = laws.where(rows, zeta_over_a=ratio)
-        contrast = own["f_beta"].values
         # the theory's length for blocks of this height without contrast
-        unit = 1.0 / own["half_space_ratio"].values
+        unit = 1.0 / own["half_space_ratio"]
+        own = own.assign({key: own[key] / unit for key in own if str(key).startswith(name)})
         colour = look["color"]
         laws.draw(
             axes,
-            contrast,
+            "f_beta",
             own,
             name,
-            unit,
             color=colour,
             marker=marker,
             ms=3.8,
@@ -108,13 +87,8 @@ def _draw_lengths(
             capsize=1.8,
             label=f"simulated, {weakening}",
         )
-        unknown = contrast[np.isnan(own[name].values)]
+        unknown = own["f_beta"].values[np.isnan(own[name].values)]
         if unknown.size:
-            axes.plot(
-                unknown,
-                np.full(unknown.size, _UNKNOWN),
-                "x",
-                color=colour,
-                label=f"{weakening}, no length found",
-            )
+            label = f"{weakening}, no length found"
+            axes.plot(unknown, np.full(unknown.size, _UNKNOWN), "x", color=colour, label=label)
     axes.set_xlim(_CONTRAST[0], _CONTRAST[-1])

@@ -20,50 +20,25 @@ _JUDGED = "converged"
 
 
 class _Series(NamedTuple):
-    """One set of lengths: column and role, marks, and its name in the legend."""
+    """One set of lengths: column and role, name in the legend, and what differs from the law's."""
 
     column: str
     role: str
-    colour: str | None  # None: the colour of the law
-    filled: bool
-    size: float  # points
     label: str
+    own: style.Options
 
     def look(self, kind: laws.Look) -> style.Options:
         """Marker, size and colours of one kind of simulation."""
-        colour = self.colour or kind.colour
-        face = colour if self.filled else "white"
-        return {
-            "marker": kind.marker,
-            "ms": self.size,
-            "color": colour,
-            "mfc": face,
-        }
+        return {"marker": kind.marker, "color": kind.colour, **self.own}
 
 
-_PAPERS = _Series(
-    column="length",
-    role="paper",
-    colour=None,
-    filled=True,
-    size=3.0,
-    label="drop, quiet, on the paper's mesh",
-)
-_STEADY = _Series(
-    column="length",
-    role=_JUDGED,
-    colour=None,
-    filled=False,
-    size=4.8,
-    label=r"drop, load steady to $10^{-5}$",
-)
+_PAPERS = _Series("length", "paper", "drop, quiet, on the paper's mesh", {"ms": 3.0})
+_STEADY = _Series("length", _JUDGED, r"drop, load steady to $10^{-5}$", {"ms": 4.8, **style.OPEN})
 _STABILITY = _Series(
-    column="stability_length",
-    role=_JUDGED,
-    colour=style.GREEN,
-    filled=True,
-    size=4.8,
-    label="patch turns unstable, $L_s$",
+    "stability_length",
+    _JUDGED,
+    "patch turns unstable, $L_s$",
+    {"ms": 4.8, "color": style.GREEN},
 )
 
 
@@ -95,41 +70,17 @@ def draw(
     Figure
         Two panels.
     """
-    noisy_lengths = None
+    stronger = laws.where(lengths, False)
     if isinstance(noisy, xr.Dataset):
-        noisy, lengths = _with_more(lengths, noisy)
-        noisy_lengths = _means(noisy)
-    lengths = _means(lengths)
+        stronger, lengths = _with_more(lengths, noisy)
+    drawn = (theory, _means(lengths), table, _means(stronger))
     figure, panels = style.panels(1, 2, 8.2)
-    stability = _STABILITY
-    if _JUDGED not in table["role"].values:  # then L_s is that of the paper's runs
-        stability = _STABILITY._replace(role="paper")
-    for axes, relative in zip(panels, (False, True), strict=True):
-        _draw_theory(axes, theory, relative)
-        if noisy_lengths is not None:
-            _draw_band(axes, noisy_lengths, lengths, relative)
-        for series in (_PAPERS, _STEADY):
-            _draw_series(axes, lengths, series, relative)
-        _draw_series(axes, table, stability, relative)
-        axes.set_xlabel("Height $H$ (m)")
-    _finish_lengths(panels[0], theory, lengths, noisy_lengths is not None)
+    _draw_panel(panels[0], *drawn)
+    _draw_panel(panels[1], *(_over_theory(own) for own in drawn))
+    _finish_lengths(panels[0], theory, drawn[1], bool(stronger.sizes["run"]))
     _finish_ratios(panels[1], lengths)
     style.letters(*panels, minor=True)
     return figure
-
-
-def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
-    """L_c, solid, and half of it, dashed."""
-    length = theory["critical_length"].values
-    for part, dashes in ((1.0, "-"), (0.5, "--")):
-        values = np.full(length.shape, part) if relative else part * length
-        axes.plot(
-            theory["height"],
-            values,
-            dashes,
-            color=style.THEORY,
-            linewidth=1.2,
-        )
 
 
 def _means(table: xr.Dataset) -> xr.Dataset:
@@ -138,63 +89,62 @@ def _means(table: xr.Dataset) -> xr.Dataset:
     return over_realisations(table.assign(length_low=length, length_high=length))
 
 
+def _over_theory(table: xr.Dataset) -> xr.Dataset:
+    """A table with its lengths over the theory's."""
+    names = [name for name in table.data_vars if "length" in str(name)]
+    return table.assign({name: table[name] / table["critical_length"] for name in names})
+
+
 def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
     """The runs with the stronger perturbation, and the lengths with the further realisations."""
     judged = laws.where(lengths, role=_JUDGED)
     more = np.isin(noisy["strength"].values, judged["strength"].values)
     own = laws.where(noisy, more)
     for name in ("study", "role"):
-        own[name] = (
-            "run",
-            np.resize(judged[name].values, own.sizes["run"]),
-        )
+        own[name] = ("run", np.resize(judged[name].values, own.sizes["run"]))
     return laws.where(noisy, ~more), join([lengths, own])
 
 
-def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:
+def _draw_panel(
+    axes: Axes,
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    table: xr.Dataset,
+    stronger: xr.Dataset,
+) -> None:
+    """Theory, half of it, the band under stronger perturbations, and all sets of lengths."""
+    for part, dashes in ((1.0, "-"), (0.5, "--")):
+        length = part * theory["critical_length"]
+        axes.plot(theory["height"], length, dashes, color=style.THEORY, linewidth=1.2)
+    if stronger.sizes["run"]:
+        _draw_band(axes, stronger, laws.where(lengths, role=_JUDGED))
+    _draw_series(axes, lengths, _PAPERS)
+    _draw_series(axes, lengths, _STEADY)
+    stability = _STABILITY
+    if _JUDGED not in table["role"].values:  # then L_s is that of the paper's runs
+        stability = _STABILITY._replace(role="paper")
+    _draw_series(axes, table, stability)
+    axes.set_xlabel("Height $H$ (m)")
+
+
+def _draw_band(axes: Axes, stronger: xr.Dataset, judged: xr.Dataset) -> None:
     """From the drop under the stronger perturbation to that of the role `converged`."""
-    quiet = laws.where(lengths, role=_JUDGED)
-    quiet = laws.where(quiet, laws.usual(quiet))
-    heights = np.intersect1d(noisy["height"].values, quiet["height"].values)
-    ends = []
-    for runs in (noisy, quiet):
-        order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
-        scale = runs["critical_length"].values[order] if relative else 1.0
-        ends.append(runs["length"].values[order] / scale)
-    axes.fill_between(
-        heights,
-        ends[0],
-        ends[1],
-        color=style.AGING,
-        alpha=0.2,
-        linewidth=0.0,
-    )
+    quiet = laws.where(judged, laws.usual(judged))
+    both = (stronger["height"], quiet["height"])
+    heights, first, second = np.intersect1d(*both, return_indices=True)
+    low = stronger["length"][first]
+    high = quiet["length"][second]
+    axes.fill_between(heights, low, high, color=style.AGING, alpha=0.2, linewidth=0.0)
 
 
-def _draw_series(axes: Axes, table: xr.Dataset, series: _Series, relative: bool) -> None:
-    """One set of lengths, a marker for each law and initial state; quiet runs have no bars."""
-    for (_, old), kind, runs in laws.kinds(table):
-        runs = laws.where(
-            runs,
-            np.isfinite(runs[series.column].values),
-            role=series.role,
-        )
-        if not runs.sizes["run"]:
-            continue
-        if series is _PAPERS:
-            runs = runs.assign(length_low=runs["length"], length_high=runs["length"])
-        scale = runs["critical_length"].values if relative else 1.0
-        look = series.look(kind)
-        look["elinewidth"] = 0.8
-        look["label"] = f"{series.label}, {_state(kind, old)}"
-        laws.draw(
-            axes,
-            runs["height"].values,
-            runs,
-            series.column,
-            scale,
-            **look,
-        )
+def _draw_series(axes: Axes, table: xr.Dataset, series: _Series) -> None:
+    """One set of lengths, a marker for each law and initial state."""
+    known = np.isfinite(table[series.column].values)
+    for (_, old), kind, runs in laws.kinds(laws.where(table, known, role=series.role)):
+        if runs.sizes["run"]:
+            look = series.look(kind)
+            label = f"{series.label}, {_state(kind, old)}"
+            laws.draw(axes, "height", runs, series.column, elinewidth=0.8, label=label, **look)
 
 
 def _state(kind: laws.Look, old: bool) -> str:
@@ -203,16 +153,8 @@ def _state(kind: laws.Look, old: bool) -> str:
 
 def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:
     highest = _ABOVE * float(lengths["height"].max())
-    top = np.interp(
-        highest,
-        theory["height"].values,
-        theory["critical_length"].values,
-    )
-    axes.set(
-        xlim=(0.0, highest),
-        ylim=(0.0, 1.6 * float(top)),
-        ylabel="Length $L$ (m)",
-    )
+    top = np.interp(highest, theory["height"], theory["critical_length"])
+    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.6 * float(top)), ylabel="Length $L$ (m)")
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
     handles: list[Artist] = [

@@ -1,7 +1,5 @@
 """Where the force drops under a declared perturbation: simulations, the law, meshes' own noise."""
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,13 +8,9 @@ from matplotlib.patches import Patch
 
 from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
-from ...types import Array
 
 # the fault in the panels over the strength; height in m
-_SHOWN: dict[str, str | float] = {
-    "evolution": USUAL_EVOLUTION,
-    "height": 0.02,
-}
+_SHOWN: dict[str, str | float] = {"evolution": USUAL_EVOLUTION, "height": 0.02}
 _KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
     "state": ("s", style.GREEN, "state"),
@@ -28,26 +22,14 @@ _RATIOS = (0.45, 0.87)
 _LAW = "law: median, and 16 to 84 % (band)"
 _BAND_ALPHA = 0.35
 _MEAN = "simulated: mean and range of realisations"
-PREDICTED = ("law_low", "law_length", "law_high")
-CURVES = ("curve_strength", "curve_low", "curve_length", "curve_high", "curve_closed_form")
-ENSEMBLE = (
-    "fault",
-    "kind",
-    "correlation_length",
-    "strength",
-    "n_x",
-    "longest_step",
-)
+_QUANTILES = {"law_low": 0.16, "law_length": 0.5, "law_high": 0.84}
+ENSEMBLE = ("fault", "kind", "correlation_length", "strength", "n_x", "longest_step")
 FEWEST = 8  # realisations for a distribution
 _GOAL = 0.03  # relative error of the law's mean
 _CLOSE = 30.0  # strengths with a smaller ratio share one label
 _ROOM = 0.6  # part of the panel of distributions for its legend
 # factors that separate kinds of the same strength
 _ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
-_SMALL: style.Options = {
-    "fontsize": style.SMALL,
-    "title_fontsize": style.SMALL,
-}
 
 
 @style.styled
@@ -57,8 +39,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.tables.drops.drop_files`. Without its curves the law is drawn
-        through the strengths of the runs.
+        From :func:`nucleation.patch.tables.drops.drop_files`.
 
     Returns
     -------
@@ -73,7 +54,7 @@ def draw(table: xr.Dataset) -> Figure:
     _draw_ratios(ratio, found)
     _draw_distributions(spread, found)
     style.letters(load, state, ratio, spread)
-    entries: dict[str, Any] = dict(style.entries(load, state))
+    entries: style.Options = dict(style.entries(load, state))
     if _LAW in entries:
         line = style.key("", "", "-", style.THEORY)
         entries[_LAW] = (Patch(color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0), line)
@@ -84,7 +65,8 @@ def draw(table: xr.Dataset) -> Figure:
         loc="outside upper center",
         ncols=3,
         title="In (a, b)",
-        **_SMALL,
+        fontsize=style.SMALL,
+        title_fontsize=style.SMALL,
     )
     return figure
 
@@ -102,43 +84,18 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     marker, colour, label = _KINDS[kind]
     theory = float(fault["critical_length"].values[0])
     if own.sizes["run"]:
-        _draw_law(axes, _law(table, own, kind), theory)
-        ratio = own["length"].values / theory
-        strength = own["strength"].values
-        axes.plot(
-            strength,
-            ratio,
-            ".",
-            color=colour,
-            alpha=0.35,
-            ms=3.0,
-            mew=0.0,
-        )
+        _draw_law(axes, table, own, theory)
+        ratio = own["length"] / theory
+        axes.plot(own["strength"], ratio, ".", color=colour, alpha=0.35, ms=3.0, mew=0.0)
+    look: style.Options = {"marker": marker, "ms": 4.0, "color": colour, **style.OPEN}
     for runs in ensembles(own):
         lengths = runs["length"].values / theory
-        mean = lengths.mean()
-        bars = [[mean - lengths.min()], [lengths.max() - mean]]
-        axes.errorbar(
-            runs["strength"].values[0],
-            mean,
-            yerr=bars,
-            linestyle="none",
-            marker=marker,
-            ms=4.0,
-            color=colour,
-            elinewidth=0.9,
-            **style.OPEN,
-        )
-    _draw_floors(axes, fault, kind, theory)
-    stability = float(fault["stability_length"].values[0]) / theory
+        laws.draw_range(axes, runs["strength"].values[0], lengths, elinewidth=0.9, **look)
+    _draw_floors(axes, fault, f"floor_{kind}", theory)
+    stability = fault["stability_length"].values[0] / theory
     style.level(axes, stability, ":", 1.0, label="patch turns unstable, $L_s$")
-    axes.set_title(f"fluctuating {label}")
-    axes.set(
-        xscale="log",
-        xlim=_STRENGTHS,
-        ylim=_RATIOS,
-        xlabel=r"Relative strength $\epsilon$",
-    )
+    axes.set_title(f"fluctuating {label}", loc="center")
+    axes.set(xscale="log", xlim=_STRENGTHS, ylim=_RATIOS, xlabel=r"Relative strength $\epsilon$")
 
 
 def _shown_fault(table: xr.Dataset) -> xr.Dataset:
@@ -149,35 +106,22 @@ def _shown_fault(table: xr.Dataset) -> xr.Dataset:
     return laws.where(runs, fault=runs["fault"].values[0])  # of one material
 
 
-def _law(table: xr.Dataset, own: xr.Dataset, kind: str) -> tuple[Array, ...]:
-    """Strength, and the law's low, median, high and one line (m): the curves, or those of runs."""
-    if "curve_kind" in table:
-        same_fault = table["curve_fault"].values == own["fault"].values[0]
-        cases = np.flatnonzero(same_fault & (table["curve_kind"].values == kind))
-        if cases.size:
-            strongest = own["strength"].values[np.isfinite(own["law_length"].values)].max()
-            known = np.flatnonzero(table["curve_strength"].values <= 1.01 * strongest)
-            case = table.isel(case=cases[0], curve=known)
-            return tuple(case[name].values for name in CURVES)
-    return tuple(own[name].values for name in ("strength", *PREDICTED, "closed_form_length"))
-
-
-def _draw_law(axes: Axes, law: tuple[Array, ...], theory: float) -> None:
-    """The law's median and range, and its closed form."""
-    strength = law[0]
-    low, middle, high, closed_form = (values / theory for values in law[1:])
-    axes.fill_between(
-        strength,
-        low,
-        high,
-        color=style.GUIDE,
-        alpha=_BAND_ALPHA,
-        linewidth=0.0,
-    )
-    axes.plot(strength, middle, color=style.THEORY, label=_LAW)
+def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> None:
+    """The law's median and range, and its closed form, up to the strongest of some runs."""
+    same_fault = table["curve_fault"].values == own["fault"].values[0]
+    cases = np.flatnonzero(same_fault & (table["curve_kind"].values == own["kind"].values[0]))
+    if not cases.size:
+        return
+    strongest = own["strength"].values[np.isfinite(own["law_length"].values)].max()
+    known = np.flatnonzero(table["curve_strength"].values <= 1.01 * strongest)
+    law = table.isel(case=cases[0], curve=known)
+    strength = law["curve_strength"]
+    ends = (law["curve_low"] / theory, law["curve_high"] / theory)
+    axes.fill_between(strength, *ends, color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0)
+    axes.plot(strength, law["curve_length"] / theory, color=style.THEORY, label=_LAW)
     axes.plot(
         strength,
-        closed_form,
+        law["curve_closed_form"] / theory,
         "--",
         color=style.THEORY,
         linewidth=0.9,
@@ -185,70 +129,44 @@ def _draw_law(axes: Axes, law: tuple[Array, ...], theory: float) -> None:
     )
 
 
-def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
+def _draw_floors(axes: Axes, fault: xr.Dataset, floor: str, theory: float) -> None:
     """Quiet runs, each at the strength for which the law's median is its length."""
-    floor = f"floor_{kind}"
     quiet = laws.where(fault, kind="none").sortby([floor, "length", "n_x"])
-    strength = quiet[floor].values
-    inside = (2.0 * _STRENGTHS[0] < strength) & (strength < _STRENGTHS[1])
+    inside = (2.0 * _STRENGTHS[0] < quiet[floor]) & (quiet[floor] < _STRENGTHS[1])
     shown = laws.where(quiet, inside)
     strength = shown[floor].values
     ratio = shown["length"].values / theory
     elements = np.rint(shown["n_x"].values * theory / shown["block_length"].values).astype(int)
-    axes.plot(
-        strength,
-        ratio,
-        "x",
-        label="nothing perturbed, with its elements within $L_c$",
-        color=style.BLACK,
-        markersize=4.0,
-        markeredgewidth=0.8,
-    )
+    label = "nothing perturbed, with its elements within $L_c$"
+    axes.plot(strength, ratio, "x", label=label, color=style.BLACK, ms=4.0, mew=0.8)
     first = 0
     while first < strength.size:  # close ones share one label
         end = int(np.searchsorted(strength, _CLOSE * strength[first]))
         names = ", ".join(map(str, np.unique(elements[first:end])))
         place = (strength[end - 1], ratio[end - 1])
-        axes.annotate(
-            names,
-            place,
-            (-4, -12),
-            textcoords="offset points",
-            fontsize=style.SMALL,
-        )
+        style.note(axes, names, place, (-4, -12))
         first = end
 
 
 def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
     """Simulated mean over the law's median, for every fault and kind."""
-    has_slip_law = False
+    evolutions = set()
     for runs in found:
         first = runs.isel(run=0)
         kind = str(first["kind"].values)
-        usual = bool(first["evolution"] == USUAL_EVOLUTION)
+        evolution = str(first["evolution"].values)
+        evolutions.add(evolution)
         marker, colour, label = _KINDS[kind]
         ratio = float(runs["length"].mean() / first["law_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
-        axes.plot(
-            strength,
-            ratio,
-            marker,
-            label=label,
-            color=colour,
-            ms=4.0,
-            alpha=0.8,
-            mfc=colour if usual else "white",
-        )
-        has_slip_law = has_slip_law or bool(first["evolution"] == "slip")
+        face = colour if evolution == USUAL_EVOLUTION else "white"
+        look: style.Options = {"color": colour, "ms": 4.0, "alpha": 0.8, "mfc": face}
+        axes.plot(strength, ratio, marker, label=label, **look)
     style.band(axes, 1.0 - _GOAL, 1.0 + _GOAL, f"within {100 * _GOAL:g} %")
     entries = style.entries(axes)
-    if has_slip_law:
+    if "slip" in evolutions:
         entries["open: slip law"] = style.key("", "o", markersize=4.0, **style.OPEN)
-    axes.set(
-        xscale="log",
-        xlim=_STRENGTHS,
-        xlabel=r"Relative strength $\epsilon$",
-    )
+    axes.set(xscale="log", xlim=_STRENGTHS, xlabel=r"Relative strength $\epsilon$")
     axes.set_ylabel("Simulated mean over the law")
     axes.legend(entries.values(), entries, loc="upper left", **style.BOXED)
 
@@ -259,32 +177,18 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         if runs.sizes["run"] < FEWEST:
             continue
         first = runs.isel(run=0)
-        marker, colour, label = _KINDS[str(first["kind"].values)]
+        marker, colour, kind = _KINDS[str(first["kind"].values)]
         strength = float(first["strength"])
+        label = rf"{kind}, $10^{{{np.log10(strength):.0f}}}$"
+        dashes = "-" if strength < 1e-4 else "--"
         theory = float(first["critical_length"])
         lengths = np.sort(runs["length"].values) / theory
         parts = (np.arange(lengths.size) + 0.5) / lengths.size
-        axes.step(
-            lengths,
-            parts,
-            where="mid",
-            color=colour,
-            label=rf"{label}, $10^{{{np.log10(strength):.0f}}}$",
-            linestyle="-" if strength < 1e-4 else "--",
-            linewidth=1.1,
-        )
-        law = [float(first[name]) / theory for name in PREDICTED]
-        axes.plot(
-            law,
-            [0.16, 0.5, 0.84],
-            marker,
-            color=colour,
-            ms=3.5,
-            **style.OPEN,
-        )
-    axes.set_ylim(0.0, 1.0)
-    axes.set_xlabel("Length over theory $L/L_c$")
-    axes.set_ylabel("Part that has dropped")
+        look: style.Options = {"where": "mid", "label": label, "linewidth": 1.1}
+        axes.step(lengths, parts, dashes, color=colour, **look)
+        law = [float(first[name]) / theory for name in _QUANTILES]
+        axes.plot(law, [*_QUANTILES.values()], marker, color=colour, ms=3.5, **style.OPEN)
+    axes.set(ylim=(0.0, 1.0), xlabel="Length over theory $L/L_c$", ylabel="Part that has dropped")
     handles = axes.get_legend_handles_labels()[0]
     if handles:
         law_key = style.key("law: 16, 50, 84 %", "o", markersize=3.5, **style.OPEN)

@@ -39,34 +39,14 @@ def draw(table: xr.Dataset) -> Figure:
     for name, (label, marker, colour) in KINDS.items():
         rows = laws.where(table, name=name)
         at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
-        look: style.Options = {
-            "marker": marker,
-            "color": colour,
-            "mfc": "none",
-        }
-        left.plot(
-            at["a_over_b"],
-            at["difference"] + 1.0,
-            linestyle="none",
-            label=label,
-            **look,
-        )
+        look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
+        left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
         _draw_growth(right, rows, look)
-    left.axvspan(
-        LOCALISED_LIMIT,
-        CRACK_LIMIT,
-        color="0.9",
-        lw=0,
-        label="neither formula holds",
-    )
-    left.set(
-        xlabel="$a/b$",
-        ylabel="Simulated length / formula",
-        xlim=(0.0, 1.0),
-    )
-    left.set_title(f"(a) read at {_SHOWN_AT:g} m/s", loc="left")
+    left.axvspan(LOCALISED_LIMIT, CRACK_LIMIT, color="0.9", lw=0, label="neither formula holds")
+    left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
+    left.set_title(f"(a) read at {_SHOWN_AT:g} m/s")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
-    right.set_title("(b) as slip accelerates; labels: $a/b$", loc="left")
+    right.set_title("(b) as slip accelerates; labels: $a/b$")
     right.set_xlim(right=5e4)  # with room for the labels
     for axes in (left, right):
         axes.set_yscale("log")
@@ -88,12 +68,6 @@ def _draw_growth(axes: Axes, rows: xr.Dataset, look: style.Options) -> None:
         at_this_rate = first["finite_speed_length"].values / first["formula_length"].values
         axes.plot(x, at_this_rate, color=look["color"], linestyle="--", lw=0.8)
         if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
-            axes.annotate(
-                f"{float(same['ratio'][0]):.2g}",
-                (x[-1], y[-1]),
-                (5, 0),
-                textcoords="offset points",
-                va="bottom" if float(same["ratio"][0]) < 0.5 else "top",
-                color=look["color"],
-                fontsize=style.SMALL,
-            )
+            ratio = float(same["ratio"][0])
+            place = "bottom" if ratio < 0.5 else "top"
+            style.note(axes, f"{ratio:.2g}", (x[-1], y[-1]), (5, 0), va=place, color=look["color"])

@@ -7,11 +7,8 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.path import Path
-from matplotlib.ticker import (
-    LogLocator,
-    NullFormatter,
-    StrMethodFormatter,
-)
+from matplotlib.ticker import LogLocator
+from scipy.ndimage import convolve1d
 
 from ...figures import style
 from ...patch.tables.map import mean_over_seeds
@@ -23,11 +20,7 @@ _CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2)
 _WEIGHTS = (0.25, 0.5, 0.25)  # of neighbours, for contours: realisations scatter by 2 %
 _SHORTEST = 4  # points of a contour; shorter ones are scatter
 _NOTHING = "#D9D9D9"
-_SLICES = (
-    ("o", style.VERMILLION),
-    ("s", style.BLUE),
-    ("^", style.BLACK),
-)
+_SLICES = (("o", style.VERMILLION), ("s", style.BLUE), ("^", style.BLACK))
 """Marks of the weakenings in the panel over height."""
 _LEGEND_ROOM = 0.15  # of the range of lengths, above them
 _LABEL_ROOM = 0.25  # of the range of heights, beside them
@@ -53,30 +46,23 @@ def draw(grid: xr.Dataset) -> Figure:
     figure, ((stable, quiet), (noisy, slices)) = style.panels(2, 2, 13.0)
     stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)
     drop = mean_over_seeds(grid, "length_ratio")
-    weakest = drop.isel(strength=0)
-    strongest = drop.isel(strength=-1)
-    weak, strong = (rf"$10^{{{np.log10(grid['strength'].values[i]):.0f}}}$" for i in (0, -1))
-    for axes, ratio, title in (
-        (stable, stability, r"(a) patch turns unstable, $L_s/L_c$"),
-        (quiet, weakest, rf"(b) drop, load {weak}, $L/L_c$"),
-        (noisy, strongest, rf"(c) drop, load {strong}, $L/L_c$"),
-    ):
-        image = _draw_ratio(axes, ratio)
-        axes.set_title(title, loc="left")
+    _draw_ratio(stable, stability, r"(a) patch turns unstable, $L_s/L_c$")
+    for axes, letter, i in ((quiet, "b", 0), (noisy, "c", -1)):
+        exponent = np.log10(grid["strength"].values[i])
+        title = rf"({letter}) drop, load $10^{{{exponent:.0f}}}$, $L/L_c$"
+        image = _draw_ratio(axes, drop.isel(strength=i), title)
     label = "(a) to (c): length over theory"
     figure.colorbar(image, ax=[quiet, slices], label=label, extend="both")
-    _draw_slices(slices, grid, stability, weakest)
-    slices.set_title("(d) lengths over height", loc="left")
+    _draw_slices(slices, grid, stability, drop.isel(strength=0))
     return figure
 
 
-def _draw_ratio(axes: Axes, ratio: xr.DataArray) -> QuadMesh:
+def _draw_ratio(axes: Axes, ratio: xr.DataArray, title: str) -> QuadMesh:
     """An image of a ratio over height and weakening, with contours; grey where there is none."""
     values = ratio.transpose("zeta_over_a", "height").values
     height = ratio["height"].values
     weakening = ratio["zeta_over_a"].values
-    axes.set_facecolor(_NOTHING)
-    axes.set(xscale="log", yscale="log")
+    axes.set(facecolor=_NOTHING, xscale="log", yscale="log", title=title)
     image = axes.pcolormesh(
         edges(height, logarithmic=True),
         edges(weakening, logarithmic=True),
@@ -87,24 +73,17 @@ def _draw_ratio(axes: Axes, ratio: xr.DataArray) -> QuadMesh:
     )
     if min(values.shape) > 1 and np.isfinite(values).any():
         _draw_contours(axes, height, weakening, values)
-    axes.set_xlabel("Block height $H$ (m)")
+    axes.set(xlabel="Block height $H$ (m)", ylabel=r"Weakening $\zeta/a$")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)))
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.set_ylabel(r"Weakening $\zeta/a$")
+    style.plain_numbers(axes.yaxis)
     return image
 
 
 def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -> None:
     """Contours of the ratio, smoothed over neighbours, without short pieces."""
-    lines = axes.contour(
-        height,
-        weakening,
-        _smoothed(_smoothed(values).T).T,
-        levels=_CONTOURS,
-        colors="white",
-        linewidths=0.7,
-    )
+    smooth = _smoothed(_smoothed(values).T).T
+    look: style.Options = {"levels": _CONTOURS, "colors": "white", "linewidths": 0.7}
+    lines = axes.contour(height, weakening, smooth, **look)
     lines.set_paths([_long(path) for path in lines.get_paths()])
     axes.clabel(lines, fmt="%g", fontsize=style.SMALL)
 
@@ -112,32 +91,19 @@ def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -
 def _smoothed(values: Array) -> Array:
     """Weighted means of neighbours in a column, of those that are known; NaN stays NaN."""
     known = np.isfinite(values)
-    padded = np.pad(np.where(known, values, 0.0), ((1, 1), (0, 0)))
-    shares = np.pad(known.astype(float), ((1, 1), (0, 0)))
-    rows = values.shape[0]
-    total = sum(w * padded[i : i + rows] for i, w in enumerate(_WEIGHTS))
-    share = sum(w * shares[i : i + rows] for i, w in enumerate(_WEIGHTS))
-    return np.where(known, total / np.where(known, share, 1.0), np.nan)
-
-
-def _pieces(path: Path) -> list[Path]:
-    """The connected lines of a path."""
-    starts = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)
-    return [Path(vertices) for vertices in np.split(np.asarray(path.vertices), starts[1:])]
+    total = convolve1d(np.where(known, values, 0.0), _WEIGHTS, axis=0, mode="constant")
+    share = convolve1d(known.astype(float), _WEIGHTS, axis=0, mode="constant")
+    return np.divide(total, share, out=np.full(values.shape, np.nan), where=known)
 
 
 def _long(path: Path) -> Path:
     """A contour without its pieces of few points."""
-    pieces = [piece for piece in _pieces(path) if np.shape(piece.vertices)[0] >= _SHORTEST]
-    return Path.make_compound_path(*pieces)
+    starts = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)
+    pieces = np.split(np.asarray(path.vertices), starts[1:])
+    return Path.make_compound_path(*[Path(piece) for piece in pieces if len(piece) >= _SHORTEST])
 
 
-def _draw_slices(
-    axes: Axes,
-    grid: xr.Dataset,
-    stability: xr.DataArray,
-    drop: xr.DataArray,
-) -> None:
+def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray) -> None:
     """Theory, stability and drop over height for a few weakenings."""
     weakenings = grid["zeta_over_a"].values
     height = grid["height"].values
@@ -145,37 +111,21 @@ def _draw_slices(
     shown = np.unique(places.round().astype(int))
     for i, (marker, colour) in zip(shown, _SLICES, strict=False):
         theory = grid["critical_length"].values[:, i]
-        lengths = [ratio.isel(zeta_over_a=i).values * theory for ratio in (drop, stability)]
         axes.plot(height, theory, color=colour)
-        axes.plot(height, lengths[0], marker, color=colour, markersize=3.5)
-        axes.plot(height, lengths[1], "--", color=colour, linewidth=0.9)
-        axes.annotate(
-            rf"$\zeta/a = {weakenings[i]:.2g}$",
-            (height[-1], theory[-1]),
-            (5.0, 0.0),
-            textcoords="offset points",
-            va="center",
-            color=colour,
-            fontsize=style.SMALL,
-        )
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Block height $H$ (m)",
-        ylabel="Length (m)",
-    )
+        axes.plot(height, theory * drop[:, i], marker, color=colour, markersize=3.5)
+        axes.plot(height, theory * stability[:, i], "--", color=colour, linewidth=0.9)
+        name = rf"$\zeta/a = {weakenings[i]:.2g}$"
+        style.note(axes, name, (height[-1], theory[-1]), (5.0, 0.0), va="center", color=colour)
+    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
+    axes.set_title("(d) lengths over height")
     low, high = axes.get_ylim()
     axes.set_ylim(top=high * (high / low) ** _LEGEND_ROOM)
     first, last = axes.get_xlim()
     axes.set_xlim(right=last * (last / first) ** _LABEL_ROOM)
-    axes.legend(
-        handles=[
-            style.key("theory $L_c$", "", "-"),
-            style.key("drop $L$", "o", markersize=3.5),
-            style.key("$L_s$", "", "--", linewidth=0.9),
-        ],
-        fontsize=style.SMALL,
-        loc="upper left",
-        ncols=3,
-        columnspacing=1.2,
-    )
+    keys = [
+        style.key("theory $L_c$", "", "-"),
+        style.key("drop $L$", "o", markersize=3.5),
+        style.key("$L_s$", "", "--", linewidth=0.9),
+    ]
+    look: style.Options = {"fontsize": style.SMALL, "loc": "upper left", "columnspacing": 1.2}
+    axes.legend(handles=keys, ncols=3, **look)

@@ -49,8 +49,7 @@ def draw(table: xr.Dataset) -> Figure:
     figure, panels = style.panels(1, 2, 0.47 * (rows + 4), sharey=True)
     for axes, (name, title) in zip(panels, _PANELS, strict=True):
         _draw_changes(axes, shown, variations, name)
-        axes.set_title(title, loc="left")
-        axes.set_xlabel("Change against the base (%)")
+        axes.set(title=title, xlabel="Change against the base (%)")
     panels[0].set_yticks(range(rows), [label(variation) for variation in variations])
     panels[0].set_ylim(rows - 0.5, -0.5)
     handles = panels[0].get_legend_handles_labels()[0]
@@ -87,5 +86,5 @@ def _draw_changes(axes: Axes, shown: xr.Dataset, variations: list[str], name: st
             ms=3.8,
             label=f"$H={float(own['height'][0]):g}$ m",
         )
-    axes.axvline(0.0, color=style.GUIDE, linewidth=0.7)
+    style.vertical(axes, 0.0, "-", 0.7)
     axes.tick_params(axis="y", length=0)

@@ -4,26 +4,19 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
 from ...figures import laws, style
 
 _LINES = {
-    "stability_length": (
-        "curve_stability",
-        r"$L_s$: the patch turns unstable",
-        style.BLUE,
-        "-",
-    ),
-    "runaway_length": (
-        "curve_runaway",
+    "curve_stability": (r"$L_s$: the patch turns unstable", style.BLUE, "-"),
+    "curve_runaway": (
         r"$L_{\mathrm{run}}$: slow slip has no end but an event",
         style.VERMILLION,
         "-.",
     ),
-    "law_length": ("curve_law", "law of the drop, median", style.GUIDE, "--"),
+    "curve_law": ("law of the drop, median", style.GUIDE, "--"),
 }
-"""Name of the curve, label, colour and dashes of each length by theory."""
+"""Label, colour and dashes of each length by theory."""
 
 _SIMULATED = "simulated drop: mean and range of realisations"
 _BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
@@ -39,8 +32,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.tables.weakening.weakening_files`. Without its curves, lines
-        connect the theory's lengths of the runs.
+        From :func:`nucleation.patch.tables.weakening.weakening_files`.
 
     Returns
     -------
@@ -56,12 +48,11 @@ def draw(table: xr.Dataset) -> Figure:
     for axes, letter, system in zip(panels, "abcdefgh", systems, strict=False):
         curves = _curves(table, system)
         _draw_system(axes, system, curves)
-        bodies = _BASES[str(system["below"].values[0])]
         height = f"$H$ = {float(system['height'][0]):g} m"
-        text = f"{bodies}, {height}"
-        if curves is not None and curves["curve_half_spaces"]:
+        text = f"{_BASES[str(system['below'].values[0])]}, {height}"
+        if curves["curve_half_spaces"]:
             text = f"half-spaces (runs: {height})"
-        axes.set_title(f"({letter}) {text}", loc="left")
+        axes.set_title(f"({letter}) {text}")
     panels[0].set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(panels[0])
     entries[_SIMULATED] = style.key(_SIMULATED, "o", colour=style.BLACK)
@@ -69,46 +60,26 @@ def draw(table: xr.Dataset) -> Figure:
     return figure
 
 
-def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset | None:
-    """The theory's curves of a base and height, None if the table has none."""
-    if "curve_study" not in table:
-        return None
+def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset:
+    """The theory's curves of a base and height."""
     same = np.ones(table.sizes["system"], dtype=bool)
     for name in ("study", "below", "height"):
         same &= table[f"curve_{name}"].values == system[name].values[0]
-    return table.isel(system=np.flatnonzero(same)[0]) if same.any() else None
+    return table.isel(system=np.flatnonzero(same)[0])
 
 
-def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset | None) -> None:
+def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
     """The lengths of one base and height."""
-    faults = list(laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"))
-    weakening = np.array([float(fault["zeta_over_a"][0]) for fault in faults])
-    for name, (curve, label, colour, dashes) in _LINES.items():
-        if curves is None:
-            ratios = [float(fault[name][0] / fault["critical_length"][0]) for fault in faults]
-            x, y = weakening, np.array(ratios)
-        else:
-            x, y = curves["curve_ratio"].values, curves[curve].values
-        axes.plot(x, y, linestyle=dashes, color=colour, label=label)
-    for at, fault in zip(weakening, faults, strict=True):
+    for name, (label, colour, dashes) in _LINES.items():
+        axes.plot(curves["curve_ratio"], curves[name], dashes, color=colour, label=label)
+    for fault in laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"):
         simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
-            mean = dropped.mean()
-            bars = [[mean - dropped.min()], [dropped.max() - mean]]
-            axes.errorbar(
-                at,
-                mean,
-                bars,
-                fmt="o",
-                color=style.BLACK,
-                markersize=4.0,
-            )
+            look: style.Options = {"color": style.BLACK, "marker": "o", "markersize": 4.0}
+            laws.draw_range(axes, fault["zeta_over_a"].values[0], dropped, **look)
     style.level(axes, 0.5, label="half of $L_c$")
     axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
     axes.set(yscale="log", ylim=(0.4, 2.8))
-    axes.set_xticks(_TICKS)
-    axes.set_yticks(_RATIOS)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axis.set_minor_formatter(NullFormatter())
+    style.plain_numbers(axes.xaxis, _TICKS)
+    style.plain_numbers(axes.yaxis, _RATIOS)

@@ -4,7 +4,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
 from ...figures import laws, style
 
@@ -17,15 +16,7 @@ LOOKS = {
 
 THEORY = "$W_c$ by theory"
 RIGID = 1.158 / np.pi  # for half-spaces with surroundings that do not slip
-TICKS = (
-    0.05,
-    0.1,
-    0.2,
-    0.5,
-    1.0,
-    2.0,
-    5.0,
-)  # of the surroundings' strengthening
+TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # of the surroundings' strengthening
 
 
 @style.styled
@@ -43,28 +34,17 @@ def draw(table: xr.Dataset) -> Figure:
         A panel for each zeta/a.
     """
     rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
-    kinds = sorted(
-        laws.groups(rounded, "ratio"),
-        key=lambda rows: float(rows["ratio"][0]),
-    )
-    figure, panels = style.panels(1, len(kinds), 7.5)
-    for axes, letter, rows in zip(np.ravel(panels), "abcdefgh", kinds, strict=False):
-        _draw_weakening(axes, rows)
-        axes.set_title(
-            rf"({letter}) $\zeta/a$ = {float(rows['ratio'][0]):.2g}",
-            loc="left",
-        )
-    first = np.ravel(panels)[0]
-    first.set_ylabel("Width of the patch $W/L_c$")
-    entries = style.entries(first)
+    ratios = np.unique(rounded["ratio"])
+    figure, panels = style.panels(1, ratios.size, 7.5)
+    panels = np.ravel(panels)
+    for axes, letter, ratio in zip(panels, "abcdefgh", ratios, strict=False):
+        _draw_weakening(axes, laws.where(rounded, ratio=ratio))
+        axes.set_title(rf"({letter}) $\zeta/a$ = {ratio:.2g}")
+    panels[0].set_ylabel("Width of the patch $W/L_c$")
+    entries = style.entries(panels[0])
     for label, marker, colour in LOOKS.values():
         entries[label] = style.key(label, marker, colour=colour, mfc="none")
-    figure.legend(
-        entries.values(),
-        entries,
-        loc="outside upper center",
-        ncols=len(entries),
-    )
+    figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
     return figure
 
 
@@ -77,19 +57,7 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
     for name, (_, marker, colour) in LOOKS.items():
         own = laws.where(rows, outcome=name)
         width = own["width"] / own["critical_length"]
-        axes.plot(
-            own["strengthening"],
-            width,
-            marker,
-            color=colour,
-            mfc="none",
-        )
+        axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
     top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
-    axes.set(
-        xscale="log",
-        xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
-        ylim=(0.0, top),
-    )
-    axes.set_xticks(TICKS)
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, top))
+    style.plain_numbers(axes.xaxis, TICKS)

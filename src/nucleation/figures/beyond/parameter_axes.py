@@ -112,9 +112,5 @@ def edges(values: Array, logarithmic: bool | None = None) -> Array:
         logarithmic = is_logarithmic(values)
     places = np.log(values) if logarithmic else values
     middle = 0.5 * (places[1:] + places[:-1])
-    borders = np.r_[
-        2.0 * places[0] - middle[0],
-        middle,
-        2.0 * places[-1] - middle[-1],
-    ]
+    borders = np.r_[2.0 * places[0] - middle[0], middle, 2.0 * places[-1] - middle[-1]]
     return np.exp(borders) if logarithmic else borders

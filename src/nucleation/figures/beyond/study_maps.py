@@ -48,25 +48,15 @@ def draw_maps(
     lost = ~np.isfinite(length)
     label = f"no event ({lost.sum()} of {lost.size})"
     for axes, values, title, colours in (
-        (
-            left,
-            length,
-            "(a) Length at the drop, simulated (m)",
-            style.SEQUENCE,
-        ),
+        (left, length, "(a) Length at the drop, simulated (m)", style.SEQUENCE),
         (right, ratio, "(b) Simulations over theory", _RATIO_MAP),
     ):
         image = np.full((grid[up].size, grid[along].size), np.nan)
         image[at] = values
-        mesh = axes.pcolormesh(
-            edges(grid[along]),
-            edges(grid[up]),
-            np.ma.masked_invalid(image),
-            cmap=colours,
-        )
+        mesh = axes.pcolormesh(edges(grid[along]), edges(grid[up]), image, cmap=colours)
         axes.plot(x[lost], y[lost], "x", color=style.VERMILLION, label=label)
         figure.colorbar(mesh, ax=axes, pad=0.02)
-        axes.set_title(title, loc="left")
+        axes.set_title(title)
         axes.set_xlabel(label_of(along, entries[along]))
         set_scale(axes, "x", grid[along])
         set_scale(axes, "y", grid[up])

@@ -11,7 +11,6 @@ from matplotlib.ticker import NullLocator
 
 from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
-from ...types import Array
 
 _PERCENT = 100.0
 LEAST = 1e-3  # per cent: smaller differences are drawn there
@@ -32,15 +31,7 @@ _ALONG = {
     "n_x": "Elements $N$ within the theory's $L_c$",
     "longest_step": r"Longest step $\times V/D$",
 }
-_FAULT = (
-    "kind",
-    "evolution",
-    "initial_state",
-    "height",
-    "strength",
-    "seed",
-    "fault",
-)
+_FAULT = ("kind", "evolution", "initial_state", "height", "strength", "seed", "fault")
 _EVERY_FAULT = "normal_load"  # the kind with a place for each fault
 _SIZE: style.Options = {"markersize": 3.8}
 
@@ -118,11 +109,7 @@ def _name(key: _Place, usual_age: object) -> str:
 
 
 def _draw_differences(
-    axes: Axes,
-    perturbed: xr.Dataset,
-    name: str,
-    label: str,
-    goal: float,
+    axes: Axes, perturbed: xr.Dataset, name: str, label: str, goal: float
 ) -> None:
     """Difference of each run from the finest of its sequence."""
     found = places(perturbed)
@@ -137,30 +124,13 @@ def _draw_differences(
                 shown = np.maximum(differences, LEAST)
                 at = np.full(shown.size, place + 0.17 * (i - 1.5))
                 coarse = shown.size - 1 if refined == "n_x" else 0
-                axes.plot(
-                    at[:coarse],
-                    shown[:coarse],
-                    marker,
-                    **style.OPEN,
-                    **look,
-                )
+                axes.plot(at[:coarse], shown[:coarse], marker, **style.OPEN, **look)
                 axes.plot(at[coarse:], shown[coarse:], marker, **look)
         axes.plot([], [], marker, label=meaning, **look)
-    axes.set(
-        yscale="log",
-        ylim=(LEAST / 2.0, 30.0),
-        xlim=(-0.6, len(found) - 0.4),
-        ylabel=label,
-    )
+    axes.set(yscale="log", ylim=(LEAST / 2.0, 30.0), xlim=(-0.6, len(found) - 0.4), ylabel=label)
     axes.set_yticks([LEAST, 0.1, 10.0], [f"\u2264 {LEAST:g}", "0.1", "10"])
     names = [_name(key, usual_age) for key in found]
-    axes.set_xticks(
-        range(len(found)),
-        names,
-        rotation=40.0,
-        ha="right",
-        rotation_mode="anchor",
-    )
+    axes.set_xticks(range(len(found)), names, rotation=40.0, ha="right", rotation_mode="anchor")
     axes.xaxis.set_minor_locator(NullLocator())
     axes.tick_params(axis="x", length=0)
 
@@ -169,11 +139,6 @@ def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
     """The sequences of one refined parameter, each from coarse to fine."""
     others = [name for name in _REFINED if name != refined]
     return laws.groups(laws.where(rows, refinement=refined), *_FAULT, *others)
-
-
-def _elements_within(rows: xr.Dataset) -> Array:
-    """Number of elements along x in the theory's critical length, for any length of the block."""
-    return np.rint((rows["n_x"] * rows["critical_length"] / rows["block_length"]).values)
 
 
 def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
@@ -189,61 +154,34 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
         is_quiet = bool(sequence["kind"][0] == "none")
         marker, colour = style.look(heights.index(height))
         ratio = sequence["length_over_theory"].values
-        within = _elements_within(sequence)
+        # elements along x in the theory's critical length, for any length of the block
+        elements = sequence["n_x"] * sequence["critical_length"] / sequence["block_length"]
+        within = np.rint(elements.values)
         size = within if refined == "n_x" else sequence[refined].values
         sizes.update(size.tolist())
-        axes.plot(
-            size,
-            ratio,
-            marker=marker,
-            linestyle="--" if is_quiet else "-",
-            color=colour,
-            mfc="white" if is_quiet else colour,
-            linewidth=1.0,
-            **_SIZE,
-        )
-        text: style.Options = {
-            "textcoords": "offset points",
-            "fontsize": style.SMALL,
-            "color": colour,
-        }
+        look: style.Options = {"marker": marker, "color": colour, "linewidth": 1.0, **_SIZE}
+        if is_quiet:
+            look |= {"linestyle": "--", **style.OPEN}
+        axes.plot(size, ratio, **look)
         if is_quiet and refined == "longest_step":  # quiet runs of one height differ in the mesh
             mesh = f"$N={within[0]:g}$"
-            axes.annotate(mesh, (size[0], ratio[0]), xytext=(3, -10), **text)
+            style.note(axes, mesh, (size[0], ratio[0]), (3, -10), color=colour)
         elif is_quiet and height == heights[-1]:
             step = f"{float(sequence['longest_step'][0]):g} $D/V$"
-            axes.annotate(
-                step,
-                (size[-1], ratio[-1]),
-                xytext=(-3, -9),
-                ha="right",
-                **text,
-            )
+            end = (size[-1], ratio[-1])
+            style.note(axes, step, end, (-3, -9), ha="right", color=colour)
     axes.margins(y=0.16)  # room for labels below the lowest curve
     axes.set(xscale="log", xlabel=_ALONG[refined])
     axes.set_xticks(sorted(sizes), [f"{size:g}" for size in sorted(sizes)])
     axes.xaxis.set_minor_locator(NullLocator())
     if refined == "n_x":
-        axes.legend(
-            handles=_keys(heights),
-            loc="upper left",
-            fontsize=style.SMALL,
-        )
+        axes.legend(handles=_keys(heights), loc="upper left", fontsize=style.SMALL)
 
 
 def _keys(heights: list[float]) -> list[Line2D]:
     keys = []
     for i, height in enumerate(heights):
         marker, colour = style.look(i)
-        keys.append(
-            style.key(
-                f"$H={height:g}$ m",
-                marker,
-                "-",
-                colour,
-                **_SIZE,
-                lw=1.0,
-            )
-        )
+        keys.append(style.key(f"$H={height:g}$ m", marker, "-", colour, **_SIZE, lw=1.0))
     keys.append(style.key("quiet", "o", "--", linewidth=1.0, **_SIZE, **style.OPEN))
     return keys

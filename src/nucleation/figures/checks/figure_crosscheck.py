@@ -17,11 +17,7 @@ _KILO = 1e3
 _PERCENT = 1e2
 _FIRST = 0.5  # s; before, the patch has few elements
 _LARGEST_DIFFERENCE = 8.0  # per cent, shown
-_OWN: style.Options = {
-    "color": style.BLACK,
-    "lw": 1.5,
-    "label": "this project",
-}
+_OWN: style.Options = {"color": style.BLACK, "lw": 1.5, "label": "this project"}
 _FREEFEM: style.Options = {
     "color": style.VERMILLION,
     "ls": (0, (3, 2)),
@@ -63,20 +59,11 @@ def draw(
         Three panels for each run.
     """
     figure, panels = style.panels(
-        3,
-        len(own),
-        13.2,
-        sharex="col",
-        squeeze=False,
-        height_ratios=(1.35, 1.35, 1.0),
+        3, len(own), 13.2, sharex="col", squeeze=False, height_ratios=(1.35, 1.35, 1.0)
     )
     for i, column in enumerate(panels.T):
         _draw_column(column, (own[i], freefem[i]), table.isel(run=i), settings)
-    names = (
-        "Patch length $L$ (m)",
-        "Applied force $-f_d$ (kN/m)",
-        "Difference (%)",
-    )
+    names = ("Patch length $L$ (m)", "Applied force $-f_d$ (kN/m)", "Difference (%)")
     for axes, name in zip(panels[:, 0], names, strict=True):
         axes.set_ylabel(name)
     panels[0, 0].legend(loc="lower right")
@@ -104,23 +91,13 @@ def _draw_column(
     for suffix, line, marker in _SOLVERS:
         onset = row[f"onset_time{suffix}"]
         onset_length = row[f"length{suffix}"]
-        length.plot(
-            onset,
-            onset_length,
-            marker,
-            color=line["color"],
-            ms=4.5,
-            **style.OPEN,
-        )
+        length.plot(onset, onset_length, marker, color=line["color"], ms=4.5, **style.OPEN)
     _draw_differences(difference, lengths, forces, row)
     title, below = _described(records[0].parameters)
-    length.set_title(title, pad=3.0)
+    length.set_title(title, loc="center", pad=3.0)
     if below:
         place = "center" if "top" in below else "lower right"
-        look: style.Options = {
-            "title_fontsize": style.SMALL,
-            "loc": place,
-        }
+        look: style.Options = {"title_fontsize": style.SMALL, "loc": place}
         length.legend([], [], title=below, **look)
 
 
@@ -135,27 +112,18 @@ def _described(parameters: Parameters) -> tuple[str, str]:
     if parameters.loading.kind == "top":
         return f"$H={heights}", "two blocks,\nmoved at\nthe top"
     ratio = below.material.shear_modulus / parameters.material.shear_modulus
-    return (
-        f"$H={heights}",
-        f"two blocks,\nlower {below.far_side},\n$\\mu_2={ratio:.3g}\\,\\mu$",
-    )
+    return (f"$H={heights}", f"two blocks,\nlower {below.far_side},\n$\\mu_2={ratio:.3g}\\,\\mu$")
 
 
 def _draw_differences(axes: Axes, lengths: _Curves, forces: _Curves, row: xr.Dataset) -> None:
     """FreeFem++ over this project, minus one, up to the earlier onset."""
     end = min(float(row["onset_time"]), float(row["onset_time_freefem"]))
     time = np.linspace(_FIRST, end, 1500)
-    kinds = (
-        (lengths, style.GREEN, "$L(t)$"),
-        (forces, style.BLUE, "$f_d(t)$"),
-    )
+    kinds = ((lengths, style.GREEN, "$L(t)$"), (forces, style.BLUE, "$f_d(t)$"))
     for curves, colour, name in kinds:
         own, freefem = (np.interp(time, *curve) for curve in curves)
         own[own == 0.0] = np.nan  # no patch yet
         difference = _PERCENT * (freefem / own - 1.0)
         axes.plot(time, difference, color=colour, linewidth=0.9, label=name)
     style.level(axes, 0.0, width=0.6, zorder=0)
-    axes.set(
-        ylim=(-_LARGEST_DIFFERENCE, _LARGEST_DIFFERENCE),
-        xlabel="Time $t$ (s)",
-    )
+    axes.set(ylim=(-_LARGEST_DIFFERENCE, _LARGEST_DIFFERENCE), xlabel="Time $t$ (s)")

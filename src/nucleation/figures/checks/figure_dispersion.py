@@ -49,7 +49,7 @@ def draw(dispersion: xr.Dataset) -> Figure:
     for axes, (name, label) in zip(panels, _PANELS, strict=True):
         for i, shade in enumerate(shades):
             _draw_height(axes, dispersion.isel(height=i), name, shade)
-        axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
+        style.vertical(axes, 1.0)
         axes.set(xlabel=r"Wavenumber $k/k_c$", ylabel=label)
         axes.set_xlim(modes.min() - margin, modes.max() + margin)
         _limit_to_lines(axes)
@@ -79,22 +79,8 @@ def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...
     theory = (one[f"curve_{name}"] * memory_time).transpose("curve", "branch").values
     measured = (one[f"measured_{name}"] * memory_time).transpose("mode", "branch").values
     for branch, (_, marker, line) in enumerate(_BRANCHES):
-        axes.plot(
-            curve,
-            theory[:, branch],
-            color=shade,
-            linestyle=line,
-            linewidth=1.0,
-        )
-        axes.plot(
-            modes,
-            measured[:, branch],
-            marker,
-            color=shade,
-            ms=3.6,
-            mew=0.9,
-            **style.OPEN,
-        )
+        axes.plot(curve, theory[:, branch], color=shade, linestyle=line, linewidth=1.0)
+        axes.plot(modes, measured[:, branch], marker, color=shade, ms=3.6, mew=0.9, **style.OPEN)
 
 
 def _limit_to_lines(axes: Axes) -> None:

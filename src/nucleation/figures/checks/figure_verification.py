@@ -1,7 +1,5 @@
 """Verification: errors of manufactured solutions against element size and time step."""
 
-from typing import NamedTuple
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,91 +9,31 @@ from ...figures import style
 from ...types import Array
 
 _AGING: style.Options = {"marker": "o", "color": style.AGING, "ms": 3.8}
-_SLIP: style.Options = {
-    "marker": "^",
-    "color": style.SLIP,
-    "mfc": "none",
-    "ms": 6.5,
-}
+_SLIP: style.Options = {"marker": "^", "color": style.SLIP, "mfc": "none", "ms": 6.5}
 _BODY: style.Options = {"marker": "D", "color": style.BLUE, "ms": 3.8}
 
-
-class _Series(NamedTuple):
-    problem: str
-    variable: str
-    label: str
-    look: style.Options
-
-
-_SERIES = (
-    _Series(
-        "aging",
-        "slip_rate_error",
-        "aging law, slip rate",
-        _AGING | {"ls": "-"},
-    ),
-    _Series(
-        "aging",
-        "log_state_error",
-        "aging law, state",
-        _AGING | {"ls": "--"},
-    ),
-    _Series(
-        "slip",
-        "slip_rate_error",
-        "slip law, slip rate",
-        _SLIP | {"ls": "-"},
-    ),
-    _Series(
-        "slip",
-        "log_state_error",
-        "slip law, state",
-        _SLIP | {"ls": "--"},
-    ),
-    _Series(
-        "elastodynamics",
-        "displacement_error",
-        "elastodynamics, displacement",
-        _BODY,
-    ),
+_SERIES: tuple[tuple[str, str, str, str, style.Options], ...] = (
+    ("aging", "slip_rate_error", "aging law, slip rate", "-", _AGING),
+    ("aging", "log_state_error", "aging law, state", "--", _AGING),
+    ("slip", "slip_rate_error", "slip law, slip rate", "-", _SLIP),
+    ("slip", "log_state_error", "slip law, state", "--", _SLIP),
+    ("elastodynamics", "displacement_error", "elastodynamics, displacement", "-", _BODY),
 )
-
-
-class _Panel(NamedTuple):
-    refinement: str
-    spacing: str  # variable of the dataset
-    unit: float  # of the abscissa, in SI units
-    label: str
-    title: str
-    order: int
-
+"""Problem, variable, label, line and marks of each error."""
 
 _PANELS = (
-    _Panel(
-        refinement="mesh",
-        spacing="element_size",
-        unit=1e-3,
-        label="Element size $h$ (mm)",
-        title="(a) mesh",
-        order=2,
-    ),
-    _Panel(
-        refinement="step",
-        spacing="step_size",
-        unit=1e-6,
-        label=r"Time step $\Delta t$ (µs)",
-        title="(b) step, waves resolved",
-        order=2,
-    ),
-    _Panel(
-        refinement="quasi_static_step",
-        spacing="quasi_static_step_size",
-        unit=1e-3,
-        label=r"Time step $\Delta t$ (ms)",
-        title="(c) step, quasi-static",
-        order=3,
+    ("mesh", "element_size", 1e-3, "(a) mesh", "Element size $h$ (mm)", 2),
+    ("step", "step_size", 1e-6, "(b) step, waves resolved", r"Time step $\Delta t$ (µs)", 2),
+    (
+        "quasi_static_step",
+        "quasi_static_step_size",
+        1e-3,
+        "(c) step, quasi-static",
+        r"Time step $\Delta t$ (ms)",
+        3,
     ),
 )
+"""Refinement, its variable and the unit of the abscissa (SI), title, label, expected order."""
 
 
 @style.styled
@@ -116,17 +54,17 @@ def draw(convergence: xr.Dataset) -> Figure:
     """
     figure, panels = style.panels(1, len(_PANELS), 8.2, sharey=True)
     for axes, panel in zip(panels, _PANELS, strict=True):
-        spacing = convergence[panel.spacing].values / panel.unit
-        axes.set_title(panel.title, loc="left")
-        axes.set(xscale="log", yscale="log", xlabel=panel.label)
+        refinement, variable, unit, title, abscissa, order = panel
+        spacing = convergence[variable].values / unit
+        axes.set(xscale="log", yscale="log", xlabel=abscissa, title=title)
         axes.set_xticks(spacing, [f"{value:.3g}" for value in spacing])
         axes.minorticks_off()
-        errors = convergence.sel(refinement=panel.refinement)
-        for problem, variable, label, look in _SERIES:
-            error = errors[variable].sel(problem=problem).values
+        errors = convergence.sel(refinement=refinement)
+        for problem, name, label, line, look in _SERIES:
+            error = errors[name].sel(problem=problem)
             if np.isfinite(error).all():
-                axes.plot(spacing, error, linewidth=1.0, label=label, **look)
-        _draw_slope(axes, spacing, panel.order)
+                axes.plot(spacing, error, linestyle=line, linewidth=1.0, label=label, **look)
+        _draw_slope(axes, spacing, order)
     panels[0].set_ylabel("Error over the solution's scale")
     handles = panels[0].get_legend_handles_labels()
     figure.legend(*handles, loc="outside lower center", ncols=3)
@@ -139,12 +77,5 @@ def _draw_slope(axes: Axes, spacing: Array, order: int) -> None:
     ends = np.array([spacing.min(), 0.5 * spacing.max()])
     line = 0.35 * lowest * (ends / ends[0]) ** order
     axes.plot(ends, line, color=style.GUIDE, linewidth=1.0, linestyle=":")
-    axes.annotate(
-        f"slope {order}",
-        (np.sqrt(ends.prod()), np.sqrt(line.prod())),
-        (5, -5),
-        textcoords="offset points",
-        va="top",
-        color=style.GUIDE,
-        fontsize=style.SMALL,
-    )
+    place = (np.sqrt(ends.prod()), np.sqrt(line.prod()))
+    style.note(axes, f"slope {order}", place, (5, -5), va="top", color=style.GUIDE)

@@ -9,13 +9,7 @@ from matplotlib.figure import Figure
 from ...figures import style
 from ...types import Array
 
-DASHES = (
-    "-",
-    (0, (5, 1.5)),
-    (0, (5, 1.5, 1, 1.5)),
-    (0, (1.2, 1.2)),
-    (0, (9, 1.5, 1, 1.5, 1, 1.5)),
-)
+DASHES = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)), (0, (9, 1.5, 1, 1.5, 1, 1.5)))
 HANDLE = 4.0  # length of the legend's lines over the font size: each pattern is shown entirely
 
 

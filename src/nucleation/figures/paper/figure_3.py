@@ -30,10 +30,7 @@ _SHOWN_LENGTHS = 1.4  # width of the inset in critical lengths
 
 @style.styled
 def draw(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    inset_simulation: xr.Dataset,
-    inset_row: xr.Dataset,
+    theory: xr.Dataset, lengths: xr.Dataset, inset_simulation: xr.Dataset, inset_row: xr.Dataset
 ) -> Figure:
     """Draw ``L_c(H)`` with the simulations as points, and slip-rate snapshots as an inset.
 
@@ -56,7 +53,10 @@ def draw(
         One panel with an inset.
     """
     figure, axes = style.panels(1, 1, 12.4)
-    _draw_theory(axes, theory)
+    height = theory["height"]
+    axes.plot(height, theory["critical_length"], color=style.THEORY, label="theory")
+    thin: style.Options = {"label": r"theory, $Hk\to 0$", "linewidth": 1.1}
+    axes.plot(height, theory["thin_limit_length"], "--", color=style.THEORY, **thin)
     means = over_realisations(lengths)
     usable = np.isfinite(means["length"].values) & (means["role"].values == _DRAWN)
     drawn = laws.where(means, usable)
@@ -64,45 +64,14 @@ def draw(
     # from zero to slightly more than the highest simulated block
     simulated = drawn if drawn.sizes["run"] else theory
     highest = 1.12 * float(simulated["height"].max())
-    longest = np.interp(
-        highest,
-        theory["height"].values,
-        theory["thin_limit_length"].values,
-    )
+    longest = np.interp(highest, height, theory["thin_limit_length"])
     axes.set(xlim=(0.0, highest), ylim=(0.0, 1.04 * float(longest)))
     axes.minorticks_on()
-    axes.set(
-        xlabel="Height $H$ (m)",
-        ylabel="Critical nucleation length $L_c$ (m)",
-    )
+    axes.set(xlabel="Height $H$ (m)", ylabel="Critical nucleation length $L_c$ (m)")
     axes.legend(loc="upper left", labelspacing=0.35)
-    place = (
-        _INSET_LEFT,
-        _INSET_BOTTOM,
-        _INSET_WIDTH,
-        _inset_height(axes, drawn),
-    )
+    place = (_INSET_LEFT, _INSET_BOTTOM, _INSET_WIDTH, _inset_height(axes, drawn))
     _draw_snapshots(axes.inset_axes(place), inset_simulation, inset_row)
     return figure
-
-
-def _draw_theory(axes: Axes, theory: xr.Dataset) -> None:
-    """The prediction, solid, and its limit for thin blocks, dashed."""
-    height = theory["height"].values
-    axes.plot(
-        height,
-        theory["critical_length"].values,
-        color=style.THEORY,
-        label="theory",
-    )
-    axes.plot(
-        height,
-        theory["thin_limit_length"].values,
-        color=style.THEORY,
-        label=r"theory, $Hk\to 0$",
-        linestyle="--",
-        linewidth=1.1,
-    )
 
 
 def _inset_height(axes: Axes, drawn: xr.Dataset) -> float:
@@ -127,14 +96,8 @@ def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
         for same in laws.groups(runs.sortby("initial_state"), "initial_state"):
             age = _number(float(same["initial_state"][0]))
             state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
-            laws.draw(
-                axes,
-                same["height"].values,
-                same,
-                "length",
-                label=f"FEM, {kind.label}{state}",
-                **look,
-            )
+            label = f"FEM, {kind.label}{state}"
+            laws.draw(axes, "height", same, "length", label=label, **look)
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
@@ -179,10 +142,7 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
     labels += [f"$t_c={start:.{decimals}f}$ s"]
     labels += [f"$t_c+{1e3 * (time[i] - start):.3g}$ ms" for i in event]
-    looks = [
-        *((shade, "-") for shade in style.shades(creep.size)),
-        *_EVENT_LOOKS,
-    ]
+    looks = [*((shade, "-") for shade in style.shades(creep.size)), *_EVENT_LOOKS]
     shown = np.concatenate([creep, event])
     for i, (colour, dashes), label in zip(shown, looks, labels, strict=False):
         rate = simulation["slip_rate"].values[i]
@@ -210,31 +170,11 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
 
 def _mark_length(axes: Axes, length: float) -> None:
     """A dashed line at the length, and an arrow from x = 0 to it."""
-    axes.axvline(
-        length,
-        color=style.GUIDE,
-        linestyle="--",
-        linewidth=0.9,
-        zorder=1.0,
-    )
+    style.vertical(axes, length, zorder=1.0)
     up = axes.get_xaxis_transform()
-    style.arrow(
-        axes,
-        (0.0, 0.12),
-        (length, 0.12),
-        kind="<->",
-        xycoords=up,
-        textcoords=up,
-    )
+    style.arrow(axes, (0.0, 0.12), (length, 0.12), kind="<->", xycoords=up, textcoords=up)
     # the first snapshots of the patch end right of this text
-    axes.text(
-        0.2 * length,
-        0.15,
-        "$L_c$",
-        transform=up,
-        ha="center",
-        fontsize=8.5,
-    )
+    axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
 
 
 def _number(value: float) -> str:
@@ -245,12 +185,7 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def draw_run(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    simulation: xr.Dataset,
-    id: str,
-) -> Figure:
+def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
     """Draw the figure with one run in the inset (rule ``figure_3``).
 
     Parameters

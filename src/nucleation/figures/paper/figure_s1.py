@@ -26,21 +26,11 @@ def draw(theory: xr.Dataset) -> Figure:
     full = theory["steady_friction"].values
     logarithmic = theory["steady_friction_logarithmic"].values
     velocity = float(theory["velocity"])
+    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
     axes.semilogx(
-        rate,
-        full,
-        color=style.FULL_LAW,
-        linewidth=2.2,
-        label="full law",
+        rate, logarithmic, color=style.LOGARITHMIC_LAW, linewidth=1.1, label="logarithmic law"
     )
-    axes.semilogx(
-        rate,
-        logarithmic,
-        color=style.LOGARITHMIC_LAW,
-        linewidth=1.1,
-        label="logarithmic law",
-    )
-    axes.axvline(velocity, color=style.GUIDE, linestyle="--", linewidth=0.9)
+    style.vertical(axes, velocity)
     across = axes.get_xaxis_transform()
     axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
     axes.set_xlabel(r"Slip rate $v$ (m/s)")

@@ -61,10 +61,7 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     panels[0, 1].sharey(panels[0, 0])
     ratio = simulation["shear_stress"] / parameters_of(simulation).loading.normal_stress
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
-    norm = Normalize(
-        min(0.0, float(ratio.quantile(0.001))),
-        float(ratio.quantile(0.999)),
-    )
+    norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
     time = simulation["time"].values
     start, peak, end = event_window(simulation, float(row["onset_time"]))
     record = Window(time[0], time[-1], 0.0, *time_unit(time[-1]))
@@ -74,13 +71,7 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
         least = 0.0 if window.origin == 0.0 else np.inf
         draw_force(force, simulation, window, least)
         _mark(image, force, row, window)
-    figure.colorbar(
-        mesh,
-        ax=panels[0, :],
-        label=r"$\tau/\sigma_0$",
-        pad=0.01,
-        extend="both",
-    )
+    figure.colorbar(mesh, ax=panels[0, :], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
     _label(panels, row, (record, event), force_unit(simulation)[1])
     return figure
 
@@ -175,12 +166,7 @@ def force_unit(record: xr.Dataset) -> tuple[float, str]:
     return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
 
 
-def draw_force(
-    axes: Axes,
-    record: xr.Dataset,
-    window: Window,
-    least: float = np.inf,
-) -> None:
+def draw_force(axes: Axes, record: xr.Dataset, window: Window, least: float = np.inf) -> None:
     """Draw the driving force, positive in compression, with limits for a window.
 
     Parameters
@@ -217,22 +203,13 @@ def _mark(image: Axes, force: Axes, row: xr.Dataset, window: Window) -> None:
     image.axhline(length, linestyle="--", color="white", linewidth=0.9)
     image.axvline(onset, linestyle=":", color="white", linewidth=0.9)
     image.errorbar(
-        [onset],
-        [length],
-        [[below], [above]],
-        marker="o",
-        ms=3.5,
-        color="white",
-        elinewidth=0.9,
+        [onset], [length], [[below], [above]], marker="o", ms=3.5, color="white", elinewidth=0.9
     )
-    force.axvline(onset, color=style.GUIDE, linestyle=":", linewidth=0.9)
+    style.vertical(force, onset, ":")
 
 
 def _label(
-    panels: NDArray[np.object_],
-    row: xr.Dataset,
-    windows: tuple[Window, Window],
-    force_name: str,
+    panels: NDArray[np.object_], row: xr.Dataset, windows: tuple[Window, Window], force_name: str
 ) -> None:
     """Axis labels, panel letters, and the names of the marks on the left."""
     (image, zoom), (force, last) = panels
@@ -246,10 +223,7 @@ def _label(
     for axes in (image, zoom):  # ticks inside are invisible on the dark image
         axes.tick_params(direction="out", top=False, right=False)
     style.letters(*panels.flat, pad=3.0)
-    beside: style.Options = {
-        "textcoords": "offset points",
-        "va": "bottom",
-    }
+    beside: style.Options = {"textcoords": "offset points", "va": "bottom"}
     if np.isfinite(row["length"]):
         place = (0.0, float(row["length"]))
         across = image.get_yaxis_transform()
@@ -257,11 +231,7 @@ def _label(
     if np.isfinite(row["onset_time"]):
         place = (float(record.shown(row["onset_time"].values)), 0.0)
         up = force.get_xaxis_transform()
-        look: style.Options = {
-            "color": style.GUIDE,
-            "ha": "right",
-            **beside,
-        }
+        look: style.Options = {"color": style.GUIDE, "ha": "right", **beside}
         force.annotate("onset", place, (-4.0, 5.0), up, **look)
 
 

@@ -19,12 +19,7 @@ _ORDER = (
 )
 
 # symbols that are declared in ASCII
-_PRINTED = {
-    "theta": "θ",
-    "phi*": "φ*",
-    "v0": "v₀",
-    "xi": "ξ",
-}
+_PRINTED = {"theta": "θ", "phi*": "φ*", "v0": "v₀", "xi": "ξ"}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -68,10 +63,7 @@ def value_text(value: float) -> str:
 
 def to_markdown(table: list[Parameter]) -> str:
     """The table as Markdown, ending in a newline."""
-    lines = [
-        "| Parameter | Value | Units | Description |",
-        "|---|---|---|---|",
-    ]
+    lines = ["| Parameter | Value | Units | Description |", "|---|---|---|---|"]
     for row in table:
         symbol = row.symbol.replace("*", r"\*")
         lines.append(f"| {symbol} | {value_text(row.value)} | {row.unit} | {row.description} |")
