@@ -52,7 +52,11 @@ FIGURES: dict[str, Entry] = {
         PAPER,
         data=(Data("theory", ("steady_friction", "steady_friction_logarithmic")),),
     ),
-    "figure_s2": Entry("Figure S2: stress in space and time", PAPER, roles=("paper",)),
+    "figure_s2": Entry(
+        "Figure S2: stress in space and time",
+        PAPER,
+        roles=("paper",),
+    ),
     "animation": Entry("Creep, nucleation and rupture", BEYOND, roles=("paper",)),
     "figure_3_extended": Entry(
         "Lengths of the drop and of the patch's stability",
@@ -144,7 +148,11 @@ def of_studies(descriptions: dict[str, str]) -> dict[str, Entry]:
     """The figures of studies by name, from the studies' descriptions."""
     found = {}
     for study, text in descriptions.items():
-        found[f"study_{study}"] = Entry(f"Study {study}: {text}", OWN, data=(_LENGTHS,))
+        found[f"study_{study}"] = Entry(
+            f"Study {study}: {text}",
+            OWN,
+            data=(_LENGTHS,),
+        )
     return found
 
 

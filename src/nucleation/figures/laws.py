@@ -50,7 +50,12 @@ def looks(laws: Iterable[str]) -> dict[Kind, Look]:
             marker, colour = _OTHERS[i % len(_OTHERS)]
             if old:
                 colour = style.OLD_AGE
-            found[law, old] = Look(marker, 6.6, colour, f"{law.replace('_', ' ')} law")
+            found[law, old] = Look(
+                marker,
+                6.6,
+                colour,
+                f"{law.replace('_', ' ')} law",
+            )
     return found
 
 

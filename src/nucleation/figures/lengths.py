@@ -31,7 +31,11 @@ MISSING = "0.88"  # grey of points without a length
 
 
 @style.styled
-def draw(found: xr.Dataset, specimen: float | None = None, band: str = "") -> Figure:
+def draw(
+    found: xr.Dataset,
+    specimen: float | None = None,
+    band: str = "",
+) -> Figure:
     """Draw lengths over one parameter as lines, or one length over two as a map.
 
     Parameters
@@ -62,12 +66,23 @@ def draw(found: xr.Dataset, specimen: float | None = None, band: str = "") -> Fi
     if len(over) == 1:
         handles = _draw_lines(axes, found, *over)
         if band:
-            handles.append(Patch(color=style.GUIDE, alpha=0.3, linewidth=0.0, label=band))
+            handles.append(
+                Patch(
+                    color=style.GUIDE,
+                    alpha=0.3,
+                    linewidth=0.0,
+                    label=band,
+                )
+            )
         if specimen is not None:
             axes.axhline(specimen, color=style.BLACK, linewidth=0.9)
             label = f"specimen, {specimen:.3g} m"
             handles.append(style.key(label, "", "-", style.BLACK, linewidth=0.9))
-        _set_scale(axes, "y", np.concatenate([line.get_ydata() for line in axes.get_lines()]))
+        _set_scale(
+            axes,
+            "y",
+            np.concatenate([line.get_ydata() for line in axes.get_lines()]),
+        )
         axes.set_ylabel("Length (m)")
     else:
         handles = _draw_map(axes, found, over, specimen)
@@ -76,11 +91,20 @@ def draw(found: xr.Dataset, specimen: float | None = None, band: str = "") -> Fi
     _set_scale(axes, "x", found[over[0]].values)
     axes.set_xlabel(_label(found[over[0]]))
     if handles:
-        figure.legend(handles=handles, loc="outside upper left", ncols=2, fontsize=style.SMALL)
+        figure.legend(
+            handles=handles,
+            loc="outside upper left",
+            ncols=2,
+            fontsize=style.SMALL,
+        )
     return figure
 
 
-def _draw_lines(axes: Axes, found: xr.Dataset, over: str) -> list[Artist]:
+def _draw_lines(
+    axes: Axes,
+    found: xr.Dataset,
+    over: str,
+) -> list[Artist]:
     """The lengths over one parameter, with bands to their ends; open marks are doubtful."""
     x = found[over].values
     doubtful = found["doubtful"].values > 0.0
@@ -125,7 +149,13 @@ def _draw_map(
     return handles
 
 
-def _specimen_lines(axes: Axes, x: Array, y: Array, ends: Array, specimen: float) -> list[Line2D]:
+def _specimen_lines(
+    axes: Axes,
+    x: Array,
+    y: Array,
+    ends: Array,
+    specimen: float,
+) -> list[Line2D]:
     """Contours at the specimen's length: of the middle, and of ends that differ from it."""
     low, middle, high = ends
     drawn = [(middle, "-", f"specimen, {specimen:.3g} m")]
@@ -136,7 +166,14 @@ def _specimen_lines(axes: Axes, x: Array, y: Array, ends: Array, specimen: float
     for values, dashes, label in drawn:
         known = values[np.isfinite(values)]
         if known.size and known.min() < specimen < known.max():
-            lines = axes.contour(x, y, values, [specimen], colors="white", linestyles=dashes)
+            lines = axes.contour(
+                x,
+                y,
+                values,
+                [specimen],
+                colors="white",
+                linestyles=dashes,
+            )
             lines.set_path_effects(edge)
         if label:
             handles.append(style.key(label, "", dashes, "white", path_effects=edge))
@@ -148,7 +185,11 @@ def _is_wide(values: Array) -> bool:
     return bool(values.min() > 0.0 and values.max() >= WIDE * values.min())
 
 
-def _set_scale(axes: Axes, direction: str, values: Array) -> None:
+def _set_scale(
+    axes: Axes,
+    direction: str,
+    values: Array,
+) -> None:
     """Set a logarithmic scale if positive values differ by a large factor."""
     known = values[np.isfinite(values)]
     if _is_wide(known):

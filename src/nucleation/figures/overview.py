@@ -86,8 +86,19 @@ def plot_length(over: str, **fault: Any) -> Figure:
     some = np.unique(np.linspace(0, values.size - 1, _MOST_PATCHES).astype(int))
     patch = np.asarray(stability_length(**fault | {over: values[some]}))
     figure, axes = style.column(6.6)
-    axes.plot(values, length, color=style.THEORY, label="$L_c$, homogeneous sliding")
-    axes.plot(values[some], patch, color=style.GREEN, linestyle="--", label="$L_s$, creeping patch")
+    axes.plot(
+        values,
+        length,
+        color=style.THEORY,
+        label="$L_c$, homogeneous sliding",
+    )
+    axes.plot(
+        values[some],
+        patch,
+        color=style.GREEN,
+        linestyle="--",
+        label="$L_s$, creeping patch",
+    )
     if values.min() > 0.0 and values.max() >= _WIDE * values.min():
         axes.set(xscale="log", yscale="log")
     entry = QUANTITIES[over]

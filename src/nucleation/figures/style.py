@@ -276,7 +276,12 @@ def vertical(axes: Axes, x: float, line: Any = "--", width: float = 0.9, **optio
     axes.axvline(x, color=GUIDE, linestyle=line, linewidth=width, **options)
 
 
-def band(axes: Axes, low: float, high: float, label: str) -> None:
+def band(
+    axes: Axes,
+    low: float,
+    high: float,
+    label: str,
+) -> None:
     """Draw a horizontal band of agreement.
 
     Parameters
@@ -342,10 +347,18 @@ def aside(axes: Axes, points: float) -> Transform:
     """
     figure = axes.get_figure(root=True)
     assert figure is not None
-    return axes.transData + ScaledTranslation(points / 72.0, 0.0, figure.dpi_scale_trans)
+    return axes.transData + ScaledTranslation(
+        points / 72.0,
+        0.0,
+        figure.dpi_scale_trans,
+    )
 
 
-def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[Path, Path]:
+def save(
+    figure: Figure,
+    stem: str | os.PathLike[str],
+    key: str = "",
+) -> tuple[Path, Path]:
     """Write a figure as ``stem.pdf`` and ``stem.png``, then clear it.
 
     The same figure gives the same bytes: the files contain neither date nor program version. Each

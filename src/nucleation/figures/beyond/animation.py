@@ -64,7 +64,11 @@ def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
             yield Image.fromarray(pixels).convert("RGB")
 
 
-def save(images: Iterable[Image.Image], path: str | os.PathLike[str], still: int = 0) -> None:
+def save(
+    images: Iterable[Image.Image],
+    path: str | os.PathLike[str],
+    still: int = 0,
+) -> None:
     """Write a GIF that repeats for ever, completely or not at all.
 
     Parameters
@@ -123,7 +127,12 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[_Update]]:
     return figure, updates
 
 
-def _clock(time: float, near_onset: float, run: figure_s2.Window, event: figure_s2.Window) -> str:
+def _clock(
+    time: float,
+    near_onset: float,
+    run: figure_s2.Window,
+    event: figure_s2.Window,
+) -> str:
     """The time (s), and near the onset the time from it, in the units of two panels."""
     shown = run.shown(np.array(time))
     if not time >= near_onset:
@@ -132,7 +141,12 @@ def _clock(time: float, near_onset: float, run: figure_s2.Window, event: figure_
     return f"$t$ = {shown:.4f} {run.unit}: {after:+.2f} {event.unit} from the onset"
 
 
-def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) -> _Update:
+def _rate_panel(
+    axes: Axes,
+    film: xr.Dataset,
+    length: float,
+    velocity: float,
+) -> _Update:
     """The slip rate on a logarithmic axis from far below V, the length at the drop dashed."""
     lowest = _LOWEST_RATE * velocity
     x = film["x"].values
@@ -150,7 +164,11 @@ def _rate_panel(axes: Axes, film: xr.Dataset, length: float, velocity: float) ->
     return lambda i: line.set_ydata(values[i])
 
 
-def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Update:
+def _block_panel(
+    axes: Axes,
+    film: xr.Dataset,
+    parameters: Parameters,
+) -> _Update:
     """Filled contours of the shear stress over the normal stress; heights are stretched.
 
     Each of two bodies is drawn separately, with a line for the interface between them.
@@ -159,7 +177,16 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Updat
     y = film["y"].values
     ratio = film["block_shear_stress"].values / parameters.loading.normal_stress
     colours = np.linspace(0.0, float(np.quantile(ratio, _SPAN)), _LEVELS)
-    first = int(np.searchsorted(y, 0.0, side="right")) - 1  # the last of two y = 0: upper body
+    first = (
+        int(
+            np.searchsorted(
+                y,
+                0.0,
+                side="right",
+            )
+        )
+        - 1
+    )  # the last of two y = 0: upper body
     bodies = [slice(0, first), slice(first, None)] if first else [slice(None)]
 
     def draw(i: int) -> QuadContourSet:
@@ -184,7 +211,11 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Updat
     return draw
 
 
-def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> _Update:
+def _force_panel(
+    axes: Axes,
+    film: xr.Dataset,
+    window: figure_s2.Window,
+) -> _Update:
     """The driving force in a window, with a point at the present time if it is inside."""
     figure_s2.draw_force(axes, film, window)
     drawn = np.asarray(axes.lines[0].get_xydata())
@@ -193,7 +224,11 @@ def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> _Upd
     return lambda i: point.set_data([now[i]], [np.interp(now[i], *drawn.T)])
 
 
-def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Callable[[str], None]]:
+def of_run(
+    film: xr.Dataset,
+    lengths: xr.Dataset,
+    id: str,
+) -> dict[str, Callable[[str], None]]:
     """The GIF by suffix, as a function that writes it (rule ``animation``).
 
     Parameters

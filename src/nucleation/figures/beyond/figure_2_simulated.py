@@ -90,5 +90,11 @@ def _draw_lengths(
         unknown = own["f_beta"].values[np.isnan(own[name].values)]
         if unknown.size:
             label = f"{weakening}, no length found"
-            axes.plot(unknown, np.full(unknown.size, _UNKNOWN), "x", color=colour, label=label)
+            axes.plot(
+                unknown,
+                np.full(unknown.size, _UNKNOWN),
+                "x",
+                color=colour,
+                label=label,
+            )
     axes.set_xlim(_CONTRAST[0], _CONTRAST[-1])

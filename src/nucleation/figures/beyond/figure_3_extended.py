@@ -32,8 +32,18 @@ class _Series(NamedTuple):
         return {"marker": kind.marker, "color": kind.colour, **self.own}
 
 
-_PAPERS = _Series("length", "paper", "drop, quiet, on the paper's mesh", {"ms": 3.0})
-_STEADY = _Series("length", _JUDGED, r"drop, load steady to $10^{-5}$", {"ms": 4.8, **style.OPEN})
+_PAPERS = _Series(
+    "length",
+    "paper",
+    "drop, quiet, on the paper's mesh",
+    {"ms": 3.0},
+)
+_STEADY = _Series(
+    "length",
+    _JUDGED,
+    r"drop, load steady to $10^{-5}$",
+    {"ms": 4.8, **style.OPEN},
+)
 _STABILITY = _Series(
     "stability_length",
     _JUDGED,
@@ -115,7 +125,13 @@ def _draw_panel(
     """Theory, half of it, the band under stronger perturbations, and all sets of lengths."""
     for part, dashes in ((1.0, "-"), (0.5, "--")):
         length = part * theory["critical_length"]
-        axes.plot(theory["height"], length, dashes, color=style.THEORY, linewidth=1.2)
+        axes.plot(
+            theory["height"],
+            length,
+            dashes,
+            color=style.THEORY,
+            linewidth=1.2,
+        )
     if stronger.sizes["run"]:
         _draw_band(axes, stronger, laws.where(lengths, role=_JUDGED))
     _draw_series(axes, lengths, _PAPERS)
@@ -127,20 +143,41 @@ def _draw_panel(
     axes.set_xlabel("Height $H$ (m)")
 
 
-def _draw_band(axes: Axes, stronger: xr.Dataset, judged: xr.Dataset) -> None:
+def _draw_band(
+    axes: Axes,
+    stronger: xr.Dataset,
+    judged: xr.Dataset,
+) -> None:
     """From the drop under the stronger perturbation to that of the role `converged`."""
     quiet = laws.where(judged, laws.usual(judged))
     both = (stronger["height"], quiet["height"])
     heights, first, second = np.intersect1d(*both, return_indices=True)
     low = stronger["length"][first]
     high = quiet["length"][second]
-    axes.fill_between(heights, low, high, color=style.AGING, alpha=0.2, linewidth=0.0)
+    axes.fill_between(
+        heights,
+        low,
+        high,
+        color=style.AGING,
+        alpha=0.2,
+        linewidth=0.0,
+    )
 
 
-def _draw_series(axes: Axes, table: xr.Dataset, series: _Series) -> None:
+def _draw_series(
+    axes: Axes,
+    table: xr.Dataset,
+    series: _Series,
+) -> None:
     """One set of lengths, a marker for each law and initial state."""
     known = np.isfinite(table[series.column].values)
-    for (_, old), kind, runs in laws.kinds(laws.where(table, known, role=series.role)):
+    for (_, old), kind, runs in laws.kinds(
+        laws.where(
+            table,
+            known,
+            role=series.role,
+        )
+    ):
         if runs.sizes["run"]:
             look = series.look(kind)
             label = f"{series.label}, {_state(kind, old)}"
@@ -151,10 +188,19 @@ def _state(kind: laws.Look, old: bool) -> str:
     return kind.label + _OLDER if old else kind.label
 
 
-def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:
+def _finish_lengths(
+    axes: Axes,
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    band: bool,
+) -> None:
     highest = _ABOVE * float(lengths["height"].max())
     top = np.interp(highest, theory["height"], theory["critical_length"])
-    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.6 * float(top)), ylabel="Length $L$ (m)")
+    axes.set(
+        xlim=(0.0, highest),
+        ylim=(0.0, 1.6 * float(top)),
+        ylabel="Length $L$ (m)",
+    )
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
     handles: list[Artist] = [
@@ -175,5 +221,11 @@ def _finish_ratios(axes: Axes, lengths: xr.Dataset) -> None:
     handles = []
     for (_, old), kind, runs in laws.kinds(lengths):
         if runs.sizes["run"]:
-            handles.append(style.key(_state(kind, old), kind.marker, markersize=4.8))
+            handles.append(
+                style.key(
+                    _state(kind, old),
+                    kind.marker,
+                    markersize=4.8,
+                )
+            )
     axes.legend(handles=handles, loc="upper left", labelspacing=0.3)

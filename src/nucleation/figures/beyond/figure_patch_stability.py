@@ -68,7 +68,13 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     number = min(_LEGEND_HEIGHTS, heights.size)
     named = np.linspace(0, heights.size - 1, number).round().astype(int)
     for height in heights[named]:
-        frequency.plot([], [], "-", color=colours[float(height)], label=f"$H={height:g}$ m")
+        frequency.plot(
+            [],
+            [],
+            "-",
+            color=colours[float(height)],
+            label=f"$H={height:g}$ m",
+        )
     late = style.key(f"last {_LATE:g} periods", "x", markersize=3.0)
     growth.legend(handles=[late], loc="lower right", handletextpad=0.2)
     frequency.legend(loc="lower left", labelspacing=0.3)
@@ -100,7 +106,12 @@ def _draw_properties(
         axes.plot(ratio[late], values[late], marker="x", ms=2.4, mew=0.6, **look)
 
 
-def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colour: Array) -> None:
+def _draw_mode(
+    axes: Axes,
+    patch: xr.Dataset,
+    row: xr.Dataset,
+    colour: Array,
+) -> None:
     """Modulus of the mode where it begins to grow."""
     length = float(row["stability_length"])
     if np.isfinite(length):

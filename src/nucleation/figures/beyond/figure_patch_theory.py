@@ -35,7 +35,12 @@ def draw(table: xr.Dataset) -> Figure:
 def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     """L_s/L_c over zeta/a: the thin limit, and simulations by their height."""
     curve = table["curve_stability"]
-    axes.semilogx(table["curve_ratio"], curve, color=style.THIN_LIMIT, label="thin layers")
+    axes.semilogx(
+        table["curve_ratio"],
+        curve,
+        color=style.THIN_LIMIT,
+        label="thin layers",
+    )
     own = laws.where(table, f_beta=0.0)
     theory = own["critical_length"]
     drawn = axes.scatter(
@@ -61,7 +66,14 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
         measured = own["stability_length"] / own["critical_length"]
         difference = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
         label = str(own["study"].values[0]).replace("_", " ")
-        axes.plot(measured, difference, marker, color=colour, markersize=2.8, label=label)
+        axes.plot(
+            measured,
+            difference,
+            marker,
+            color=colour,
+            markersize=2.8,
+            label=label,
+        )
     style.band(axes, -100.0 * _BAND, 100.0 * _BAND, f"within {100 * _BAND:g} %")
     axes.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
     axes.figure.legend(
@@ -82,5 +94,9 @@ def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
         label = rf"$f\beta = {float(case['shown_beta']):.2g}$"
         axes.plot(case["shown_x"], case["shown_stress"], color=colour, label=label)
         axes.plot(case["shown_x"], case["shown_rate"], color=colour, linestyle="--")
-    axes.set(xlabel="$x/L_s$", ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)", ylim=(0.0, 2.2))
+    axes.set(
+        xlabel="$x/L_s$",
+        ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)",
+        ylim=(0.0, 2.2),
+    )
     axes.legend(fontsize=style.SMALL)

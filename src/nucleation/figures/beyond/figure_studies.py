@@ -90,12 +90,23 @@ def _rows(
     kinds = []
     for i in range(table.sizes["run"]):
         values = {name: varied[name][i] for name in words}
-        texts = [_value_text(name, value, entries[name]) for name, value in values.items()]
+        texts = [
+            _value_text(
+                name,
+                value,
+                entries[name],
+            )
+            for name, value in values.items()
+        ]
         kinds.append(", ".join(filter(None, texts)))
     return table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
 
 
-def _value_text(name: str, value: float | str | None, entry: Quantity) -> str:
+def _value_text(
+    name: str,
+    value: float | str | None,
+    entry: Quantity,
+) -> str:
     """A value with its parameter's symbol or name; empty if there is none."""
     if value is None or isinstance(value, str):
         return value or ""
@@ -104,7 +115,12 @@ def _value_text(name: str, value: float | str | None, entry: Quantity) -> str:
     return text if entry.unit == "1" else f"{text} {entry.unit}"
 
 
-def _draw(rows: xr.Dataset, theory: Curves | None, label: str, title: str = "") -> Figure:
+def _draw(
+    rows: xr.Dataset,
+    theory: Curves | None,
+    label: str,
+    title: str = "",
+) -> Figure:
     """Lengths over one number, or over the theory's lengths if `theory` is None."""
     figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
     axes, strip = _axes(figure, rows)
@@ -139,7 +155,11 @@ def _axes(figure: Figure, rows: xr.Dataset) -> tuple[Axes, Axes | None]:
     return axes, strip
 
 
-def _draw_runs(axes: Axes, strip: Axes | None, rows: xr.Dataset) -> None:
+def _draw_runs(
+    axes: Axes,
+    strip: Axes | None,
+    rows: xr.Dataset,
+) -> None:
     """Points with bars for the runs with an event, open markers in the strip for the others."""
     for i, same in enumerate(laws.groups(rows, "kind")):
         marker, colour = style.look(i)
@@ -155,7 +175,11 @@ def _draw_runs(axes: Axes, strip: Axes | None, rows: xr.Dataset) -> None:
             strip.plot(lost, np.zeros(lost.size), linestyle="none", **look, **style.OPEN)
 
 
-def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
+def _distinguishing(
+    varied: Values,
+    words: list[str],
+    numbers: list[str],
+) -> list[str]:
     """The first numbers that distinguish the faults; none if there are too many faults."""
 
     def faults(number: int) -> int:
@@ -167,7 +191,11 @@ def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> lis
     return numbers[:fewest] if every <= _FEW else []
 
 
-def _draw_theory(axes: Axes, rows: xr.Dataset, theory: Curves) -> None:
+def _draw_theory(
+    axes: Axes,
+    rows: xr.Dataset,
+    theory: Curves,
+) -> None:
     """The theory over one number, a curve for each label, or one if all are the same."""
     curves: dict[str, Mapping[str, Sequence[float] | Array]] = {}
     for same in laws.groups(rows, "kind"):

@@ -68,10 +68,20 @@ def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset:
     return table.isel(system=np.flatnonzero(same)[0])
 
 
-def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
+def _draw_system(
+    axes: Axes,
+    system: xr.Dataset,
+    curves: xr.Dataset,
+) -> None:
     """The lengths of one base and height."""
     for name, (label, colour, dashes) in _LINES.items():
-        axes.plot(curves["curve_ratio"], curves[name], dashes, color=colour, label=label)
+        axes.plot(
+            curves["curve_ratio"],
+            curves[name],
+            dashes,
+            color=colour,
+            label=label,
+        )
     for fault in laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"):
         simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]

@@ -44,7 +44,12 @@ def draw(table: xr.Dataset) -> Figure:
     entries = style.entries(panels[0])
     for label, marker, colour in LOOKS.values():
         entries[label] = style.key(label, marker, colour=colour, mfc="none")
-    figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside upper center",
+        ncols=len(entries),
+    )
     return figure
 
 
@@ -59,5 +64,9 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
         width = own["width"] / own["critical_length"]
         axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
     top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
-    axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, top))
+    axes.set(
+        xscale="log",
+        xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
+        ylim=(0.0, top),
+    )
     style.plain_numbers(axes.xaxis, TICKS)

@@ -53,7 +53,12 @@ def draw_maps(
     ):
         image = np.full((grid[up].size, grid[along].size), np.nan)
         image[at] = values
-        mesh = axes.pcolormesh(edges(grid[along]), edges(grid[up]), image, cmap=colours)
+        mesh = axes.pcolormesh(
+            edges(grid[along]),
+            edges(grid[up]),
+            image,
+            cmap=colours,
+        )
         axes.plot(x[lost], y[lost], "x", color=style.VERMILLION, label=label)
         figure.colorbar(mesh, ax=axes, pad=0.02)
         axes.set_title(title)

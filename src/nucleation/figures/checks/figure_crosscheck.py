@@ -67,7 +67,12 @@ def draw(
     for axes, name in zip(panels[:, 0], names, strict=True):
         axes.set_ylabel(name)
     panels[0, 0].legend(loc="lower right")
-    panels[2, 0].legend(loc="lower left", ncols=2, columnspacing=1.0, handlelength=1.0)
+    panels[2, 0].legend(
+        loc="lower left",
+        ncols=2,
+        columnspacing=1.0,
+        handlelength=1.0,
+    )
     style.letters(*panels.flat, minor=True, pad=3.0)
     figure.align_ylabels(panels[:, 0])
     return figure
@@ -115,7 +120,12 @@ def _described(parameters: Parameters) -> tuple[str, str]:
     return (f"$H={heights}", f"two blocks,\nlower {below.far_side},\n$\\mu_2={ratio:.3g}\\,\\mu$")
 
 
-def _draw_differences(axes: Axes, lengths: _Curves, forces: _Curves, row: xr.Dataset) -> None:
+def _draw_differences(
+    axes: Axes,
+    lengths: _Curves,
+    forces: _Curves,
+    row: xr.Dataset,
+) -> None:
     """FreeFem++ over this project, minus one, up to the earlier onset."""
     end = min(float(row["onset_time"]), float(row["onset_time_freefem"]))
     time = np.linspace(_FIRST, end, 1500)

@@ -71,7 +71,12 @@ def _keys(heights: Array) -> list[Line2D]:
     return keys
 
 
-def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...]) -> None:
+def _draw_height(
+    axes: Axes,
+    one: xr.Dataset,
+    name: str,
+    shade: tuple[float, ...],
+) -> None:
     critical = float(one["critical_wavenumber"])
     memory_time = float(one["memory_time"])
     curve = one["curve_wavenumber"] / critical
@@ -79,7 +84,13 @@ def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...
     theory = (one[f"curve_{name}"] * memory_time).transpose("curve", "branch").values
     measured = (one[f"measured_{name}"] * memory_time).transpose("mode", "branch").values
     for branch, (_, marker, line) in enumerate(_BRANCHES):
-        axes.plot(curve, theory[:, branch], color=shade, linestyle=line, linewidth=1.0)
+        axes.plot(
+            curve,
+            theory[:, branch],
+            color=shade,
+            linestyle=line,
+            linewidth=1.0,
+        )
         axes.plot(modes, measured[:, branch], marker, color=shade, ms=3.6, mew=0.9, **style.OPEN)
 
 

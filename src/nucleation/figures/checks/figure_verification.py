@@ -71,7 +71,11 @@ def draw(convergence: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_slope(axes: Axes, spacing: Array, order: int) -> None:
+def _draw_slope(
+    axes: Axes,
+    spacing: Array,
+    order: int,
+) -> None:
     """A line of the expected order below the errors."""
     lowest = min(np.min(np.asarray(line.get_ydata())) for line in axes.get_lines())
     ends = np.array([spacing.min(), 0.5 * spacing.max()])

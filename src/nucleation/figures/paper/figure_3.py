@@ -128,7 +128,11 @@ def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray
     return np.unique(creep), np.unique(after).astype(int)
 
 
-def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None:
+def _draw_snapshots(
+    axes: Axes,
+    simulation: xr.Dataset,
+    row: xr.Dataset,
+) -> None:
     """The slip rate along the interface from creep to the event, and the extracted length."""
     time = simulation["time"].values
     x = simulation["x"].values
@@ -172,7 +176,14 @@ def _mark_length(axes: Axes, length: float) -> None:
     """A dashed line at the length, and an arrow from x = 0 to it."""
     style.vertical(axes, length, zorder=1.0)
     up = axes.get_xaxis_transform()
-    style.arrow(axes, (0.0, 0.12), (length, 0.12), kind="<->", xycoords=up, textcoords=up)
+    style.arrow(
+        axes,
+        (0.0, 0.12),
+        (length, 0.12),
+        kind="<->",
+        xycoords=up,
+        textcoords=up,
+    )
     # the first snapshots of the patch end right of this text
     axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
 
@@ -185,7 +196,12 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+def draw_run(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
     """Draw the figure with one run in the inset (rule ``figure_3``).
 
     Parameters

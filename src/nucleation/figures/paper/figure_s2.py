@@ -71,12 +71,23 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
         least = 0.0 if window.origin == 0.0 else np.inf
         draw_force(force, simulation, window, least)
         _mark(image, force, row, window)
-    figure.colorbar(mesh, ax=panels[0, :], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
+    figure.colorbar(
+        mesh,
+        ax=panels[0, :],
+        label=r"$\tau/\sigma_0$",
+        pad=0.01,
+        extend="both",
+    )
     _label(panels, row, (record, event), force_unit(simulation)[1])
     return figure
 
 
-def _draw_image(axes: Axes, ratio: xr.DataArray, window: Window, norm: Normalize) -> QuadMesh:
+def _draw_image(
+    axes: Axes,
+    ratio: xr.DataArray,
+    window: Window,
+    norm: Normalize,
+) -> QuadMesh:
     times = thin(ratio["time"].values, window.start, window.end, _PIXELS)
     part = ratio.isel(time=times).transpose("x", "time")
     return axes.pcolormesh(
@@ -135,7 +146,12 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     return start - margin, peak, end + margin
 
 
-def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
+def thin(
+    time: Array,
+    start: float,
+    end: float,
+    columns: int,
+) -> NDArray[np.intp]:
     """Choose the times that are drawn, at most one for each column of pixels.
 
     The first time in a column is kept, so that a fast event stays a step at its true time. One time
@@ -166,7 +182,12 @@ def force_unit(record: xr.Dataset) -> tuple[float, str]:
     return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
 
 
-def draw_force(axes: Axes, record: xr.Dataset, window: Window, least: float = np.inf) -> None:
+def draw_force(
+    axes: Axes,
+    record: xr.Dataset,
+    window: Window,
+    least: float = np.inf,
+) -> None:
     """Draw the driving force, positive in compression, with limits for a window.
 
     Parameters
@@ -194,7 +215,12 @@ def draw_force(axes: Axes, record: xr.Dataset, window: Window, least: float = np
         axes.set_xlim(*window.shown(np.array([window.start, window.end])))
 
 
-def _mark(image: Axes, force: Axes, row: xr.Dataset, window: Window) -> None:
+def _mark(
+    image: Axes,
+    force: Axes,
+    row: xr.Dataset,
+    window: Window,
+) -> None:
     """The onset, dotted; the critical length, dashed, and its error bar at the onset."""
     onset = (float(row["onset_time"]) - window.origin) * window.scale
     length = float(row["length"])
@@ -235,7 +261,11 @@ def _label(
         force.annotate("onset", place, (-4.0, 5.0), up, **look)
 
 
-def draw_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+def draw_run(
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
     """Draw the figure for one run of a table (rule ``figure_s2``).
 
     Parameters
