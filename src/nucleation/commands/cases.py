@@ -80,7 +80,19 @@ def uncertain_of(given: Mapping[str, Any], samples: Path | None) -> dict[str, An
 
 
 def drawn_from(uncertain: Mapping[str, Any], draws: int) -> Draws:
-    """Draws of ranges and samples, by their names in studies."""
+    """Draw from ranges and samples.
+
+    Parameters
+    ----------
+    uncertain : mapping
+        Ranges and samples by their names in studies.
+    draws : int
+        Number of draws.
+
+    Returns
+    -------
+    Draws
+    """
     known = {name: entry for name, entry in study_parameters().items() if not entry.worded}
     return draw(uncertain, draws, known=known)
 

@@ -53,9 +53,19 @@ class WeakeningPatch:
     outside: Systems
 
     def growing_modes(self, width: float, number: int) -> int:
-        """How many modes of a patch of a width (m) grow, by a number of polynomials.
+        """The number of growing modes of a patch of one width.
 
-        A mode that oscillates counts twice, as its frequency has either sign.
+        Parameters
+        ----------
+        width : float
+            Width of the patch (m).
+        number : int
+            Number of polynomials of the slip within it.
+
+        Returns
+        -------
+        int
+            A mode that oscillates counts twice, as its frequency has either sign.
         """
         turned = self._turn(width, number, 1.0)
         mirrored = not np.any(self.inside.friction)
@@ -63,11 +73,24 @@ class WeakeningPatch:
         return round(turned / (2.0 * math.pi))
 
     def factors(self, width: float, number: int, frequency: Array) -> ComplexArray:
-        """Factors of the determinant for a patch of a width (m), (frequencies, number + 1).
+        """Factors of the determinant for a patch of one width.
 
-        Its diagonal entries, and the determinant of the matrix with rows divided by these: none of
-        them turns much between neighbouring frequencies, over V/D and of either sign, while the
-        product of many does.
+        They are its diagonal entries, and the determinant of the matrix with rows divided by these:
+        none of them turns much between neighbouring frequencies, while the product of many does.
+
+        Parameters
+        ----------
+        width : float
+            Width of the patch (m).
+        number : int
+            Number of polynomials of the slip within it.
+        frequency : ndarray
+            Angular frequencies over V/D, of either sign, shape (frequencies,).
+
+        Returns
+        -------
+        ndarray
+            Shape (frequencies, number + 1).
         """
         basis = patch_basis(number)
         load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
@@ -109,9 +132,19 @@ def _turns(factors: ComplexArray) -> Array:
 
 
 def smallest_width(patch: WeakeningPatch, critical: float) -> float:
-    """The smallest width (m) with a growing mode, of a patch whose L_c (m) is `critical`.
+    """The smallest width of a patch with a growing mode.
 
-    NaN if no patch up to ``WIDEST L_c`` has one.
+    Parameters
+    ----------
+    patch : WeakeningPatch
+        The friction within and around it.
+    critical : float
+        L_c (m) of the friction within.
+
+    Returns
+    -------
+    float
+        W_c (m); NaN if no patch up to ``WIDEST L_c`` has a growing mode.
     """
 
     def grows(width: float) -> bool:
