@@ -6,7 +6,7 @@ from analysis.made_up_patch import force_record
 
 from nucleation.analysis.definitions import find_onset
 from nucleation.simulation.event import DropWatch
-from nucleation.simulation.patch import slipping_edge
+from nucleation.simulation.patch import slipping_edge, slipping_zone
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 
@@ -77,6 +77,23 @@ def test_slipping_edge_limits():
     holed = np.where((x < 0.3) & ~((x > 0.1) & (x < 0.2)), 1e-5, 1e-12)
     assert 0.25 <= slipping_edge(x, holed, 1e-6) <= 0.3  # the furthest edge counts
     assert slipping_edge(x, np.full(21, 1e-2), 1e-6) == 0.5  # all slips: the part searched
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("middle", [0.5, 0.1])
+def test_both_ends_of_a_slipping_zone_are_found_between_nodes(middle, periodic):
+    """log v falls linearly on both sides; in a period the zone may begin below zero."""
+    x = np.linspace(0.0, 1.0, 41)
+    away = np.abs(x - middle)
+    if periodic:
+        away = np.minimum(away, 1.0 - away)
+    rate = 1e-5 * 10.0 ** (-away / 0.06)
+    half = 0.06 * np.log10(1e-5 / 2e-8)
+    begin, end = slipping_zone(x, rate, 2e-8, periodic)
+    expected = (middle - half, middle + half)
+    if not periodic:
+        expected = (max(expected[0], 0.0), expected[1])
+    assert (begin, end) == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.parametrize(("rise", "belongs"), [(0.08, True), (0.13, False)])

@@ -9,6 +9,7 @@ from nucleation.simulation.realisation import (
     MEAN_SQUARE,
     Series,
     Sheet,
+    correlation,
     normals,
     profile,
     spectral_density,
@@ -91,6 +92,18 @@ def test_spectral_density_is_that_of_unit_variance():
     band = (slow > 5.0) & (slow < 60.0)
     expected = spectral_density(slow[band], 0.05).mean()
     assert power[band].mean() == pytest.approx(expected, rel=4.0 / np.sqrt(band.sum()))
+
+
+@pytest.mark.parametrize("scale", [0.05, 2.0])
+def test_correlation_and_spectral_density_are_a_pair(scale):
+    """One at no lag; its integral is the correlation time; its Fourier transform the density."""
+    lag = np.linspace(-4.0, 4.0, 4001) * scale
+    values = correlation(lag, scale)
+    assert correlation(0.0, scale) == pytest.approx(1.0)
+    assert np.trapezoid(values, lag) == pytest.approx(scale, rel=1e-6)
+    for omega in np.array([0.5, 2.0, 5.0]) / scale:
+        transformed = np.trapezoid(values * np.cos(omega * lag), lag)
+        assert spectral_density(omega, scale) == pytest.approx(transformed, abs=1e-6 * scale)
 
 
 def test_profile_is_the_same_on_every_mesh():
