@@ -72,14 +72,14 @@ def zone_length(
     """
     x = simulation["x"].values
 
-    def _width(rates: Array, states: Array) -> float:
+    def width(rates: Array, states: Array) -> float:
         threshold = definition.share * float(rates.max())
         if definition.between_tips:
             rates = _filled_between_tips(rates)
         begin, end = slipping_zone(x, rates, threshold, periodic=True)
         return (end - begin) / definition.part
 
-    return _when_passing(simulation, slip_rate, _width)
+    return _when_passing(simulation, slip_rate, width)
 
 
 def _filled_between_tips(rates: Array) -> Array:

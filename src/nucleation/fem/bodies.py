@@ -2,7 +2,9 @@
 
 import dataclasses
 from collections.abc import Callable
+from typing import TypeVar
 
+from ..model.material import Material
 from ..model.parameters import Geometry, Mesh, Parameters
 from .block import Block
 from .condensed import ElasticBody
@@ -12,6 +14,9 @@ from .grid import Grid
 from .pair import BlockPair
 from .periodic import PeriodicBlock
 from .periodic_pair import PeriodicPair
+
+Layer = TypeVar("Layer", Block, PeriodicBlock)
+Pair = TypeVar("Pair", BlockPair, PeriodicPair)
 
 
 def body_of(parameters: Parameters) -> ElasticBody:
@@ -35,41 +40,17 @@ def body_of(parameters: Parameters) -> ElasticBody:
     return BODIES[parameters.loading.kind](parameters)
 
 
-def _pushed_block(parameters: Parameters) -> ElasticBody:
+def _pushed_block(parameters: Parameters) -> Block | BlockPair:
     """The body that is pushed at its left edge."""
-    return _block(parameters, Block, "free")
+    return _layers(parameters, Block, BlockPair, "free")
 
 
 def _free_block(parameters: Parameters) -> FreeBlock:
     """The body that is moved at its top, with free side edges."""
     grid = Grid.of(parameters.geometry, parameters.mesh)
-    odd = _block(parameters, Block, "velocity", parts=2)
-    even = _block(parameters, EvenHalf, "velocity", parts=2)
+    odd = _layers(parameters, Block, BlockPair, "velocity", parts=2)
+    even = _layers(parameters, EvenHalf, BlockPair, "velocity", parts=2)
     return FreeBlock(grid, odd, even)
-
-
-def _block(
-    parameters: Parameters,
-    kind: type[Block],
-    far_side: str,
-    parts: int = 1,
-) -> Block | BlockPair:
-    """One of some equal parts along x of a block or pair."""
-    upper = kind(_part(parameters.geometry, parameters.mesh, parts), parameters.material, far_side)
-    below = parameters.below
-    if below is None:
-        return upper
-    lower = kind(_part(below.geometry, below.mesh, parts), below.material, below.far_side)
-    return BlockPair(upper, lower)
-
-
-def _part(geometry: Geometry, mesh: Mesh, parts: int) -> Grid:
-    grid = Grid.of(geometry, mesh)
-    return dataclasses.replace(
-        grid,
-        length=grid.length / parts,
-        n_x=grid.n_x // parts,
-    )
 
 
 def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
@@ -85,14 +66,28 @@ def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
     PeriodicBlock or PeriodicPair
     """
     far_side = "velocity" if parameters.loading.kind == "top" else "free"
-    grid = Grid.of(parameters.geometry, parameters.mesh)
-    upper = PeriodicBlock(grid, parameters.material, far_side)
+    return _layers(parameters, PeriodicBlock, PeriodicPair, far_side)
+
+
+def _layers(
+    parameters: Parameters,
+    kind: Callable[[Grid, Material, str], Layer],
+    pair: Callable[[Layer, Layer], Pair],
+    far_side: str,
+    parts: int = 1,
+) -> Layer | Pair:
+    """The run's layer, or the pair of its two, as one of some equal parts along x."""
+
+    def layer(geometry: Geometry, mesh: Mesh, material: Material, far_side: str) -> Layer:
+        grid = Grid.of(geometry, mesh)
+        part = dataclasses.replace(grid, length=grid.length / parts, n_x=grid.n_x // parts)
+        return kind(part, material, far_side)
+
+    upper = layer(parameters.geometry, parameters.mesh, parameters.material, far_side)
     below = parameters.below
     if below is None:
         return upper
-    grid = Grid.of(below.geometry, below.mesh)
-    lower = PeriodicBlock(grid, below.material, below.far_side)
-    return PeriodicPair(upper, lower)
+    return pair(upper, layer(below.geometry, below.mesh, below.material, below.far_side))
 
 
 BODIES: dict[str, Callable[[Parameters], ElasticBody]] = {
