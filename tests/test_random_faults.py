@@ -13,7 +13,7 @@ from nucleation.api import (
     Geometry,
     Loading,
     Material,
-    NoDrop,
+    NoLength,
     ParameterError,
     Parameters,
     Perturbation,
@@ -154,7 +154,7 @@ def test_the_drop_answers(number):
             return
         try:
             found = in_time(lambda: expected_drop(run))
-        except NoDrop as none:
+        except NoLength as none:
             assert str(none)
             return
     assert found.stability_length == pytest.approx(

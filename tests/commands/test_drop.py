@@ -10,8 +10,9 @@ from nucleation.model.linearised import interface_state
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import expected_drop as module
 from nucleation.patch.delay import ClosedForm, Drop
-from nucleation.patch.expected_drop import ExpectedDrop, NoDrop
+from nucleation.patch.expected_drop import ExpectedDrop
 from nucleation.theory.critical import run_length
+from nucleation.theory.status import NoLength
 
 DROP = Drop(0.32, 0.31, 0.33, 14.0, 13.5, 14.5)
 CLOSED = ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5)
@@ -96,7 +97,7 @@ def test_a_stable_fault_is_told_with_its_system(nucleation, law):
 
 @pytest.mark.parametrize("words", [(), ("--json",)])
 def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
-    law.answer = NoDrop("no patch up to 3 L_c has a growing mode", "beyond")
+    law.answer = NoLength("no patch up to 3 L_c has a growing mode", "beyond")
     ended = nucleation(*WORDS, *words)
     assert ended.code == 4
     assert "no patch up to 3 L_c has a growing mode" in ended.out

@@ -9,7 +9,8 @@ from scipy.stats import norm
 from nucleation.model.parameters import Parameters
 from nucleation.patch import drop_quantiles as module
 from nucleation.patch.delay import ClosedForm, Drop
-from nucleation.patch.expected_drop import ExpectedDrop, NoDrop, expected_drop
+from nucleation.patch.expected_drop import ExpectedDrop, expected_drop
+from nucleation.theory.status import NoLength
 
 CLOSED = ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5)
 BASE = Parameters().replaced({"perturbation": "normal_load", "strength": 1e-4, "height": 0.02})
@@ -51,7 +52,7 @@ def test_realisations_scatter_as_the_law_has_it(answers):
 
 def test_draws_without_a_drop(answers):
     """Beyond what is searched counts as infinite; what is not known is left out."""
-    beyond, unknown = NoDrop("too long", "beyond"), NoDrop("not followed", "unknown")
+    beyond, unknown = NoLength("too long", "beyond"), NoLength("not followed", "unknown")
     made = [answer(0.3)] * 10 + [beyond] * 5 + [unknown] * 5
     found = answers(made)
     drop = found.sel(key="expected_length")

@@ -13,9 +13,10 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
-from nucleation.patch.expected_drop import NoDrop, expected_drop, feels_far_end
+from nucleation.patch.expected_drop import expected_drop, feels_far_end
 from nucleation.theory.creep.runaway import ERROR
 from nucleation.theory.critical import run_length
+from nucleation.theory.status import NoLength
 
 THEORY = 0.4509  # m
 FAULT = Parameters(
@@ -133,8 +134,8 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
 @pytest.mark.parametrize(
     ("change", "error", "said"),
     [
-        ({"friction.aging_coefficient": 0.0}, NoDrop, "friction grows with slip rate"),
-        ({"perturbation.strength": 0.0}, NoDrop, "nothing is perturbed"),
+        ({"friction.aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
+        ({"perturbation.strength": 0.0}, NoLength, "nothing is perturbed"),
         ({"loading.kind": "top"}, ParameterError, "measure = stability gives L_s of other"),
     ],
 )

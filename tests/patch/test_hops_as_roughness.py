@@ -9,7 +9,7 @@ from scipy.signal import savgol_filter
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.simulation.drive import UnevenStrength
+from nucleation.model.perturbation import Perturbation
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run
 from nucleation.simulation.step import Dynamics
@@ -19,6 +19,7 @@ pytestmark = pytest.mark.slow
 THEORY = 0.4509  # m
 COARSE = 200  # elements, on each of which a fine mesh has three
 UNEVEN = 0.58  # relative strength of the period, that makes the patch swing as the hops do
+ROUGH = Perturbation(kind="strength", strength=1e-4)  # replaced by the mesh's period
 FAULT = Parameters(
     geometry=Geometry(height=0.02, length=1.35),
     mesh=Mesh(n_x=COARSE, n_y=6, grading=20.0),
@@ -30,7 +31,8 @@ def recorded(parameters, uneven=0.0):
     """A run up to its drop on a fault whose strength has the period of the coarse mesh."""
     usual = composed(parameters)
     wave = np.cos(2.0 * np.pi * COARSE * usual.grid.x / parameters.geometry.length)
-    drive = UnevenStrength(usual.drive.velocity, usual.drive.constant_load, uneven, wave)
+    rough = dataclasses.replace(parameters, perturbation=ROUGH)
+    drive = dataclasses.replace(composed(rough).drive, strength=uneven, uneven=wave)
     dynamics = Dynamics(usual.body, usual.interface, drive, usual.scheme)
     recorder = Recorder(parameters, dynamics)
     for instant in run(parameters, dynamics=dynamics):

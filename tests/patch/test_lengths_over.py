@@ -2,19 +2,23 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Parameters
 from nucleation.patch import lengths_over as module
 from nucleation.patch.delay import ClosedForm, Drop
-from nucleation.patch.expected_drop import ExpectedDrop, NoDrop
-from nucleation.patch.lengths_over import Axis, lengths_over
+from nucleation.patch.expected_drop import ExpectedDrop
+from nucleation.patch.lengths_over import lengths_over
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.critical import run_length
+from nucleation.theory.status import NoLength
 
 BASE = Parameters().replaced({"perturbation": "normal_load", "strength": 1e-4})
 HEIGHTS = np.array([0.01, 0.02, 0.04])
-HEIGHT = Axis("height", "block height", "m", HEIGHTS)
+HEIGHT = xr.DataArray(
+    HEIGHTS, dims="height", name="height", attrs={"long_name": "block height", "units": "m"}
+)
 THEORY = ("critical_length", "stability_length")
 
 
@@ -71,7 +75,7 @@ def test_the_drop_has_the_scatter_of_its_realisations(monkeypatch, doubt):
 
 def test_a_reason_stands_where_there_is_no_length(monkeypatch):
     def law(_):
-        raise NoDrop("no mode grows")
+        raise NoLength("no mode grows")
 
     monkeypatch.setattr(module, "expected_drop", law)
     stable = BASE.replaced({"friction.aging_coefficient": 0.0})

@@ -12,7 +12,7 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.event import Outcome
-from nucleation.simulation.interface import Interface, Tension
+from nucleation.simulation.interface import Interface, NewtonFailure
 from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import run, simulate
 from nucleation.simulation.step import Dynamics
@@ -118,7 +118,7 @@ def test_tension_is_a_named_failure(monkeypatch):
 
     def solve(self, operator, *arguments):
         if arguments[0].w[0] < -1e-6:  # the foot of the pushed edge lags behind by 1 um
-            raise Tension("the interface is in tension")
+            raise NewtonFailure("the interface is in tension", Outcome.TENSION)
         return solved(self, operator, *arguments)
 
     monkeypatch.setattr(Interface, "solve", solve)

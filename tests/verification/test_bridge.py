@@ -16,7 +16,7 @@ from two_bodies import Body as Layer
 from nucleation.claims.independent import printed
 from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
+from nucleation.fem.periodic import PeriodicBlock
 from nucleation.model import linearised
 from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
@@ -82,7 +82,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
     rng = np.random.default_rng(1)
     grid = Grid(0.7, 0.2, 9, 5, grading=3.0)
     body, block = PeriodicBlock(grid, MATERIAL), WrappedBlock(grid, MATERIAL)
-    operator = PeriodicOperator(body, s)
+    operator = body.operator(s)
     field = body.zero_field()
     field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
     top = body.top_load(1e6, 4e5)
@@ -109,7 +109,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
 
 def test_periodic_tangent_is_the_matrix_of_apply():
     grid = Grid(0.7, 0.2, 9, 4)
-    operator = PeriodicOperator(PeriodicBlock(grid, MATERIAL), 1e8)
+    operator = PeriodicBlock(grid, MATERIAL).operator(1e8)
     columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
     d, n = np.array([c[0] for c in columns]).T, np.array([c[1][1:] for c in columns]).T
     nodes = np.array([1, 2, 6, 9])

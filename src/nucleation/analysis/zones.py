@@ -11,7 +11,7 @@ from ..simulation.patch import slipping_zone
 from ..types import Array
 
 
-class Definition(NamedTuple):
+class _Definition(NamedTuple):
     """How a simulated length is read: the zone that slips faster than a share of the fastest."""
 
     share: float
@@ -21,23 +21,23 @@ class Definition(NamedTuple):
 
 
 DEFINITIONS = {
-    "rubin_ampuero_localised": Definition(
+    "rubin_ampuero_localised": _Definition(
         share=0.5,
         part=0.7434 / 1.3774,
         words="width at half the largest slip rate, times 1.3774/0.7434",
     ),
-    "rubin_ampuero_crack": Definition(
+    "rubin_ampuero_crack": _Definition(
         share=0.1,
         part=1.0,
         words="distance of the outermost points at a tenth of the largest slip rate",
         between_tips=True,
     ),
-    "thin_layer": Definition(
+    "thin_layer": _Definition(
         share=0.5,
         part=0.5,
         words="twice the width at half the largest slip rate",
     ),
-    "state_evolution": Definition(
+    "state_evolution": _Definition(
         share=0.5,
         part=1.0,
         words="width at half the largest slip rate",
@@ -50,7 +50,7 @@ Viesca's, ``1 + cos(x/L)``, one half does."""
 def zone_length(
     simulation: xr.Dataset,
     slip_rate: float,
-    definition: Definition,
+    definition: _Definition,
 ) -> float:
     """Length of the accelerating zone when its largest slip rate passes a value.
 
@@ -62,7 +62,7 @@ def zone_length(
         Slip rates and states of the interface on (time, x).
     slip_rate : float
         The largest slip rate (m/s).
-    definition : Definition
+    definition : _Definition
         How the length is read.
 
     Returns

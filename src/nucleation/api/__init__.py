@@ -46,6 +46,7 @@ from ..theory.arrays import (
     transfer_functions,
 )
 from ..theory.critical import CriticalMode
+from ..theory.status import NoLength
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ if TYPE_CHECKING:
     from ..datasets.netcdf import read, write
     from ..figures.overview import film, plot_length, plot_run, plot_spectrum
     from ..patch.drop_quantiles import drop_quantiles
-    from ..patch.expected_drop import NoDrop, expected_drop
+    from ..patch.expected_drop import expected_drop
     from ..simulation.progress import simulate
     from ..simulation.run import run
     from ..theory.creep.lengths import stability_length
@@ -76,7 +77,7 @@ __all__ = [
     "Loading",
     "Material",
     "Mesh",
-    "NoDrop",
+    "NoLength",
     "ParameterError",
     "Parameters",
     "Perturbation",
@@ -120,7 +121,7 @@ _LATER = {
     "nucleation.datasets.netcdf": ("read", "write"),
     "nucleation.figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
     "nucleation.patch.drop_quantiles": ("drop_quantiles",),
-    "nucleation.patch.expected_drop": ("NoDrop", "expected_drop"),
+    "nucleation.patch.expected_drop": ("expected_drop",),
     "nucleation.simulation.run": ("run",),
     "nucleation.theory.creep.lengths": ("stability_length",),
     "nucleation.theory.creep.runaway": ("runaway_length",),

@@ -89,13 +89,13 @@ def command(
         run = run_of(values)
         critical = run.critical_length
         # imported here, since the solver takes seconds
-        from ..patch.expected_drop import NoDrop, expected_drop
+        from ..patch.expected_drop import expected_drop
 
         try:
             found = expected_drop(run.parameters)
             if blocks and blocks.doubt:
                 found = found._replace(doubt="; ".join(filter(None, (found.doubt, blocks.doubt))))
-        except NoDrop as error:
+        except status_words.NoLength as error:
             code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
             warn(f"{topic}: {text}")

@@ -19,7 +19,7 @@ from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity, declared
 from ..model.units import NUMBER, parse
 from ..patch.drop_quantiles import TITLES
-from ..patch.lengths_over import Axis, lengths_over
+from ..patch.lengths_over import lengths_over
 from ..types import Array
 from . import DONE, EXIT_CODES, STABLE
 from .cases import (
@@ -165,7 +165,7 @@ class _Varied(NamedTuple):
     """Its name in studies."""
     values: Array
     """In SI units."""
-    shown: Axis
+    shown: xr.DataArray
     """The axis of the picture, in the unit of the option."""
 
 
@@ -197,7 +197,10 @@ def _axis(
         without_range = Quantity(entry.description, unit=entry.unit)
         factor = float(parse(name, f"1 {unit}", without_range))
     label = re.split("[;,]", entry.description)[0]
-    shown = Axis(name, label, unit or entry.unit, values / factor)
+    import xarray as xr  # imported here, since it takes a while
+
+    attributes = {"long_name": label, "units": unit or entry.unit}
+    shown = xr.DataArray(values / factor, dims=name, name=name, attrs=attributes)
     return _Varied(name, values, shown)
 
 
@@ -228,11 +231,12 @@ def _lengths(
     return [_CRITERIA[only]]
 
 
-def _over(axis: Axis) -> str:
+def _over(axis: xr.DataArray) -> str:
     """A parameter that varies, in words."""
-    units = "" if axis.units == "1" else f" {axis.units}"
+    unit = axis.attrs["units"]
+    units = "" if unit == "1" else f" {unit}"
     low, high = axis.values[0], axis.values[-1]
-    return f"Over {axis.long_name}, {low:.4g} to {high:.4g}{units}; the middle is above."
+    return f"Over {axis.attrs['long_name']}, {low:.4g} to {high:.4g}{units}; the middle is above."
 
 
 def _missing(

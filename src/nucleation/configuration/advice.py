@@ -43,7 +43,7 @@ _Case = tuple[float, str, Run]
 """Badness and text of a warning, and the run."""
 
 
-class Warned(NamedTuple):
+class _Warned(NamedTuple):
     """A warning about the runs of a study."""
 
     topic: str
@@ -58,7 +58,7 @@ class Warned(NamedTuple):
         return self.topic in TOPICS
 
 
-def warned(runs: Iterable[Run]) -> list[Warned]:
+def warned(runs: Iterable[Run]) -> list[_Warned]:
     """The warnings about some runs: one for each study and topic, with the numbers of the worst."""
     found: dict[tuple[str, str], list[_Case]] = {}
     for run in runs:
@@ -71,7 +71,7 @@ def warned(runs: Iterable[Run]) -> list[Warned]:
         concerned = {run.id: run for _, _, run in cases}  # a run of two blocks may be repeated
         ids = list(concerned)
         full_text = f"studies.{study}: {topic} ({_worst(ids)}): {text}{_others(ids)}"
-        warnings.append(Warned(topic, full_text, list(concerned.values())))
+        warnings.append(_Warned(topic, full_text, list(concerned.values())))
     return warnings
 
 
@@ -80,12 +80,12 @@ def advise(runs: Iterable[Run]) -> list[str]:
     return [warning.text for warning in warned(runs)]
 
 
-def summary_of_meshes(warnings: Sequence[Warned], place: str) -> str:
+def summary_of_meshes(warnings: Sequence[_Warned], place: str) -> str:
     """One sentence for all warnings about meshes and steps.
 
     Parameters
     ----------
-    warnings : sequence of Warned
+    warnings : sequence of _Warned
         One or more.
     place : str
         Where the warnings are in full.

@@ -82,9 +82,9 @@ class PeriodicBlock(SeparableBody):
         """
         return with_entry_zero(values)
 
-    def operator(self, s: float) -> PeriodicOperator:
+    def operator(self, s: float) -> _PeriodicOperator:
         """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2)."""
-        return PeriodicOperator(self, s)
+        return _PeriodicOperator(self, s)
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
         """The mean, A and B."""
@@ -226,7 +226,7 @@ class Circulant(Elimination):
         return circulant(stiffness), circulant(coupling)
 
 
-class PeriodicOperator(SeparableOperator, Circulant):
+class _PeriodicOperator(SeparableOperator, Circulant):
     """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
 
 

@@ -14,7 +14,7 @@ from ..model.parameters import Parameters
 from ..theory.creep.lengths import Patches, stability_point
 from ..theory.critical import run_length
 from ..theory.status import VALUE, NoLength
-from .expected_drop import ExpectedDrop, NoDrop, expected_drop
+from .expected_drop import ExpectedDrop, expected_drop
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -119,7 +119,7 @@ def _answer(length: Callable[..., float], *arguments: Any) -> _Answer:
     """The length (m) that a function has for some arguments, or why there is none."""
     try:
         return _Answer(length(*arguments), VALUE)
-    except (NoLength, NoDrop) as none:
+    except NoLength as none:
         return _Answer(np.nan, none.status, str(none))
 
 

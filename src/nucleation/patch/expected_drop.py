@@ -33,28 +33,6 @@ THICK = 0.5  # height over the patch's length above which a block is thick
 THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
 
 
-class NoDrop(ValueError):
-    """The theory has no length at the drop for this fault.
-
-    Parameters
-    ----------
-    reason : str
-        Why, in words.
-    status : {"stable", "beyond", "unknown"}
-        The kind of reason, of :mod:`nucleation.theory.status`.
-
-    Examples
-    --------
-    >>> error = NoDrop("no patch turns unstable", "stable")
-    >>> str(error), error.status
-    ('no patch turns unstable', 'stable')
-    """
-
-    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
-        super().__init__(reason)
-        self.status = status
-
-
 class ExpectedDrop(NamedTuple):
     """The expected drop of a fault under its declared perturbation; lengths in m."""
 
@@ -107,7 +85,7 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
 
     Raises
     ------
-    NoDrop
+    NoLength
         If nothing is perturbed, or no patch turns unstable.
     ParameterError
         If it is no uniform fault that is pushed at its edge.
@@ -126,12 +104,9 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     parameters.require_edge("the law of the drop")
     declared = parameters.perturbation
     if not declared.acts:
-        raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
-    try:
-        critical = run_length(parameters, interface_state(parameters))
-        history = mode_history(parameters, critical)
-    except NoLength as error:
-        raise NoDrop(str(error), error.status) from None
+        raise NoLength("nothing is perturbed: without a strength the drop depends on round-off")
+    critical = run_length(parameters, interface_state(parameters))
+    history = mode_history(parameters, critical)
     found = growth(history, declared)
     stable = stability_length_of(parameters, critical)
     runaway, status, reason = _runaway_length(parameters, critical, stable)

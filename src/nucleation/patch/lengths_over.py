@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..model.parameters import Parameters
+from ..theory.status import NoLength
 from ..types import Array
 from .drop_quantiles import TITLES, drop_quantiles
-from .expected_drop import NoDrop, expected_drop
+from .expected_drop import expected_drop
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,17 +22,8 @@ BAND = (0.05, 0.5, 0.95)
 DOUBTS = 2  # that are named of all reasons not to rely on drops
 
 
-class Axis(NamedTuple):
-    """A parameter that varies, and its values in the unit in which they are shown."""
-
-    name: str
-    long_name: str
-    units: str
-    values: Array
-
-
 def lengths_over(
-    axes: Sequence[Axis],
+    axes: Sequence[xr.DataArray],
     cases: Callable[[tuple[int, ...]], Sequence[Parameters]],
     lengths: Collection[str] = tuple(TITLES),
     progress: Callable[[int, int], None] | None = None,
@@ -40,8 +32,9 @@ def lengths_over(
 
     Parameters
     ----------
-    axes : sequence of Axis
-        The parameters that vary, one or two.
+    axes : sequence of DataArray
+        The parameters that vary, one or two: name, values in the unit in which they are shown, and
+        the attributes ``long_name`` and ``units``.
     cases : callable
         Called with the indices of a point; returns the runs of that point, one, or one for each
         draw of uncertain parameters, or none where the fault is not valid.
@@ -77,10 +70,9 @@ def lengths_over(
             why[(slice(None), *point)] = reasons
         if progress is not None:
             progress(done + 1, doubtful.size)
-    names = [axis.name for axis in axes]
+    names = [str(axis.name) for axis in axes]
     coordinates: dict[str, Any] = {
-        axis.name: (axis.name, axis.values, {"long_name": axis.long_name, "units": axis.units})
-        for axis in axes
+        name: (name, axis.values, axis.attrs) for name, axis in zip(names, axes, strict=True)
     }
     return xr.Dataset(
         {
@@ -107,7 +99,7 @@ def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, 
     if len(others) < len(keys):
         try:
             drop = expected_drop(runs[0])
-        except NoDrop as none:
+        except NoLength as none:
             rows.append([np.nan] * len(BAND))
             reasons.append(str(none))
         else:

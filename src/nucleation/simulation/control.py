@@ -6,7 +6,7 @@ import numpy as np
 
 from ..model.stepping import Stepping
 from .event import Outcome
-from .interface import NewtonFailure, Tension
+from .interface import NewtonFailure
 from .state import State
 from .step import Dynamics, StepReport
 from .stepping import BDF, rung_below, rung_value
@@ -94,7 +94,7 @@ def accepted_step(
         rung = rung_below(min(wanted, longest))
         beta = rung_value(rung)
         if beta < stepping.shortest_step:
-            outcome = Outcome.TENSION if isinstance(cause, Tension) else Outcome.STEP_UNDERFLOW
+            outcome = Outcome.STEP_UNDERFLOW if cause is None else cause.outcome
             raise SimulationFailure(outcome, state, f"step {beta:.3g} s; {cause}")
         try:
             new, report = dynamics.advance(state, rung)

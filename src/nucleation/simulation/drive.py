@@ -153,7 +153,7 @@ class _FluctuatingLoad(_InTime):
 
 
 @dataclasses.dataclass(frozen=True)
-class UnevenStrength(Steady):
+class _UnevenStrength(Steady):
     """A friction coefficient ``f(v, phi) [1 + eps xi(x)]``."""
 
     strength: float  # eps
@@ -238,7 +238,7 @@ def _near_drive(parameters: Parameters, body: _LoadedBody) -> Steady:
         return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
     if declared.kind == "strength":
         uneven = profile(seed, length, body.grid.x)
-        return UnevenStrength(velocity, load, strength, uneven)
+        return _UnevenStrength(velocity, load, strength, uneven)
     rate = 1.0 / parameters.memory_time
     sheet = Sheet(seed, time, length, body.grid.x)
     return _ForcedState(velocity, load, strength, rate, sheet)

@@ -26,6 +26,7 @@ from ..model.friction.law import Friction
 from ..types import Array
 from . import compiled_laws, passes
 from .drive import Imposed
+from .event import Outcome
 from .state import State
 from .stepping import Formula
 
@@ -39,11 +40,23 @@ ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic
 
 
 class NewtonFailure(RuntimeError):
-    """Newton's method did not converge; the step must be shortened."""
+    """A step has no solution and must be shortened.
 
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    outcome : Outcome
+        How the run ends if every shorter step fails likewise.
+    """
 
-class Tension(NewtonFailure):
-    """The interface is in tension somewhere, where the friction law has no meaning."""
+    def __init__(
+        self,
+        reason: str,
+        outcome: Outcome = Outcome.STEP_UNDERFLOW,
+    ) -> None:
+        super().__init__(reason)
+        self.outcome = outcome
 
 
 @dataclasses.dataclass(frozen=True)
@@ -135,9 +148,8 @@ class Interface:
         Raises
         ------
         NewtonFailure
-            If there is no convergence, or a force is not finite.
-        Tension
-            If a nodal normal force of the solution is tensile.
+            If there is no convergence, a force is not finite, or a nodal normal force of the
+            solution is tensile.
         """
         law, body = self.friction, operator.body
         beta, velocity = past.beta, imposed.velocity
@@ -174,7 +186,7 @@ class Interface:
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
                 if normal.min() <= 0.0:
-                    raise Tension("the interface is in tension")
+                    raise NewtonFailure("the interface is in tension", Outcome.TENSION)
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = body.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)

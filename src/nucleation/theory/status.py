@@ -19,7 +19,7 @@ STATUSES = (VALUE, STABLE, BEYOND, UNKNOWN)
 
 
 class NoLength(ValueError):
-    """There is no such length of this fault.
+    """This fault has no such length: L_c, L_s, L_run or the length at the drop.
 
     Parameters
     ----------
@@ -27,6 +27,12 @@ class NoLength(ValueError):
         Why, in words.
     status : {"stable", "beyond", "unknown"}
         The kind of reason.
+
+    Examples
+    --------
+    >>> error = NoLength("no patch turns unstable", "stable")
+    >>> str(error), error.status
+    ('no patch turns unstable', 'stable')
     """
 
     def __init__(self, reason: str, status: str = UNKNOWN) -> None:

@@ -183,7 +183,17 @@ def antiplane_terms(
     numerator: Array,
     denominator: Array,
 ) -> StiffnessTerms:
-    """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
+    """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``.
+
+    Parameters
+    ----------
+    numerator, denominator : ndarray
+        Times ``exp(-2q)``, shape of q.
+
+    Returns
+    -------
+    StiffnessTerms
+    """
     return StiffnessTerms(
         denominator=denominator,
         xx=numerator,
@@ -272,7 +282,19 @@ class Layers(NamedTuple):
         return np.minimum(k * self.height, SATURATION)
 
     def terms(self, waves: Waves, less: Waves) -> StiffnessTerms:
-        """Scaled numerators and denominator of the stiffness."""
+        """Numerators and denominator of the stiffness, times ``exp(-2q)``.
+
+        Parameters
+        ----------
+        waves, less : Waves
+            Functions of q that are added, and those that are subtracted: the same ones, or bounds
+            on opposite sides.
+
+        Returns
+        -------
+        StiffnessTerms
+            Shape of q.
+        """
         known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
         return known[self.far_side](waves, less, self.poisson_ratio)
 

@@ -26,7 +26,7 @@ from ..simulation.recorded import RECORDED
 from ..simulation.stepping import BDF
 from ..types import Array
 from .manufactured.dynamics import Manufactured
-from .manufactured.fields import Displacement, Factor, Power, Sine, Term
+from .manufactured.fields import Displacement, Factor, Term, power, sine, term
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
 REFINEMENTS = ("mesh", "step", "quasi_static_step")
@@ -60,11 +60,11 @@ STEP_RUNGS = {
 }
 MOST_STEPS = 48  # of the longest steps
 
-COMPRESSION = Term(
+COMPRESSION = term(
     -1e-4,
-    Power(1.0),
-    Power(0.0, 1.0),
-    Power(1.0),
+    power(1.0),
+    power(0.0, 1.0),
+    power(1.0),
 )  # sigma_yy = -1.2 MPa
 
 
@@ -82,42 +82,42 @@ class _Fields(NamedTuple):
 
 def _displacement(w_x: Sequence[Factor], u_y: Sequence[Factor]) -> Displacement:
     """The displacement with these factors in x, y and t."""
-    along_x = Term(SCALE, *w_x)
-    along_y = Term(2 * SCALE, *u_y)
+    along_x = term(SCALE, *w_x)
+    along_y = term(2 * SCALE, *u_y)
     return Displacement(((along_x,), (along_y, COMPRESSION)), MATERIAL)
 
 
 def _bilinear(along: Factor, across: Factor) -> Displacement:
     """A field bilinear in space, with these factors in time of w_x and u_y."""
-    w_x = (Power(0.0, 1.0), Power(1.0, 0.7), along)
-    u_y = (Power(1.0, 0.6), Power(0.0, 1.0), across)
+    w_x = (power(0.0, 1.0), power(1.0, 0.7), along)
+    u_y = (power(1.0, 0.6), power(0.0, 1.0), across)
     return _displacement(w_x, u_y)
 
 
-QUADRATIC = Power(1.0, -6e2, 4e5)  # of the state
+QUADRATIC = power(1.0, -6e2, 4e5)  # of the state
 FIELDS = {
     "mesh": _Fields(
         _displacement(
-            (Sine(2.1), Sine(1.7, 1.9), Power(1.0, 1e3, 5e5)),
-            (Sine(1.9, 2.0), Sine(2.3), Power(1.0, -7e2, 6e5)),
+            (sine(2.1), sine(1.7, 1.9), power(1.0, 1e3, 5e5)),
+            (sine(1.9, 2.0), sine(2.3), power(1.0, -7e2, 6e5)),
         ),
         2e-3,
         QUADRATIC,
         lumped=False,
     ),
     "step": _Fields(
-        _bilinear(Sine(1e4, 0.3), Sine(1.5e4, 1.1)),
+        _bilinear(sine(1e4, 0.3), sine(1.5e4, 1.1)),
         2e-2,
-        Sine(1.2e4, 0.5),
+        sine(1.2e4, 0.5),
     ),
     "quasi_static_step": _Fields(
-        _bilinear(Sine(4.0, 0.3), Sine(6.0, 1.1)),
+        _bilinear(sine(4.0, 0.3), sine(6.0, 1.1)),
         8e-6,
-        Sine(5.0, 0.5),
+        sine(5.0, 0.5),
     ),
     # bilinear and quadratic at once: solved exactly
     "exact": _Fields(
-        _bilinear(Power(1.0, 8e2, 7e5), Power(1.0, -5e2, 7e5)),
+        _bilinear(power(1.0, 8e2, 7e5), power(1.0, -5e2, 7e5)),
         2e-3,
         QUADRATIC,
     ),
@@ -138,14 +138,14 @@ def log_state(fields: _Fields, parameters: Parameters) -> tuple[Term, Term]:
     -------
     steady, varying : Term
     """
-    constant = Power(1.0)
-    steady = Term(
+    constant = power(1.0)
+    steady = term(
         np.log(parameters.memory_time),
         constant,
         constant,
         constant,
     )
-    varying = Term(0.5, Sine(3.0, 1.0), constant, fields.state)
+    varying = term(0.5, sine(3.0, 1.0), constant, fields.state)
     return steady, varying
 
 

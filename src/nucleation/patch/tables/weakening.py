@@ -19,7 +19,8 @@ from ...model.identity import fault
 from ...model.linearised import interface_state
 from ...model.parameters import Parameters
 from ...theory.critical import run_length
-from ..expected_drop import NoDrop, expected_drop
+from ...theory.status import NoLength
+from ..expected_drop import expected_drop
 
 MEASURED = some(
     LENGTHS,
@@ -80,7 +81,7 @@ def expected(parameters: Parameters) -> Row:
     """The columns :data:`EXPECTED` of one fault under its perturbation; NaN without a drop."""
     try:
         known = expected_drop(parameters)
-    except NoDrop as error:
+    except NoLength as error:
         none = dict.fromkeys(EXPECTED, float("nan"))
         return none | {"runaway_status": error.status, "doubt": str(error)}
     return {

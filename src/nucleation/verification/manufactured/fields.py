@@ -18,46 +18,66 @@ from ...types import Array
 Factor: TypeAlias = Callable[..., Array]
 """A function of one variable and of the order of its derivative, zero by default."""
 
+Term: TypeAlias = Callable[..., Array]
+"""A function of x, y, t and the orders of its derivative by each of them."""
+
 POINTS = 4  # Gauss points per element and direction
 
 
-@dataclasses.dataclass(frozen=True)
-class Sine:
-    """The factor ``sin(rate x + phase)``."""
+def sine(rate: float, phase: float = 0.0) -> Factor:
+    """The factor ``sin(rate x + phase)``.
 
-    rate: float
-    phase: float = 0.0
+    Parameters
+    ----------
+    rate : float
+        Wavenumber (1/m), or angular frequency (1/s) of a factor in time.
+    phase : float
+        In radians.
 
-    def __call__(self, x: Array, order: int = 0) -> Array:
-        """Return the derivative of an order at x."""
+    Returns
+    -------
+    callable
+    """
+
+    def at(x: Array, order: int = 0) -> Array:
         shift = order * np.pi / 2
-        angle = self.rate * x + self.phase + shift
-        return self.rate**order * np.sin(angle)
+        return rate**order * np.sin(rate * x + phase + shift)
+
+    return at
 
 
-class Power:
+def power(*coefficients: float) -> Factor:
     """The polynomial factor ``c0 + c1 x + c2 x^2 ..``."""
+    polynomial = np.polynomial.Polynomial(coefficients)
 
-    def __init__(self, *coefficients: float) -> None:
-        self.polynomial = np.polynomial.Polynomial(coefficients)
+    def at(x: Array, order: int = 0) -> Array:
+        return polynomial.deriv(order)(x) + np.zeros_like(x)
 
-    def __call__(self, x: Array, order: int = 0) -> Array:
-        """Return the derivative of an order at x."""
-        derivative = self.polynomial.deriv(order)
-        return derivative(x) + np.zeros_like(x)
+    return at
 
 
-@dataclasses.dataclass(frozen=True)
-class Term:
-    """The product ``amplitude X(x) Y(y) T(t)``."""
+def term(
+    amplitude: float,
+    along_x: Factor,
+    along_y: Factor,
+    in_time: Factor,
+) -> Term:
+    """The product ``amplitude X(x) Y(y) T(t)``.
 
-    amplitude: float
-    x: Factor
-    y: Factor
-    t: Factor
+    Parameters
+    ----------
+    amplitude : float
+        In the unit of the product.
+    along_x, along_y, in_time : callable
+        The factors X, Y and T.
 
-    def __call__(
-        self,
+    Returns
+    -------
+    callable
+        Its derivative of the orders `by_x`, `by_y` and `by_t` at x, y (m) and t (s).
+    """
+
+    def at(
         x: Array,
         y: Array,
         t: ArrayLike,
@@ -65,11 +85,10 @@ class Term:
         by_y: int = 0,
         by_t: int = 0,
     ) -> Array:
-        """Return the derivative of the given orders at x, y (m) and t (s)."""
-        along_x = self.x(x, by_x)
-        along_y = self.y(y, by_y)
-        in_time = self.t(np.asarray(t, float), by_t)
-        return self.amplitude * (along_x * along_y * in_time)
+        in_space = along_x(x, by_x) * along_y(y, by_y)
+        return amplitude * (in_space * in_time(np.asarray(t, float), by_t))
+
+    return at
 
 
 Terms = tuple[Term, ...]
