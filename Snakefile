@@ -65,7 +65,6 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.entries import StoreError
 from nucleation.pipeline.job_lines import shorten
 from nucleation.pipeline.launch import options
 from nucleation.pipeline.messages import LOGGER
@@ -86,7 +85,7 @@ try:
         raise ParameterError(unusable)
     if PLANS:  # a job continues even on a node that lacks a disk
         others()  # raises an error if a store elsewhere can't be used
-except (ParameterError, StoreError, DatasetError) as error:
+except (ParameterError, DatasetError) as error:
     LOGGER.error(error)  # even if Snakemake is quiet
     raise WorkflowError("the workflow can't be used like this, see above") from None
 

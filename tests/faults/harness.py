@@ -32,7 +32,7 @@ from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
 from nucleation.model.friction.registry import plugins
 from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
-from nucleation.pipeline.entries import StoreError, path_in, read_note
+from nucleation.pipeline.entries import path_in, read_note
 from nucleation.pipeline.keys import key_in
 from nucleation.pipeline.recipes import Recipe
 from nucleation.pipeline.running import SIMULATE, UNFINISHED
@@ -177,7 +177,7 @@ class Place:
         """Every dataset has the undisturbed one's values, bit for bit, and its name leads to it."""
         try:
             contents = self.contents()
-        except (variables.DatasetError, StoreError) as error:
+        except variables.DatasetError as error:
             raise Lost(str(error)) from error
         require(contents.keys() == reference.contents.keys(), f"datasets are {sorted(contents)}")
         require_same(contents, reference.contents)

@@ -13,9 +13,9 @@ import pytest
 import xarray as xr
 
 from nucleation.datasets import netcdf
+from nucleation.datasets.variables import DatasetError
 from nucleation.pipeline import bundle
 from nucleation.pipeline.bundle import CHECKSUMS
-from nucleation.pipeline.entries import StoreError
 from nucleation.pipeline.recipe_files import RECIPES
 from nucleation.pipeline.recipes import Recipe
 from nucleation.pipeline.store import Store
@@ -118,14 +118,14 @@ def test_restored_entries_are_those_that_were_packed(archive, tmp_path):
 
 
 def test_nothing_is_written_without_results_or_over_a_file(made, archive):
-    with pytest.raises(StoreError, match="exists already"):
+    with pytest.raises(DatasetError, match="exists already"):
         bundle.write(archive, made / "config.yaml", made)
-    with pytest.raises(StoreError, match="no results in"):
+    with pytest.raises(DatasetError, match="no results in"):
         bundle.write(made / "b.tar", made / "config.yaml", made / "empty")
     path = made / "results" / "store" / KEY / "result.nc"
     path.chmod(0o644)
     path.write_bytes(b"A RUN")
-    with pytest.raises(StoreError, match="is damaged"):
+    with pytest.raises(DatasetError, match="is damaged"):
         bundle.write(made / "b.tar", made / "config.yaml", made)
     assert not (made / "b.tar").exists()
 
@@ -133,7 +133,7 @@ def test_nothing_is_written_without_results_or_over_a_file(made, archive):
 def test_program_among_results_is_not_packed(made):
     put(Store(made / "results/store"), "3" * 16, {"result.py": b"1"})
     show(made / "results", "own", "3" * 16, ".nc")
-    with pytest.raises(StoreError, match=r"result\.py.: it is neither"):
+    with pytest.raises(DatasetError, match=r"result\.py.: it is neither"):
         bundle.write(made / "out.tar", made / "config.yaml", made)
 
 
@@ -196,7 +196,7 @@ FOREIGN = {
 @pytest.mark.parametrize("foreign", FOREIGN.values(), ids=FOREIGN.keys())
 def test_foreign_file_is_refused_by_name(foreign, tmp_path):
     archive = packed(tmp_path / "evil.tar", *WHOLE, foreign)
-    with pytest.raises(StoreError, match="nothing is written") as caught:
+    with pytest.raises(DatasetError, match="nothing is written") as caught:
         bundle.restore(archive, "results", tmp_path / "checkout")
     assert repr(foreign[0].name) in str(caught.value)
     assert not (tmp_path / "checkout").exists()
@@ -220,7 +220,7 @@ BROKEN = {
 @pytest.mark.parametrize("members", BROKEN.values(), ids=BROKEN.keys())
 def test_entry_is_what_its_note_tells_of(members, tmp_path):
     archive = packed(tmp_path / "a.tar", *members)
-    with pytest.raises(StoreError, match="damaged or no archive of results"):
+    with pytest.raises(DatasetError, match="damaged or no archive of results"):
         bundle.restore(archive, "results", tmp_path / "checkout")
     assert not (tmp_path / "checkout").exists()
 
@@ -232,7 +232,7 @@ def test_files_and_their_checksums_are_the_same_set(tmp_path):
         with tarfile.open(tmp_path / name, "w") as tar:
             for entry, content in [*WHOLE, member("a.csv"), member(CHECKSUMS, content=text)]:
                 tar.addfile(entry, io.BytesIO(content))
-        with pytest.raises(StoreError, match=r"[ab]\.csv differs from the file that was packed"):
+        with pytest.raises(DatasetError, match=r"[ab]\.csv differs from the file that was packed"):
             bundle.restore(tmp_path / name, "results", tmp_path / "checkout")
 
 
@@ -243,9 +243,9 @@ def test_damaged_archive_puts_nothing_in_place(archive, tmp_path, name):
     whole = archive.read_bytes()
     for content in (whole[:place] + b"\0" + whole[place + 1 :], whole[: place + 2], b"", b"no tar"):
         (tmp_path / "damaged.tar").write_bytes(content)
-        with pytest.raises(StoreError, match="damaged"):
+        with pytest.raises(DatasetError, match="damaged"):
             bundle.restore(tmp_path / "damaged.tar", "results", tmp_path / "clone")
-    with pytest.raises(StoreError, match="no archive"):
+    with pytest.raises(DatasetError, match="no archive"):
         bundle.restore(tmp_path / "missing.tar", "results", tmp_path / "clone")
     assert not (tmp_path / "clone").exists()
 
@@ -255,17 +255,17 @@ def test_links_that_are_there_are_not_followed_out(archive, tmp_path):
     for name in ("results", "own/store"):
         (tmp_path / "checkout" / name).parent.mkdir(exist_ok=True)
         (tmp_path / "checkout" / name).symlink_to(tmp_path / "elsewhere")
-        with pytest.raises(StoreError, match="over a link"):
+        with pytest.raises(DatasetError, match="over a link"):
             bundle.restore(archive, name.removesuffix("/store"), tmp_path / "checkout")
     assert not list((tmp_path / "elsewhere").iterdir())
 
 
 def test_bombs_are_refused(archive, tmp_path):
     (tmp_path / "small.tar.gz").write_bytes(gzip.compress(archive.read_bytes()))
-    with pytest.raises(StoreError, match="no archive of results"):  # no compression is undone
+    with pytest.raises(DatasetError, match="no archive of results"):  # no compression is undone
         bundle.restore(tmp_path / "small.tar.gz", "results", tmp_path / "checkout")
     for name in (CHECKSUMS, f"store/{KEY}/entry.json"):
         huge = tarfile.TarInfo(name)
         huge.size = bundle.LARGEST_TEXT + 1
-        with pytest.raises(StoreError, match="it is too large"):
+        with pytest.raises(DatasetError, match="it is too large"):
             bundle._refuse_foreign([huge])

@@ -12,9 +12,10 @@ import pytest
 import xarray as xr
 
 from nucleation.datasets import netcdf
+from nucleation.datasets.variables import DatasetError
 from nucleation.pipeline import entries
 from nucleation.pipeline import store as module
-from nucleation.pipeline.entries import NOTE, StoreError, read_note
+from nucleation.pipeline.entries import NOTE, read_note
 from nucleation.pipeline.store import VARIABLE, Store, give_all, others
 
 KEY, OTHER = "0" * 16, "1" * 16
@@ -115,7 +116,7 @@ def test_damaged_entry_is_said_and_moved_aside_for_a_new_one(store, how, capsys)
     damaged(put(store), how)
     assert Store(store.directory).note(KEY) is None
     assert capsys.readouterr().err.count("Not used") == 1
-    with pytest.raises(StoreError):
+    with pytest.raises(DatasetError):
         read_note(store.entry(KEY), whole=True)
     assert read_note(put(Store(store.directory)), whole=True)
     assert len(list((store.directory / "aside").glob(f"*/{KEY}"))) == 1
@@ -213,7 +214,7 @@ def test_stores_are_named_by_the_environment(tmp_path, monkeypatch, capsys):
     monkeypatch.delenv(VARIABLE, raising=False)
     assert others() == []
     monkeypatch.setenv("NUCLEATION_STORES", f"/no/such/store, {tmp_path}")
-    with pytest.raises(StoreError, match="is no directory"):
+    with pytest.raises(DatasetError, match="is no directory"):
         others()
     assert [store.directory for store in others(strict=False)] == [tmp_path]
     assert "is no directory" in capsys.readouterr().err
@@ -277,7 +278,7 @@ def test_special_entry_elsewhere_neither_hangs_nor_is_taken(store, other, how, c
 @pytest.mark.parametrize("how", SPECIAL)
 def test_special_entry_of_the_own_store_is_moved_aside(store, how):
     how(put(store))
-    with pytest.raises(StoreError):
+    with pytest.raises(DatasetError):
         read_note(store.entry(KEY), whole=True)
     put(Store(store.directory))
     assert read_note(store.entry(KEY), whole=True)["name"] == "a"

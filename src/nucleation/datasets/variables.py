@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class DatasetError(ValueError):
-    """A variable is not declared, or a file is damaged, incomplete or from another project."""
+    """A variable is not declared, or results are damaged, incomplete or from another project."""
 
 
 class Variable(NamedTuple):

@@ -23,7 +23,8 @@ from pathlib import Path
 from ..configuration.load import DEFAULTS, load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .entries import BAD, NOTE, STEM, StoreError, read_note
+from ..datasets.variables import DatasetError
+from .entries import BAD, NOTE, STEM, read_note
 from .keys import PATTERN, digest_of_file
 from .recipe_files import kept_recipes
 from .recipes import Recipe
@@ -63,18 +64,18 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
 
     Raises
     ------
-    StoreError
+    DatasetError
         If the archive exists already, there are no results, or one of them is damaged.
     """
     configured = [configuration] if configuration else DEFAULTS
     results = directory / load(*configured, lazy=True).results
     if archive.exists():
-        raise StoreError(f"{archive} exists already: remove it or give another name")
+        raise DatasetError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
     recipes = _stored_recipes(store)
     entries, digests = _packed_entries(store, {recipe.key for recipe in recipes})
     if not entries:
-        raise StoreError(f"there are no results in {results}: make them first")
+        raise DatasetError(f"there are no results in {results}: make them first")
     copies = _packed_copies(results, recipes, digests)
     packed = dict(zip(_CONFIGURATION, configured, strict=False))
     packed |= copies
@@ -156,19 +157,19 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
 
     Raises
     ------
-    StoreError
+    DatasetError
         If the archive is damaged or foreign; then nothing is written.
     """
     place = Path(os.path.normpath(directory.resolve() / results / "store"))
     if place.resolve() != place:
-        raise StoreError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
+        raise DatasetError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
     with contextlib.ExitStack() as stack:
         try:
             # without compression, so that it can't hold more than its own size
             tar = stack.enter_context(tarfile.open(archive, "r:"))
             entries = _entries(tar)
         except (tarfile.TarError, EOFError, *BAD) as error:
-            raise StoreError(f"{archive} is damaged or no archive of results: {error}") from None
+            raise DatasetError(f"{archive} is damaged or no archive of results: {error}") from None
         store = Store(place)
         new = {key: files for key, files in entries.items() if store.note(key) is None}
         for key, files in new.items():
@@ -205,7 +206,7 @@ def _check_checksums(tar: tarfile.TarFile, digests: Mapping[str, str]) -> None:
         packed[name] = digest
     found = {name: digest for name, digest in digests.items() if name != CHECKSUMS}
     for name, _ in sorted(packed.items() ^ found.items()):
-        raise StoreError(f"{name} differs from the file that was packed")
+        raise DatasetError(f"{name} differs from the file that was packed")
 
 
 def _check_note(
@@ -224,13 +225,13 @@ def _check_note(
         if name != NOTE:
             found[name] = (member.size, digests[member.name])
     if note["key"] != key or noted != found:
-        raise StoreError(f"store/{key} is not the result that its note describes")
+        raise DatasetError(f"store/{key} is not the result that its note describes")
 
 
 def _opened(tar: tarfile.TarFile, member: tarfile.TarInfo) -> io.BufferedReader:
     stream = tar.extractfile(member)
     if not isinstance(stream, io.BufferedReader):
-        raise StoreError(f"{member.name} is no file")
+        raise DatasetError(f"{member.name} is no file")
     return stream
 
 
@@ -251,7 +252,7 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo]) -> None:
         shown = "".join(problems[:_SHOWN_PROBLEMS])
         hidden = len(problems) - _SHOWN_PROBLEMS
         more = f", and {hidden} more" if hidden > 0 else ""
-        raise StoreError(f"nothing is written, as this is foreign:{shown}{more}")
+        raise DatasetError(f"nothing is written, as this is foreign:{shown}{more}")
 
 
 def _problem(member: tarfile.TarInfo) -> str | None:

@@ -14,7 +14,8 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from .entries import StoreError, read_note
+from ..datasets.variables import DatasetError
+from .entries import read_note
 from .keys import key_in
 from .recipe_files import referred
 from .store import ASIDE, Store
@@ -93,7 +94,7 @@ def _entries(store: Store) -> Iterator[Finding]:
         entry = store.entry(key)
         try:
             read_note(entry, whole=True)
-        except StoreError as error:
+        except DatasetError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
             yield Finding(
                 entry,
@@ -215,7 +216,7 @@ def main(command: str, results: str, expected_file: str) -> None:
             )
             return
         findings = check_results(Path(results), expected)
-    except (StoreError, OSError) as error:
+    except (DatasetError, OSError) as error:
         sys.exit(str(error))
     wrong = sum(found.state != UNUSED for found in findings)
     end = f"{wrong} findings: these results are not current" if wrong else "All is current"

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from ..datasets import seal
+from ..datasets.variables import DatasetError
 from .keys import digest_of_file
 
 NOTE = "entry.json"
@@ -23,10 +24,6 @@ STEM = "result"
 _FILE = re.compile(rf"{STEM}(\.\w+)+")
 
 Note = dict[str, Any]
-
-
-class StoreError(ValueError):
-    """A store can't be used, or an entry is damaged or foreign."""
 
 
 BAD = (
@@ -77,30 +74,30 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
 
     Raises
     ------
-    StoreError
+    DatasetError
         If the entry is damaged or has another key.
     """
     key = key or entry.name
     try:
         note = _parsed_note(entry)
         if note["key"] != key:
-            raise StoreError(f"{entry} holds the result of another key, {note['key']}")
+            raise DatasetError(f"{entry} holds the result of another key, {note['key']}")
         if not note["files"]:
-            raise StoreError(f"{entry} is damaged: it has no files")
+            raise DatasetError(f"{entry} is damaged: it has no files")
         for name, file in note["files"].items():
             _check_file(entry, name, file["size"])
             if whole:
                 _check_content(entry / name, file["sha256"], key)
-    except StoreError:
+    except DatasetError:
         raise
     except BAD as error:
-        raise StoreError(f"{entry} is damaged: {error}") from None
+        raise DatasetError(f"{entry} is damaged: {error}") from None
     return dict(note)
 
 
 def _parsed_note(entry: Path) -> Any:
     if entry.is_symlink():
-        raise StoreError(f"{entry} is a link: no link out of a store is followed")
+        raise DatasetError(f"{entry} is a link: no link out of a store is followed")
     with _regular_file(entry / NOTE, _LARGEST_NOTE) as stream:
         return json.loads(stream.read())
 
@@ -108,19 +105,19 @@ def _parsed_note(entry: Path) -> Any:
 def _check_file(entry: Path, name: str, size: int) -> None:
     path = entry / name
     if not _FILE.fullmatch(name):  # a plain name, which can't lead out of the entry
-        raise StoreError(f"{name!r} is no name of a result's file")
+        raise DatasetError(f"{name!r} is no name of a result's file")
     found = path.lstat()
     if not stat.S_ISREG(found.st_mode):
-        raise StoreError(f"{path} is damaged: it is no regular file")
+        raise DatasetError(f"{path} is damaged: it is no regular file")
     if found.st_size != size:
-        raise StoreError(f"{path} is damaged: it does not have its original size")
+        raise DatasetError(f"{path} is damaged: it does not have its original size")
 
 
 def _check_content(path: Path, digest: str, key: str) -> None:
     if digest_of_file(path) != digest:
-        raise StoreError(f"{path} is damaged: it differs from the file that was written")
+        raise DatasetError(f"{path} is damaged: it differs from the file that was written")
     if path.suffix == ".nc" and seal.attributes(path).get("key") != key:
-        raise StoreError(f"{path} is the result of another key")
+        raise DatasetError(f"{path} is the result of another key")
 
 
 @contextlib.contextmanager
@@ -133,7 +130,7 @@ def _regular_file(path: Path, largest: int) -> Iterator[BinaryIO]:
     with os.fdopen(descriptor, "rb") as file:
         found = os.fstat(descriptor)
         if not stat.S_ISREG(found.st_mode) or found.st_size > largest:
-            raise StoreError(f"{path} is no regular file of at most {largest} bytes")
+            raise DatasetError(f"{path} is no regular file of at most {largest} bytes")
         yield file
 
 

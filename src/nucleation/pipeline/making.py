@@ -25,7 +25,7 @@ from . import code
 from .batch import Batch, Inputs
 from .calls import arguments
 from .differences import differences
-from .entries import STEM, StoreError, path_in, read_note
+from .entries import STEM, path_in, read_note
 from .keys import key_in
 from .messages import LOGGER
 from .recipes import Recipe
@@ -34,7 +34,6 @@ from .store import Store, give_all, others
 _EXPECTED = (
     DatasetError,
     ParameterError,
-    StoreError,
     code.CodeError,
     OSError,
 )
@@ -164,7 +163,7 @@ class _Maker:
 
         Raises
         ------
-        StoreError
+        DatasetError
             If it is another result; an entry of this store is moved aside.
         """
         key = key_in(path)
@@ -180,7 +179,7 @@ class _Maker:
             if found != key:
                 raise DatasetError(f"{file} is another result than it should be, of key {found}")
             return dataset
-        except (DatasetError, StoreError) as error:
+        except DatasetError as error:
             raise self._store.refused(key, error) from None
 
     def _put(self, recipe: Recipe, made: Any) -> None:

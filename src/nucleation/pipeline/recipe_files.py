@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from .entries import StoreError
+from ..datasets.variables import DatasetError
 from .keys import PATTERN, key_in
 from .recipes import Recipe, read
 from .store import Store
@@ -40,7 +40,7 @@ def kept_recipes(store: Store) -> Iterator[Recipe]:
 
     Raises
     ------
-    StoreError
+    DatasetError
         If a recipe can't be read: then it is unknown which results are in use.
     """
     for place in sorted(store.directory.glob(f"{RECIPES}/*")):
@@ -51,7 +51,7 @@ def kept_recipes(store: Store) -> Iterator[Recipe]:
                 yield read(file)
             except (OSError, ValueError, KeyError, TypeError) as error:
                 message = f"{file} can't be read ({error!r}): delete it, plan again"
-                raise StoreError(message) from None
+                raise DatasetError(message) from None
 
 
 def _is_in_use(place: Path, store: Store) -> bool:

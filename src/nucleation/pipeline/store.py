@@ -15,14 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from ..datasets.files import flush
-from .entries import (
-    NOTE,
-    Note,
-    StoreError,
-    mark_as_checked,
-    may_have_changed,
-    read_note,
-)
+from ..datasets.variables import DatasetError
+from .entries import NOTE, Note, mark_as_checked, may_have_changed, read_note
 from .keys import LENGTH, digest_of_file
 from .messages import LOGGER
 
@@ -54,7 +48,7 @@ class Store:
             if os.path.lexists(self.entry(key) / NOTE):
                 try:
                     self._known[key] = self._checked_note(key)
-                except StoreError as error:
+                except DatasetError as error:
                     LOGGER.warning(f"Not used: {error}")
         return self._known[key]
 
@@ -130,9 +124,9 @@ class Store:
                 if (other.entry(key) / NOTE).is_file():
                     self._copy(other.entry(key))
                     return other.directory
-            except (OSError, StoreError) as error:
+            except (OSError, DatasetError) as error:
                 LOGGER.warning(f"Not taken from {other.directory}: {_in_a_line(error)}")
-                if not isinstance(error, (StoreError, FileNotFoundError)):
+                if not isinstance(error, (DatasetError, FileNotFoundError)):
                     others.remove(other)
         return None
 
@@ -140,7 +134,7 @@ class Store:
         """Copy an entry of another store into this one, unless a right one is there already."""
         if not os.access(self.directory, os.W_OK):
             return
-        with contextlib.suppress(StoreError):
+        with contextlib.suppress(DatasetError):
             read_note(self.entry(entry.name), whole=True)
             return
         self._copy(entry)
@@ -175,7 +169,7 @@ class Store:
         try:
             place.rename(self.entry(key))
         except OSError:  # an entry exists
-            with contextlib.suppress(StoreError):
+            with contextlib.suppress(DatasetError):
                 read_note(self.entry(key), whole=True)
                 return
             self.set_aside(key)
@@ -196,7 +190,7 @@ class Store:
         with contextlib.suppress(FileNotFoundError):  # another process was faster
             self.entry(key).rename(place / key)
 
-    def refused(self, key: str, error: Exception) -> StoreError:
+    def refused(self, key: str, error: Exception) -> DatasetError:
         """Move a wrong entry out of the way, and make the error for the user.
 
         Parameters
@@ -208,11 +202,11 @@ class Store:
 
         Returns
         -------
-        StoreError
+        DatasetError
             To be raised.
         """
         self.set_aside(key)
-        return StoreError(f"{error}. It was moved aside: run this again, and it is made again")
+        return DatasetError(f"{error}. It was moved aside: run this again, and it is made again")
 
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that no process finds half of it."""
@@ -238,7 +232,7 @@ def others(strict: bool = True) -> list[Store]:
 
     Raises
     ------
-    StoreError
+    DatasetError
         If one is not a readable directory and `strict` is set.
     """
     found: list[Store] = []
@@ -251,7 +245,7 @@ def others(strict: bool = True) -> list[Store]:
             continue
         problem = f"the store {name!r} is no directory that can be read: make it first"
         if strict:
-            raise StoreError(problem)
+            raise DatasetError(problem)
         LOGGER.warning(f"Not used: {problem}")
     return found
 
@@ -269,7 +263,7 @@ def give_all(entry: Path, others: list[Store]) -> None:
     for other in list(others):
         try:
             other.give(entry)
-        except (OSError, StoreError) as error:
+        except (OSError, DatasetError) as error:
             LOGGER.warning(f"Not kept in {other.directory}: {_in_a_line(error)}")
             others.remove(other)
 

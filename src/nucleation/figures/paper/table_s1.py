@@ -23,7 +23,7 @@ _PRINTED = {"theta": "θ", "phi*": "φ*", "v0": "v₀", "xi": "ξ"}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-class Parameter(NamedTuple):
+class _Parameter(NamedTuple):
     """One row of the table: the paper's symbol, value in SI units, unit and description."""
 
     symbol: str
@@ -32,7 +32,7 @@ class Parameter(NamedTuple):
     description: str
 
 
-def rows(friction: Friction) -> list[Parameter]:
+def rows(friction: Friction) -> list[_Parameter]:
     """The rows of the table for a friction law; ``-`` is the unit of dimensionless numbers."""
     entries = declarations(type(friction))
     names = _ORDER if set(_ORDER) <= set(entries) else entries
@@ -44,7 +44,7 @@ def rows(friction: Friction) -> list[Parameter]:
         symbol = _PRINTED.get(entry.symbol, entry.symbol)
         unit = "-" if entry.unit == "1" else entry.unit
         value = float(getattr(friction, name))
-        found.append(Parameter(symbol, value, unit, entry.description))
+        found.append(_Parameter(symbol, value, unit, entry.description))
     return found
 
 
@@ -61,7 +61,7 @@ def value_text(value: float) -> str:
     return f"10{raised}" if factor == "1" else f"{factor}×10{raised}"
 
 
-def to_markdown(table: list[Parameter]) -> str:
+def to_markdown(table: list[_Parameter]) -> str:
     """The table as Markdown, ending in a newline."""
     lines = ["| Parameter | Value | Units | Description |", "|---|---|---|---|"]
     for row in table:
