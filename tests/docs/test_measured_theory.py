@@ -1,0 +1,46 @@
+"""Numbers in sentences of docs/theory.md, computed anew."""
+
+import dataclasses
+
+import pytest
+from docs.prose import says
+
+from nucleation.api import Fault, critical_length, expected_drop, extract, simulate
+from nucleation.model.parameters import Parameters
+from nucleation.model.perturbation import Perturbation
+
+PMMA = {
+    "shear_modulus": 3.1e9,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "zeta": 0.016,
+    "slip_distance": 5e-7,
+}
+
+
+def test_plates_have_shorter_lengths_than_thick_bodies():
+    plates = {**PMMA, "poisson_ratio": 0.35, "height": 0.1, "friction": 0.41}
+    ratio = critical_length(**plates, plane="stress") / critical_length(**plates)
+    says("theory.md", f"$L_c$ is {100.0 * (1.0 - float(ratio)):.0f} % shorter than in plane strain")
+
+
+@pytest.mark.slow
+def test_drop_in_antiplane_shear():
+    """One realisation on the mesh of the study ``converged``, and the law's median."""
+    usual = Parameters().replaced({"height": 0.02})
+    material = dataclasses.replace(usual.material, plane="antiplane")
+    fault = dataclasses.replace(
+        usual,
+        material=material,
+        perturbation=Perturbation(kind="normal_load", strength=1e-4),
+    )
+    critical = float(Fault.of(fault).critical_length())
+    length = 3.0 * critical
+    fault = fault.replaced({"length": length, "n_x": 400, "n_y": 16, "end_time": 40.0})
+    simulated = extract(simulate(fault))["length"]
+    says(
+        "theory.md",
+        f"the force drops at {float(simulated) / critical:.2f} $L_c$ (one realisation); [the law "
+        f"of the drop](drop.md#the-law-of-the-drop) gives "
+        f"{expected_drop(fault).length / critical:.2f}.",
+    )
