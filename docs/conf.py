@@ -7,7 +7,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
-shutil.rmtree(ROOT / "docs" / "generated", ignore_errors=True)  # of modules that are gone
 
 import docutils.nodes  # noqa: E402
 import numpydoc.numpydoc  # noqa: E402
@@ -138,6 +137,7 @@ def links_from_source(app, env):
 
 
 def setup(app):
+    shutil.rmtree(ROOT / "docs" / "generated", ignore_errors=True)  # pages of modules that are gone
     app.connect("env-check-consistency", links_from_source)
     app.connect("build-finished", calculator)
     app.connect("build-finished", redirects)

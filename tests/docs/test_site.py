@@ -2,6 +2,8 @@
 
 import json
 import re
+import runpy
+import shutil
 import subprocess
 import sys
 
@@ -86,3 +88,13 @@ def test_source_pages_lead_back_to_the_description(site):
             assert f'id="{anchor}"' in (page.parent / path).read_text(), (page.name, link)
             links += 1
     assert links > 250
+
+
+def test_reading_the_settings_removes_no_page(tmp_path):
+    """Tests of the pages import conf.py while the site is built."""
+    page = tmp_path / "docs" / "generated" / "page.rst"
+    page.parent.mkdir(parents=True)
+    page.touch()
+    settings = shutil.copy(DOCS / "conf.py", tmp_path / "docs")
+    runpy.run_path(settings)
+    assert page.exists()

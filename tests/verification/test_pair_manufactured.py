@@ -10,15 +10,15 @@ from nucleation.fem.grid import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.verification.manufactured.dynamics import Manufactured, block_field
-from nucleation.verification.manufactured.fields import Displacement, Loads, power, sine, term
+from nucleation.verification.manufactured.fields import Displacement, Loads, Term, power, sine
 from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
 
 pytestmark = pytest.mark.slow
 
 QUADRATIC = power(1.0, -5e2, 7e5)
 LIFT = {  # u_y on the interface, which both blocks share
-    "exact": term(0.5 * SCALE, power(0.3, 0.6), power(1.0), QUADRATIC),
-    "mesh": term(0.5 * SCALE, sine(2.4, 0.4), power(1.0), QUADRATIC),
+    "exact": Term(0.5 * SCALE, power(0.3, 0.6), power(1.0), QUADRATIC),
+    "mesh": Term(0.5 * SCALE, sine(2.4, 0.4), power(1.0), QUADRATIC),
 }
 
 

@@ -26,7 +26,7 @@ from ..simulation.recorded import RECORDED
 from ..simulation.stepping import BDF
 from ..types import Array
 from .manufactured.dynamics import Manufactured
-from .manufactured.fields import Displacement, Factor, Term, power, sine, term
+from .manufactured.fields import Displacement, Factor, Term, power, sine
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
 REFINEMENTS = ("mesh", "step", "quasi_static_step")
@@ -60,7 +60,7 @@ STEP_RUNGS = {
 }
 MOST_STEPS = 48  # of the longest steps
 
-COMPRESSION = term(
+COMPRESSION = Term(
     -1e-4,
     power(1.0),
     power(0.0, 1.0),
@@ -82,8 +82,8 @@ class _Fields(NamedTuple):
 
 def _displacement(w_x: Sequence[Factor], u_y: Sequence[Factor]) -> Displacement:
     """The displacement with these factors in x, y and t."""
-    along_x = term(SCALE, *w_x)
-    along_y = term(2 * SCALE, *u_y)
+    along_x = Term(SCALE, *w_x)
+    along_y = Term(2 * SCALE, *u_y)
     return Displacement(((along_x,), (along_y, COMPRESSION)), MATERIAL)
 
 
@@ -139,13 +139,13 @@ def log_state(fields: _Fields, parameters: Parameters) -> tuple[Term, Term]:
     steady, varying : Term
     """
     constant = power(1.0)
-    steady = term(
+    steady = Term(
         np.log(parameters.memory_time),
         constant,
         constant,
         constant,
     )
-    varying = term(0.5, sine(3.0, 1.0), constant, fields.state)
+    varying = Term(0.5, sine(3.0, 1.0), constant, fields.state)
     return steady, varying
 
 

@@ -18,9 +18,6 @@ from ...types import Array
 Factor: TypeAlias = Callable[..., Array]
 """A function of one variable and of the order of its derivative, zero by default."""
 
-Term: TypeAlias = Callable[..., Array]
-"""A function of x, y, t and the orders of its derivative by each of them."""
-
 POINTS = 4  # Gauss points per element and direction
 
 
@@ -56,28 +53,17 @@ def power(*coefficients: float) -> Factor:
     return at
 
 
-def term(
-    amplitude: float,
-    along_x: Factor,
-    along_y: Factor,
-    in_time: Factor,
-) -> Term:
-    """The product ``amplitude X(x) Y(y) T(t)``.
+@dataclasses.dataclass(frozen=True)
+class Term:
+    """The product ``amplitude X(x) Y(y) T(t)``."""
 
-    Parameters
-    ----------
-    amplitude : float
-        In the unit of the product.
-    along_x, along_y, in_time : callable
-        The factors X, Y and T.
+    amplitude: float
+    x: Factor
+    y: Factor
+    t: Factor
 
-    Returns
-    -------
-    callable
-        Its derivative of the orders `by_x`, `by_y` and `by_t` at x, y (m) and t (s).
-    """
-
-    def at(
+    def __call__(
+        self,
         x: Array,
         y: Array,
         t: ArrayLike,
@@ -85,10 +71,11 @@ def term(
         by_y: int = 0,
         by_t: int = 0,
     ) -> Array:
-        in_space = along_x(x, by_x) * along_y(y, by_y)
-        return amplitude * (in_space * in_time(np.asarray(t, float), by_t))
-
-    return at
+        """Return the derivative of the given orders at x, y (m) and t (s)."""
+        along_x = self.x(x, by_x)
+        along_y = self.y(y, by_y)
+        in_time = self.t(np.asarray(t, float), by_t)
+        return self.amplitude * (along_x * along_y * in_time)
 
 
 Terms = tuple[Term, ...]
