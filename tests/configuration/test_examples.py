@@ -51,7 +51,8 @@ def test_shortest_run_of_the_map_nucleates():
 def test_rock_nucleates_under_a_load_far_from_the_fault():
     """The lowest blocks that a top moves, on elements twice as large as the example's."""
     config = load(CONFIG / "examples" / "rock.yaml")
-    (run,) = (x for x in config.runs if "H0.25" in x.id and "loadingtop" in x.id)
+    lowest = (x for x in config.runs if "H0.25" in x.id and "loadingtop" in x.id)
+    run = next(lowest)
     parameters = dataclasses.replace(run.parameters, mesh=Mesh(120, 8, 6.0))
     length = extract(simulate(parameters), config.extraction)["length"]
     assert length == pytest.approx(0.837, rel=0.05)

@@ -92,7 +92,7 @@ def test_three_numbers_are_points_about_equality():
     )
     axes, strip = figure.axes
     assert {(1.0, 0.9), (2.0, 1.6)} < points(figure)
-    assert strip.get_xlabel() == "Theory's critical length (m)"
+    assert strip.get_xlabel() == "Theory's critical length $L_c$ (m)"
     assert axes.get_title("left") == "varied: height, elements along x, initial state"
     line = next(li for li in figure.axes[0].lines if li.get_label() == "equality")
     np.testing.assert_array_equal(line.get_xdata(), line.get_ydata())
@@ -103,7 +103,7 @@ def test_numbers_off_a_grid_and_single_runs_are_points():
         draw([1, 2], [0.9, 1.6], height=[1, 2], initial_state=[1, 2]),
         draw([1.0], [0.9]),
     ):
-        assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
+        assert figure.axes[0].get_xlabel() == "Theory's critical length $L_c$ (m)"
 
 
 def test_two_faults_never_share_a_marker():
@@ -148,3 +148,5 @@ def test_nothing_is_cut_or_overlaps(kind):
     size = len(varied["height"])
     figure = draw(np.linspace(1, 2, size), np.linspace(0.9, 1.5, size), **varied)
     drawn_layout.require_legible(figure)
+    for legend in figure.legends:  # no run is under it
+        assert legend.get_window_extent().y1 <= figure.axes[-1].get_window_extent().y0

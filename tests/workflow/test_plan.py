@@ -183,7 +183,7 @@ def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     assert not (workflow.directory / "results" / "lengths.nc").exists()
 
 
-EXAMPLES = {"crustal_fault": 2, "granite_laboratory": 4, "length_map": 100, "rock": 9}
+EXAMPLES = {"crustal_fault": 2, "granite_laboratory": 4, "length_map": 100, "rock": 27}
 
 
 @pytest.mark.parametrize(("name", "runs"), EXAMPLES.items())

@@ -1,5 +1,6 @@
 """Any study's lengths: simulations against theory over the varied parameters."""
 
+import math
 import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -23,6 +24,8 @@ _DASHES = ("-", "--", "-.", ":")  # of the theory's curves
 _FEW_ROWS = 2  # of two varied numbers on a grid, one with so few values makes curves, not a map
 _FEW = 6  # so few faults have a marker each, if no number is an axis
 _STRIP = 0.09  # height of the strip of runs without an event, which have no length
+_SHORT = 24  # characters of labels that leave room for two columns in the legend
+_LINE = 0.16  # inches, of a line in the legend
 
 
 @style.styled
@@ -76,7 +79,7 @@ def draw(
     words += _distinguishing(varied, words, numbers)
     rows = _rows(table, table["critical_length"].values, varied, words, declared)
     title = f"varied: {', '.join(map(named, declared))}" if declared else ""
-    return _draw(rows, None, "Theory's critical length (m)", title)
+    return _draw(rows, None, "Theory's critical length $L_c$ (m)", title)
 
 
 def _rows(
@@ -138,8 +141,17 @@ def _draw(
     figure.axes[-1].set_xlabel(label)
     set_scale(axes, "x", lengths if theory is None else rows["x"].values)
     set_scale(axes, "y", lengths)
-    axes.legend()
+    _add_legend(figure, axes)
     return figure
+
+
+def _add_legend(figure: Figure, axes: Axes) -> None:
+    """The legend below the axes, as runs may be anywhere within them."""
+    labels = axes.get_legend_handles_labels()[1]
+    columns = 2 if max(map(len, labels)) <= _SHORT else 1
+    rows = math.ceil(len(labels) / columns)
+    figure.set_figheight(figure.get_figheight() + rows * _LINE)
+    figure.legend(loc="outside lower center", ncols=columns, fontsize=style.SMALL)
 
 
 def _axes(figure: Figure, rows: xr.Dataset) -> tuple[Axes, Axes | None]:
