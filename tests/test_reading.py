@@ -39,7 +39,7 @@ QUOTED = ("What is stable", "time asked for after it")
 """A heading, and the outcome of a run."""
 
 TOKENS_A_LINE = 8.0
-PUBLIC_CLASSES = 145
+PUBLIC_CLASSES = 146
 SECTIONS = 0.9
 """Least part of public functions with two or more arguments that have a section of parameters."""
 
@@ -72,7 +72,7 @@ def test_pages_have_no_phrase_that_makes_readers_stop():
         for line in page.read_text(encoding="utf-8").splitlines()
         if PHRASES.search(line) and not any(words in line for words in QUOTED)
     ]
-    assert len(pages) > 15 and found == []
+    assert len(pages) > 16 and found == []
 
 
 def test_messages_have_no_phrase_that_makes_readers_stop():

@@ -160,7 +160,7 @@ def test_both_solvers_run_under_the_same_realisation(tmp_path, quiet_forces, kin
     ],
 )
 def test_what_the_other_solver_lacks_is_refused(parameters, changes, words):
-    with pytest.raises(RuntimeError, match=words):
+    with pytest.raises(freefem.FreeFemError, match=words):
         freefem.arguments(parameters.replaced(changes), CrosscheckSettings(), ExtractionSettings())
 
 
@@ -216,7 +216,7 @@ def test_runs_by_both_solvers_are_rows_and_one_that_failed_is_named():
 
 def test_without_the_other_program_it_is_said_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setattr(freefem, "installed", lambda: False)
-    with pytest.raises(RuntimeError, match=re.escape(freefem.MISSING)):
+    with pytest.raises(freefem.FreeFemError, match=re.escape(freefem.MISSING)):
         freefem.solve(Path(), tmp_path, PARAMETERS, CrosscheckSettings(), ExtractionSettings())
 
 

@@ -127,8 +127,7 @@ class Zone(NamedTuple):
         Parameters
         ----------
         waves, subtracted : Waves
-            Functions of kh that are added, and those that are subtracted: the same ones, or bounds
-            on opposite sides.
+            Functions of kh, as in :meth:`.stiffness.Layers.terms`.
 
         Returns
         -------

@@ -61,6 +61,10 @@ STEPS = {
 }
 
 
+class FreeFemError(RuntimeError):
+    """FreeFem++ is missing, has failed, or its record can't be read."""
+
+
 def installed() -> bool:
     """Return whether FreeFem++ can be called."""
     return shutil.which(PROGRAM) is not None
@@ -88,7 +92,7 @@ def arguments(
 
     Raises
     ------
-    RuntimeError
+    FreeFemError
         If the script does not support a value of a parameter.
     """
     named = parameters.named()
@@ -121,7 +125,7 @@ def arguments(
 
 
 def _require_supported(parameters: Parameters) -> None:
-    """Raise a RuntimeError if the script does not support a value of a parameter."""
+    """Raise a FreeFemError if the script does not support a value of a parameter."""
     supported: dict[str, tuple[object, ...]] = {name: (value,) for name, value in FIXED.items()}
     supported |= {"perturbation.kind": KINDS, "loading.kind": LOADINGS}
     named = parameters.named()
@@ -131,7 +135,7 @@ def _require_supported(parameters: Parameters) -> None:
     for name, values in supported.items():
         if named[name] not in values:
             choices = ", ".join(map(str, values))
-            raise RuntimeError(f"the script for FreeFem++ has {name} = {choices} only")
+            raise FreeFemError(f"the script for FreeFem++ has {name} = {choices} only")
 
 
 def _realisation(parameters: Parameters) -> str:
@@ -188,11 +192,11 @@ def solve(
 
     Raises
     ------
-    RuntimeError
+    FreeFemError
         If FreeFem++ is missing or fails.
     """
     if not installed():
-        raise RuntimeError(MISSING)
+        raise FreeFemError(MISSING)
     given = arguments(parameters, settings, extraction) | {"directory": str(directory)}
     if parameters.perturbation.kind != "none":
         (directory / REALISATION).write_text(_realisation(parameters), encoding="ascii")
@@ -210,7 +214,7 @@ def solve(
         check=False,
     )
     if done.returncode:
-        raise RuntimeError(f"FreeFem++ failed (code {done.returncode}):\n{done.stdout[-2000:]}")
+        raise FreeFemError(f"FreeFem++ failed (code {done.returncode}):\n{done.stdout[-2000:]}")
     return _read(directory, parameters)
 
 
@@ -219,7 +223,7 @@ def _read(directory: Path, parameters: Parameters) -> xr.Dataset:
 
     ``steps.txt`` has one line of :data:`STEPS` per step. ``frames.txt`` has for each frame a
     line with its time (s) and then one line for each of :data:`FIELDS` at the nodes 0..n_x.
-    A record that is missing or incomplete is a RuntimeError.
+    A record that is missing or incomplete is a FreeFemError.
     """
     nodes = parameters.mesh.n_x + 1
     try:
@@ -229,7 +233,7 @@ def _read(directory: Path, parameters: Parameters) -> xr.Dataset:
         frames = numbers.reshape(-1, 1 + len(FIELDS) * nodes)
         columns = dict(zip(STEPS, steps.T, strict=True))
     except (OSError, ValueError) as error:
-        raise RuntimeError(f"the records in {directory} can't be read: {error}") from error
+        raise FreeFemError(f"the records in {directory} can't be read: {error}") from error
     fields = frames[:, 1:].reshape(-1, len(FIELDS), nodes)
     on_frames = {name: (("time", "x"), fields[:, i]) for i, name in enumerate(FIELDS)}
     on_steps = {name: (("step",), column) for name, column in columns.items()}
@@ -286,5 +290,5 @@ def of_run(
                 crosscheck,
                 settings,
             )
-        except RuntimeError as error:
+        except FreeFemError as error:
             raise ParameterError(str(error)) from None
