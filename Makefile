@@ -33,7 +33,7 @@ STEM = $(shell $(BIN)/python -c 'import tomllib; \
 
 PYTEST = $(BIN)/python -m pytest --dist loadfile --no-loadscope-reorder
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.
-LAUNCH = $(BIN)/python -m nucleation.pipeline.launch
+LAUNCH = $(BIN)/python -m replication.pipeline.launch
 CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
@@ -83,7 +83,7 @@ docs: $(DEV_STAMP) ## Build the documentation, its tutorials executed, in docs/_
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
 calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, in one page
-	PYTHONPATH=src $(BIN)/python -m nucleation.report.calculator results/calculator.html results/reference/patch_tables.json
+	PYTHONPATH=src $(BIN)/python -m replication.report.calculator results/calculator.html results/reference/patch_tables.json
 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $$PARTS
@@ -116,19 +116,19 @@ prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
 	$(LAUNCH) prune $(OPTIONS)
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
-	@$(BIN)/python -m nucleation.pipeline.bundle write "$${FILE:-results.tar}" "$$CONFIG"
+	@$(BIN)/python -m replication.pipeline.bundle write "$${FILE:-results.tar}" "$$CONFIG"
 
 release: $(DEV_STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
 	$(LAUNCH) paper replication report $(OPTIONS)
 	@$(MAKE) --no-print-directory released
 
-RESULTS_OF = import sys; from nucleation.configuration.load import load; \
+RESULTS_OF = import sys; from replication.configuration.load import load; \
 	print(load(*filter(None, sys.argv[1:]), lazy=True).results)
 
 # Results that are there; source and wheel are those of the commit.
 released:
 	mkdir -- "$$RELEASE"
-	$(BIN)/python -m nucleation.pipeline.bundle write "$$RELEASE/$(STEM)-results.tar" "$$CONFIG"
+	$(BIN)/python -m replication.pipeline.bundle write "$$RELEASE/$(STEM)-results.tar" "$$CONFIG"
 	results=$${RESULTS:-$$($(BIN)/python -c '$(RESULTS_OF)' "$$CONFIG")} && \
 		cp -- "$$results/replication.pdf" "$$results/replication.tex" "$$results/report.html" "$$RELEASE"
 	git archive --prefix=$(STEM)/ --output="$$RELEASE/$(STEM)-source.tar.gz" HEAD
@@ -139,10 +139,10 @@ released:
 	@echo "Before uploading: see CONTRIBUTING.md, A release"
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
-	@$(BIN)/python -m nucleation.pipeline.bundle restore "$$FILE" "$$CONFIG"
+	@$(BIN)/python -m replication.pipeline.bundle restore "$$FILE" "$$CONFIG"
 
 schema: $(STAMP) ## Make config/schema.json, with which a text editor checks configurations (docs/studies.md)
-	$(BIN)/python -m nucleation.configuration.schema > config/schema.json
+	$(BIN)/python -m replication.configuration.schema > config/schema.json
 
 # For all Pythons and machines at once, with one version of a package on all of them if there is one.
 LOCK = uv pip compile --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \

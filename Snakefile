@@ -6,7 +6,7 @@
 # relative to the working directory; every file there that people open is the output of a rule.
 #
 # A rule names the function that makes its result (`call`), its parameters and its inputs. The recipe
-# of the result collects these (nucleation.pipeline.planning). It is one more input of the rule, and it
+# of the result collects these (replication.pipeline.planning). It is one more input of the rule, and it
 # is newer than the output if and only if the output shows another result.
 import atexit
 import functools
@@ -43,33 +43,33 @@ if missing:
     )
 
 # Outdated bytecode must not run, neither here nor in the jobs.
-bytecode = runpy.run_path(str(Path(SOURCE, "nucleation", "pipeline", "bytecode.py")))
-bytecode["make_checked"](Path(SOURCE, "nucleation"))
+bytecode = runpy.run_path(str(Path(SOURCE, "replication", "pipeline", "bytecode.py")))
+bytecode["make_checked"](Path(SOURCE))
 os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nucleation")))
 
-from nucleation.configuration.advice import advise, summary_of_meshes, warned
-from nucleation.configuration.contradictions import directory_problem
-from nucleation.configuration.load import completed, configure
-from nucleation.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
-from nucleation.configuration.roles import PAIRS as PAIR_ROLES
-from nucleation.configuration.runs import first_realisations, varied
-from nucleation.configuration.settings import estimated_megabytes
-from nucleation.configuration.strict_yaml import read_yaml
-from nucleation.configuration.study_names import study_parameters
-from nucleation.configuration.theory_curves import theory_curves
+from replication.configuration.advice import advise, summary_of_meshes, warned
+from replication.configuration.contradictions import directory_problem
+from replication.configuration.load import completed, configure
+from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
+from replication.configuration.roles import PAIRS as PAIR_ROLES
+from replication.configuration.runs import first_realisations, varied
+from replication.configuration.settings import estimated_megabytes
+from nucleation.strict_yaml import read_yaml
+from replication.configuration.study_names import study_parameters
+from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
-from nucleation.figures import catalogue
-from nucleation.figures.catalogue import FIGURES
+from replication.figures import catalogue
+from replication.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.job_lines import shorten
-from nucleation.pipeline.launch import options
-from nucleation.pipeline.messages import LOGGER
-from nucleation.pipeline.planning import Plan
-from nucleation.pipeline.store import others
+from replication.pipeline.job_lines import shorten
+from replication.pipeline.launch import options
+from replication.pipeline.messages import LOGGER
+from replication.pipeline.planning import Plan
+from replication.pipeline.store import others
 
 gc.freeze()  # searching all loaded objects takes a third of a second in all
 
@@ -99,7 +99,7 @@ EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Frictio
 """Code of the paper's law with either evolution, for rules that compute with both."""
 
 PYTHON = shlex.quote(sys.executable)
-JOB = f"exec {PYTHON} -m nucleation.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
+JOB = f"exec {PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
 """The command of every rule that makes a result."""
 
 

@@ -5,8 +5,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from nucleation.configuration.load import load
 from nucleation.datasets.files import replacing
+from replication.configuration.load import load
 
 from . import solver, workflow
 

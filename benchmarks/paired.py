@@ -19,8 +19,8 @@ TURNS = 4
 
 MEASURE = """
 import json, sys, time
-from nucleation.analysis.extraction import extract
-from nucleation.configuration.load import load
+from nucleation.extraction.extraction import extract
+from replication.configuration.load import load
 from nucleation.simulation.run import simulate
 
 runs = {run.id: run for run in load("config/config.yaml").runs}

@@ -9,8 +9,7 @@ import numpy as np
 import xarray as xr
 from scipy.sparse.linalg import splu
 
-from nucleation.analysis.extraction import extract
-from nucleation.configuration.load import Configuration
+from nucleation.extraction.extraction import extract
 from nucleation.fem.block import Block
 from nucleation.fem.bodies import body_of
 from nucleation.fem.grid import Grid
@@ -19,6 +18,7 @@ from nucleation.model.perturbation import KINDS
 from nucleation.model.second_body import BOTTOMS
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.simulation.stepping import BDF, rung_value
+from replication.configuration.load import Configuration
 
 from .assembled import assemble
 

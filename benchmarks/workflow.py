@@ -101,7 +101,7 @@ def snakemake(*arguments: str) -> list[str]:
     ]
 
 
-BUNDLE = ["-m", "nucleation.pipeline.bundle"]
+BUNDLE = ["-m", "replication.pipeline.bundle"]
 COMMANDS = {
     "report": snakemake("report"),
     "nothing_to_do": snakemake("report"),

@@ -96,7 +96,7 @@ def mathematics(writer, node):
 def calculator(app, error):
     """The calculator beside the pages."""
     if error is None and app.builder.name == "html":
-        from nucleation.report.calculator import build
+        from replication.report.calculator import build
 
         tables = ROOT / "results" / "reference" / "patch_tables.json"
         Path(app.outdir, "calculator.html").write_text(build(tables), encoding="utf-8")

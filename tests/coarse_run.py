@@ -2,10 +2,10 @@
 
 import pytest
 
-from nucleation.analysis import lengths
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.configuration.load import configure
+from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.simulation.run import simulate
+from replication.configuration.load import configure
+from replication.tables import lengths
 
 CONFIG = {
     "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05,

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.configuration.load import Configuration, configure, load
-from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
+from nucleation.strict_yaml import read_yaml
+from replication.configuration.load import Configuration, configure, load
 
 CONFIG = Path(__file__).parents[1] / "config"
 # without the sharing of nodes that YAML's aliases bring: a change is to be one change

@@ -6,15 +6,17 @@ import pkgutil
 
 from nucleation.datasets.variables import Variable
 
-WINGS = ("datasets", "simulation", "analysis", "patch", "theory", "verification")
+ROOMS = ("nucleation", "replication")
 
 
 def declarations():
     """Mappings of names to variables by module and name of the mapping."""
     found = {}
-    for wing in WINGS:
-        package = importlib.import_module(f"nucleation.{wing}")
+    for room in ROOMS:
+        package = importlib.import_module(room)
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if module.name.endswith("__main__"):
+                continue
             imported = importlib.import_module(module.name)
             if "Variable(" not in inspect.getsource(imported):
                 continue  # it has what others declare

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from nucleation.verification.orders import ERRORS, PROBLEMS, REFINEMENTS
+from replication.verification.orders import ERRORS, PROBLEMS, REFINEMENTS
 
 LEVELS = 2.0 ** -np.arange(4)
 

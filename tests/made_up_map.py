@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from nucleation.patch.tables.map import COLUMNS
+from replication.tables.map import COLUMNS
 
 HEIGHTS, WEAKENINGS, STRENGTHS, SEEDS = [0.01, 0.1, 1.0], [1.0, 3.0], [1e-5, 1e-3], [1, 2]
 

@@ -10,9 +10,9 @@ import pandas as pd
 import xarray as xr
 from configurations import papers
 
-from nucleation.claims import table as table_of_claims
-from nucleation.claims.evidence import Evidence
 from nucleation.theory.curves import Curves, theory_dataset
+from replication.claims import table as table_of_claims
+from replication.claims.evidence import Evidence
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"

@@ -49,6 +49,6 @@ def test_it_runs_as_nobody_of_the_host_and_starts_the_workflow():
     assert found["USER"] not in ("root", "0")
     assert {"USER=nucleation", "HOME=/tmp"} <= set(shlex.split(found["ENV"]))
     start = json.loads(found["ENTRYPOINT"])
-    assert start[:3] == ["python", "-m", "nucleation.pipeline.launch"]
+    assert start[:3] == ["python", "-m", "replication.pipeline.launch"]
     for path in (word for word in start if word.startswith("/opt/nucleation/")):
         assert (ROOT / path.removeprefix("/opt/nucleation/")).exists(), path

@@ -50,8 +50,8 @@ def make(tmp_path):
     return run
 
 
-LAUNCH = ["-m", "nucleation.pipeline.launch"]
-BUNDLE = ["-m", "nucleation.pipeline.bundle"]
+LAUNCH = ["-m", "replication.pipeline.launch"]
+BUNDLE = ["-m", "replication.pipeline.bundle"]
 
 
 @pytest.mark.parametrize("name", NAMES)

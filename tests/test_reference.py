@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 from configurations import papers
 
-from nucleation.analysis.extraction import extract
-from nucleation.analysis.lengths import over_realisations
+from nucleation.extraction.extraction import extract
 from nucleation.simulation.run import simulate
+from replication.tables.lengths import over_realisations
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"

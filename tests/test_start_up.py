@@ -16,13 +16,13 @@ HEAVY = ("xarray", "netCDF4", "matplotlib", "pint")  # a second in all, on a goo
 SCIENCE = ("scipy", "pandas", "jsonschema")
 
 CONFIGURATION = """
-from nucleation.configuration import advice, load, schema
+from replication.configuration import advice, load, schema
 settings = load.load()
 schema.build()
 advice.advise(settings.runs)
 """
 LAZY = """
-from nucleation.configuration import load
+from replication.configuration import load
 load.load(lazy=True).runs_for("paper", "converged", "long_blocks")
 """
 COMMAND = """
@@ -53,7 +53,7 @@ NEEDED_LATER = {
     "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
     "plan": (PLAN.format(root=ROOT), COMPILED),
     "reading and drawing": (
-        "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3",
+        "import replication.tables.lengths, replication.figures.paper.figure_3",
         COMPILED,
     ),
 }

@@ -47,7 +47,7 @@ class Subprocess:
 
     def Popen(self, command: Any, **options: Any) -> Any:
         words = shlex.split(command) if isinstance(command, str) else []
-        if "-m" in words and words[words.index("-m") + 1].startswith("nucleation.pipeline"):
+        if "-m" in words and words[words.index("-m") + 1].startswith("replication.pipeline"):
             return Job(self._address, words[words.index("-m") + 1 :], options.get("env"))
         return subprocess.Popen(command, **options)
 

@@ -2,7 +2,7 @@
 
 Linear stability theory (:mod:`nucleation.theory`), an inertial finite-element simulation
 (:mod:`nucleation.simulation.run`) and the extraction of the critical nucleation length
-(:mod:`nucleation.analysis.extraction`) after Aldam et al. (2017).
+(:mod:`nucleation.extraction.extraction`) after Aldam et al. (2017).
 """
 
 __version__ = "0.1.0"

@@ -2,7 +2,7 @@
 
 import sys
 
-from .configuration.installed import require_own
+from .installed import require_own
 
 
 def start() -> None:

@@ -7,7 +7,7 @@ import jinja2
 import pytest
 from reference_evidence import ROOT, evaluate, evaluated, evidence
 
-from nucleation.claims.article import digits, render, rounded
+from replication.claims.article import digits, render, rounded
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 

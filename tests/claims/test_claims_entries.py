@@ -16,13 +16,13 @@ from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from nucleation.analysis.measures import BY_DEFINITION, MEASURES
-from nucleation.claims import table
-from nucleation.claims.claim import Verdict
-from nucleation.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
-from nucleation.configuration.roles import LONGER
+from nucleation.extraction.measures import BY_DEFINITION, MEASURES
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
+from replication.claims import table
+from replication.claims.claim import Verdict
+from replication.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
+from replication.configuration.roles import LONGER
 
 RESULTS = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")

@@ -6,10 +6,10 @@ from reference_evidence import BY_ID, evidence
 from theory import layer_problem
 from two_bodies import RIGID, Body, critical_wavenumber
 
-from nucleation.claims.claim import Verdict
-from nucleation.claims.independent import marginal, printed
-from nucleation.claims.independent.elastic_layers import Layer, compliance
-from nucleation.claims.statements import finite_height
+from replication.claims.claim import Verdict
+from replication.claims.independent import marginal, printed
+from replication.claims.independent.elastic_layers import Layer, compliance
+from replication.claims.statements import finite_height
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ import math
 
 import pytest
 
-from nucleation.claims.claim import Claim, Result, Verdict, judge
-from nucleation.claims.expected import (
+from replication.claims.claim import Claim, Result, Verdict, judge
+from replication.claims.expected import (
     FORMULA_TOLERANCE,
     REASONED,
     WIDEST_ALLOWANCE,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reference_evidence import ROOT, evaluate, evidence
 
-from nucleation.claims import phrases
-from nucleation.claims.article import render
-from nucleation.claims.claim import Verdict
+from replication.claims import phrases
+from replication.claims.article import render
+from replication.claims.claim import Verdict
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 HEIGHTS = [0.005, 0.1]

@@ -7,7 +7,7 @@ import pypdf
 import pytest
 from reference_evidence import REFERENCE, ROOT
 
-from nucleation.claims import printing
+from replication.claims import printing
 
 TEXT = (REFERENCE / "article.md").read_text("utf-8")
 SMALL = """# [Re] A title

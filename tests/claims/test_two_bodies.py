@@ -7,8 +7,8 @@ import xarray as xr
 from reference_evidence import PAIRED, REFERENCE
 from reference_evidence import table as of_reference
 
-from nucleation.claims import table as table_of_claims
-from nucleation.claims.independent import printed
+from replication.claims import table as table_of_claims
+from replication.claims.independent import printed
 
 CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}

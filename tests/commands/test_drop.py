@@ -6,11 +6,11 @@ import math
 import pytest
 
 from nucleation.api import critical_length, stability_length
+from nucleation.drop import expected_drop as module
+from nucleation.drop.delay import ClosedForm, Drop
+from nucleation.drop.expected_drop import ExpectedDrop
 from nucleation.model.linearised import interface_state
 from nucleation.model.perturbation import Perturbation
-from nucleation.patch import expected_drop as module
-from nucleation.patch.delay import ClosedForm, Drop
-from nucleation.patch.expected_drop import ExpectedDrop
 from nucleation.theory.critical import run_length
 from nucleation.theory.status import NoLength
 
@@ -113,7 +113,7 @@ def test_it_answers_in_any_directory(nucleation, law, monkeypatch):
 @pytest.mark.slow
 def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_path):
     """Each draw is a fault of its own, with a block of its own length."""
-    from nucleation.patch import drop_quantiles
+    from nucleation.drop import drop_quantiles
 
     seen = []
 

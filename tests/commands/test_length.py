@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from nucleation import api
-from nucleation.answers.in_use import LENGTHS
-from nucleation.answers.length import TWO_MATERIALS
+from nucleation.lengths.in_use import LENGTHS
+from nucleation.lengths.length import TWO_MATERIALS
 from nucleation.theory import arrays
 
 WORDS = [

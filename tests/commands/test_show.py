@@ -13,9 +13,9 @@ from nucleation.datasets.variables import annotate
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
+from replication.pipeline.running import simulation_code
 
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):

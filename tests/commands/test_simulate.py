@@ -9,17 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import extract
 from nucleation.commands.simulate import command
-from nucleation.configuration.study_names import other_names, study_parameters
 from nucleation.datasets import netcdf
+from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
 from nucleation.model.units import parse
-from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 from nucleation.theory.estimates import growth_time
+from replication.configuration.study_names import other_names, study_parameters
+from replication.pipeline.running import simulation_code
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = [

@@ -7,13 +7,13 @@ import pytest
 import square_evolution
 from configurations import messages, papers, study
 
-from nucleation.configuration.advice import advise, summary_of_meshes, warned
-from nucleation.configuration.load import configure
-from nucleation.configuration.mesh_advice import element_sizes
 from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.theory.estimates import growth_time, process_zone, steepness
+from replication.configuration.advice import advise, summary_of_meshes, warned
+from replication.configuration.load import configure
+from replication.configuration.mesh_advice import element_sizes
 
 GOOD = {"height": 0.005, "n_x": 400}
 

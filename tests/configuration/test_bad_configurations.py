@@ -6,10 +6,10 @@ import os
 import pytest
 from configurations import PAPER, assert_one_problem, changed, messages, study, with_run
 
-from nucleation.configuration.contradictions import directory_problem
-from nucleation.configuration.load import configure
-from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
+from nucleation.strict_yaml import read_yaml
+from replication.configuration.contradictions import directory_problem
+from replication.configuration.load import configure
 
 RUN, LAST = "studies.s.runs[0]", "studies.paper.runs[6]"
 THOUSAND = {"start": 1, "stop": 9, "num": 1000}

@@ -7,10 +7,6 @@ import pytest
 import yaml
 from configurations import CONFIG, PAPER, papers, study
 
-from nucleation.configuration import schema
-from nucleation.configuration.load import configure, load
-from nucleation.configuration.runs import first_realisations
-from nucleation.configuration.theory_curves import theory_curves
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material
@@ -18,6 +14,10 @@ from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.theory import arrays
 from nucleation.theory.critical import modes_on_rigid_base
+from replication.configuration import schema
+from replication.configuration.load import configure, load
+from replication.configuration.runs import first_realisations
+from replication.configuration.theory_curves import theory_curves
 
 
 def test_default_configuration_is_the_papers():

@@ -3,10 +3,10 @@
 import pytest
 from configurations import CONFIG, papers
 
-from nucleation.configuration import load as module
-from nucleation.configuration.load import configure, load
-from nucleation.configuration.roles import JUDGED, LONGER, PAPERS
 from nucleation.model.quantities import ParameterError
+from replication.configuration import load as module
+from replication.configuration.load import configure, load
+from replication.configuration.roles import JUDGED, LONGER, PAPERS
 
 
 def test_the_default_configuration_is_both_files():

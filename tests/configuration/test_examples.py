@@ -6,11 +6,11 @@ import math
 import pytest
 from configurations import CONFIG
 
-from nucleation.analysis.extraction import extract
-from nucleation.configuration.advice import advise
-from nucleation.configuration.load import load
+from nucleation.extraction.extraction import extract
 from nucleation.model.parameters import Mesh
 from nucleation.simulation.run import simulate
+from replication.configuration.advice import advise
+from replication.configuration.load import load
 
 EXAMPLES = sorted((CONFIG / "examples").glob("*.yaml"))
 NAMES = [path.stem for path in EXAMPLES]

@@ -3,9 +3,9 @@
 import pytest
 from configurations import assert_one_problem, study, with_run
 
-from nucleation.configuration.load import configure
 from nucleation.model.friction.constants import constants
 from nucleation.theory.estimates import growth_time
+from replication.configuration.load import configure
 
 RUN = "studies.paper.runs[6]"
 SHORT = {"height": 0.1, "evolution": ["aging", "slip"], "n_x": 800, "initial_state": 10.0}

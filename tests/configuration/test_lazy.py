@@ -5,9 +5,9 @@ import json
 import pytest
 from configurations import PAPER, messages, papers, study
 
-from nucleation.configuration import configuration
-from nucleation.configuration.load import configure
 from nucleation.model.quantities import ParameterError
+from replication.configuration import configuration
+from replication.configuration.load import configure
 
 GOOD = {"length_over_critical": 4.0, "runs": [{"height": [0.01, 0.02]}]}
 BAD = {"runs": [{"height": 0.01, "length": 0.02}]}  # shorter than the critical length

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nucleation.configuration import schema
-from nucleation.configuration.refusals import value_problems
-from nucleation.configuration.study_names import study_parameters
+from replication.configuration import schema
+from replication.configuration.refusals import value_problems
+from replication.configuration.study_names import study_parameters
 
 SCHEMA = schema.build()
 STUDY = SCHEMA["$defs"]["study"]["properties"]["defaults"]["properties"]

@@ -5,10 +5,10 @@ import copy
 import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
-from nucleation.configuration.load import configure, load
-from nucleation.configuration.roles import PAIRS, REFINEMENTS, ROLES
-from nucleation.configuration.schema import build
-from nucleation.figures import catalogue
+from replication.configuration.load import configure, load
+from replication.configuration.roles import PAIRS, REFINEMENTS, ROLES
+from replication.configuration.schema import build
+from replication.figures import catalogue
 
 TALL = {"height": 0.1}
 DOCS = CONFIG.parent / "docs" / "studies.md"

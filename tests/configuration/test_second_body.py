@@ -3,11 +3,11 @@
 import pytest
 from configurations import changed, messages, study
 
-from nucleation.configuration.load import configure
-from nucleation.configuration.settings import estimated_megabytes
 from nucleation.model.parameters import Parameters
 from nucleation.theory.arrays import critical_length
 from nucleation.theory.estimates import growth_time, process_zone, stiffness_of
+from replication.configuration.load import configure
+from replication.configuration.settings import estimated_megabytes
 
 RUN = "studies.s.runs[0]"
 RIGID = "is not allowed with second_body.kind = rigid"

@@ -5,9 +5,9 @@ import pytest
 from configurations import messages, study
 
 from nucleation import api
-from nucleation.configuration.load import configure
-from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
+from nucleation.strict_yaml import read_yaml
+from replication.configuration.load import configure
 
 SI = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "density": 2650.0, "velocity": 1e-6,

@@ -9,9 +9,9 @@ import pytest
 import xarray as xr
 from declared import VARIABLES
 
-from nucleation.analysis import lengths
 from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import DatasetError, annotate
+from replication.tables import lengths
 
 
 def declared(*data) -> xr.Dataset:

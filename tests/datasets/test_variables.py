@@ -8,7 +8,6 @@ import pytest
 import xarray as xr
 from declared import VARIABLES, declarations
 
-from nucleation.analysis import lengths
 from nucleation.datasets.variables import (
     DatasetError,
     Variable,
@@ -17,10 +16,11 @@ from nucleation.datasets.variables import (
     table,
     to_csv,
 )
-from nucleation.pipeline import code
+from replication.pipeline import code
+from replication.tables import lengths
 
 RECORDED = "nucleation.simulation.recorded"
-CROSSCHECK = "nucleation.verification.crosscheck"
+CROSSCHECK = "replication.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
     "id",
@@ -72,7 +72,7 @@ def test_a_name_means_the_same_wherever_it_is_declared():
     ("root", "known"),
     [
         ("nucleation.simulation.run", {RECORDED}),
-        ("nucleation.patch.growth", {RECORDED, "nucleation.patch.growth"}),
+        ("nucleation.extraction.growth", {RECORDED, "nucleation.extraction.growth"}),
         (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.freefem"}),
     ],
 )

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from nucleation.answers.specimen import SPECIMEN
 from nucleation.api import critical_length, stability_length
+from nucleation.lengths.specimen import SPECIMEN
 from nucleation.model.quantities import declared
 from nucleation.model.units import parse
 from nucleation.theory.fault import QUANTITIES

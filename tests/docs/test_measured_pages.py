@@ -10,11 +10,11 @@ import xarray as xr
 from docs.prose import says, span
 from docs.samples import DOCS, ROOT
 
-from nucleation.answers.finite_patch import loaded_patch_factor
-from nucleation.answers.formulas import FINITE_PATCH
-from nucleation.answers.in_use import lengths_in_use
-from nucleation.patch.tables.pairs import over_realisations
+from nucleation.lengths.finite_patch import loaded_patch_factor
+from nucleation.lengths.formulas import FINITE_PATCH
+from nucleation.lengths.in_use import lengths_in_use
 from nucleation.theory.arrays import critical_length
+from replication.tables.pairs import over_realisations
 
 
 def reference(name):

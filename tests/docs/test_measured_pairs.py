@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from docs.prose import says, span, table
 
-from nucleation.patch.tables.pairs import over_realisations
+from replication.tables.pairs import over_realisations
 
 
 @functools.cache

@@ -10,13 +10,17 @@ import pytest
 from docs.samples import FENCE, PAGES, ROOT, samples
 
 SOURCE = ROOT / "src" / "nucleation"
+REPLICATION = ROOT / "src" / "replication"
 CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 ROOTS = ("src", "benchmarks", "workflow", "docs")
 FILES = [ROOT / "Snakefile", *sorted((ROOT / "workflow").rglob("*.smk"))]
 FILES += [path for root in ROOTS for path in sorted((ROOT / root).rglob("*.py"))]
 
 ROLE = re.compile(r"[:{](?:mod|class|exc|func|meth|attr|data|obj)[:}]`(?:[^`<]*<)?~?([\w.]+)>?`")
-DOTTED = re.compile(r"(?<![\w./-])nucleation(?!\.(?:sif|tar))(?:\.[A-Za-z_]\w*)+(?![\w*/])")
+DOTTED = re.compile(
+    r"(?<![\w./-])(?:nucleation|replication)(?!\.(?:sif|tar|pdf|tex|md))"
+    r"(?:\.[A-Za-z_]\w*)+(?![\w*/])"
+)
 FILE = re.compile(
     r"(?<![\w/.{}<>~:-])((?:[\w.-]+/)+[\w-][\w.-]*\.(?:py|smk|edp|html|js|css|md|rst|yaml|sh)"
     r"|\w+\.(?:py|smk|edp|js|css))\b(?![\w/*]|\.in\b)"
@@ -32,7 +36,9 @@ def exists(name):
     found = owner and pydoc.locate(owner)
     if not isinstance(found, type):
         return bool(owner) and (hasattr(found, last) or pydoc.locate(name) is not None)
-    own = [base for base in found.__mro__ if base.__module__.startswith("nucleation")]
+    own = [
+        base for base in found.__mro__ if base.__module__.startswith(("nucleation", "replication"))
+    ]
     return hasattr(found, last) or any(
         last in vars(base).get("__annotations__", {}) or f"self.{last}" in inspect.getsource(base)
         for base in own
@@ -74,7 +80,15 @@ def test_files_exist():
     stale = {}
     for path in (*PAGES, *FILES):
         named = {n for n in FILE.findall(text_of(path)) if not n.startswith("results/")} - known
-        roots = (ROOT, SOURCE, SOURCE.parent, ROOT / "docs", ROOT / "tests", path.parent)
+        roots = (
+            ROOT,
+            SOURCE,
+            REPLICATION,
+            SOURCE.parent,
+            ROOT / "docs",
+            ROOT / "tests",
+            path.parent,
+        )
         missing = {name for name in named if not any((root / name).exists() for root in roots)}
         if path.suffix == ".md":  # without what a page has its readers write
             missing -= {sample.file for sample in samples(path)}
@@ -83,22 +97,25 @@ def test_files_exist():
     assert stale == {}
 
 
-def test_wings_are_those_of_the_contracts():
+@pytest.mark.parametrize("package", ["nucleation", "replication"])
+def test_rooms_are_those_of_the_contracts(package):
     """From the roof to the ground, those on one floor in one line."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     (layers,) = (
         contract["layers"]
         for contract in project["tool"]["importlinter"]["contracts"]
-        if contract["type"] == "layers"
+        if contract.get("containers") == [package]
     )
-    floors = [re.findall(r"nucleation\.(\w+)", layer) for layer in layers]
-    table = CONTRIBUTING.split("| wing |")[1].split("\n\n")[0]
+    floors = [re.findall(r"\w+", layer) for layer in layers if layer != "__main__"]
+    table = CONTRIBUTING.split(f"| in `src/{package}` |")[1].split("\n\n")[0]
     rows = re.findall(r"^\| (`.*?`) \|", table, re.M)
-    assert [re.findall(r"`(\w+)", row) for row in rows] == floors[1:]  # __main__ stands on the roof
+    assert [re.findall(r"`(\w+)", row) for row in rows] == floors
     entries = {
-        p.stem for p in SOURCE.iterdir() if p.suffix == ".py" or (p / "__init__.py").exists()
+        p.stem
+        for p in (ROOT / "src" / package).iterdir()
+        if p.suffix == ".py" or (p / "__init__.py").exists()
     }
-    assert entries == {"__init__"} | {wing for floor in floors for wing in floor}
+    assert entries - {"__init__", "__main__"} == {room for floor in floors for room in floor}
 
 
 def test_every_target_is_in_the_table_of_targets():

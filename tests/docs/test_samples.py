@@ -19,7 +19,7 @@ import pytest
 from docs.samples import PAGES, ROOT, commands, printed, samples
 from snakemake.cli import parse_args
 
-from nucleation.verification.crosscheck import freefem
+from replication.verification.crosscheck import freefem
 
 SHOWN_FILES = {"my.yaml"} | {sample.file for page in PAGES for sample in samples(page)}
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]

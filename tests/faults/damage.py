@@ -27,8 +27,8 @@ from harness import (
 )
 from processes import require
 
-from nucleation.pipeline.entries import NOTE, read_note
-from nucleation.pipeline.store import Store
+from replication.pipeline.entries import NOTE, read_note
+from replication.pipeline.store import Store
 
 
 def truncate(content: bytearray, random: random.Random) -> None:

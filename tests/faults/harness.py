@@ -28,15 +28,15 @@ import yaml
 from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
 from warm_snakemake import warm
 
-from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
 from nucleation.model.friction.registry import plugins
-from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
-from nucleation.pipeline.entries import path_in, read_note
-from nucleation.pipeline.keys import key_in
-from nucleation.pipeline.recipes import Recipe
-from nucleation.pipeline.running import SIMULATE, UNFINISHED
-from nucleation.pipeline.store import Store
+from replication.configuration.load import load
+from replication.pipeline.check import LEFTOVERS, OWN, Finding
+from replication.pipeline.entries import path_in, read_note
+from replication.pipeline.keys import key_in
+from replication.pipeline.recipes import Recipe
+from replication.pipeline.running import SIMULATE, UNFINISHED
+from replication.pipeline.store import Store
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {

@@ -24,7 +24,7 @@ from harness import (
 )
 from processes import ROOT, Running, processor_time, require
 
-from nucleation.pipeline.store import Store
+from replication.pipeline.store import Store
 
 TERM, KILL, INT = signal.SIGTERM, signal.SIGKILL, signal.SIGINT
 

@@ -80,7 +80,7 @@ class Running:
         found = []
         for process in self.tree():
             with contextlib.suppress(psutil.Error):
-                if {"nucleation.pipeline.job", "simulate"} <= {*process.cmdline()}:
+                if {"replication.pipeline.job", "simulate"} <= {*process.cmdline()}:
                     found.append(process)
         return found
 

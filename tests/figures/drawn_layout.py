@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from nucleation.figures import style
+from nucleation.pictures import style
 
 
 def all_axes(figure: Figure) -> list[Axes]:

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.figures.beyond import figure_sensitivity
-from nucleation.figures.checks import (
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.model.parameters import Parameters
+from replication.figures.beyond import figure_sensitivity
+from replication.figures.checks import (
     figure_convergence,
     figure_crosscheck,
     figure_dispersion,
     figure_verification,
 )
-from nucleation.model.parameters import Parameters
-from nucleation.verification.orders import ERRORS, REFINEMENTS
+from replication.verification.orders import ERRORS, REFINEMENTS
 
 HEIGHTS = (0.005, 0.02, 0.1)
 ONSETS = (10.0, 9.5)  # s

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import style
-from nucleation.figures.paper import figure_3
+from nucleation.pictures import style
+from replication.figures.paper import figure_3
 
 
 @pytest.fixture

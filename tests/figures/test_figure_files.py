@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from nucleation.figures import style
-from nucleation.figures.paper import figure_1, figure_2, figure_3, figure_s1, figure_s2
+from nucleation.pictures import style
+from replication.figures.paper import figure_1, figure_2, figure_3, figure_s1, figure_s2
 
 pytestmark = pytest.mark.slow
 
@@ -73,8 +73,8 @@ def test_legends_cover_no_data(draw, name):
 
 def test_bytes_depend_on_no_hash_seed(tmp_path):
     code = (
-        "import sys; from nucleation.figures import style;"
-        "from nucleation.figures.paper import figure_1;"
+        "import sys; from replication.figures import style;"
+        "from replication.figures.paper import figure_1;"
         "style.save(figure_1.draw(), sys.argv[1])"
     )
     for seed in ("1", "2"):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures.beyond import figure_2_simulated, figure_pairs
-from nucleation.figures.paper import figure_2
 from nucleation.theory.closed_forms import bimaterial_length_ratio
+from replication.figures.beyond import figure_2_simulated, figure_pairs
+from replication.figures.paper import figure_2
 
 
 @pytest.fixture

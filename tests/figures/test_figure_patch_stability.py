@@ -6,9 +6,9 @@ import pytest
 import xarray as xr
 from made_up_theory import critical_length
 
-from nucleation.analysis.lengths import over_realisations
-from nucleation.figures.beyond import figure_3_extended, figure_patch_stability
 from nucleation.model.parameters import Parameters
+from replication.figures.beyond import figure_3_extended, figure_patch_stability
+from replication.tables.lengths import over_realisations
 
 HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1] * 2)
 THEORY = critical_length(HEIGHTS)

@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 from matplotlib.collections import QuadMesh
 
-from nucleation.figures.paper import figure_s2
 from nucleation.model.parameters import Parameters
+from replication.figures.paper import figure_s2
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.configuration.study_names import study_parameters
-from nucleation.figures.beyond import figure_studies
+from replication.configuration.study_names import study_parameters
+from replication.figures.beyond import figure_studies
 
 
 def table(theory, length):

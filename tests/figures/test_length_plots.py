@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import lengths
 from nucleation.model.quantities import ParameterError
+from replication.figures import lengths
 
 HEIGHT = np.geomspace(5.0, 500.0, 6)
 STRESS = np.linspace(1.0, 4.0, 5)

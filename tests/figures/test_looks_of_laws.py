@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import laws
-from nucleation.figures.beyond import figure_3_extended, figure_patch_stability
-from nucleation.figures.paper import figure_3
+from replication.figures import laws
+from replication.figures.beyond import figure_3_extended, figure_patch_stability
+from replication.figures.paper import figure_3
 
 
 def test_every_law_has_a_look_of_its_own():

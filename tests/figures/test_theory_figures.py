@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nucleation.figures.paper import figure_2, table_s1
 from nucleation.model.friction.law import Friction
+from replication.figures.paper import figure_2, table_s1
 
 
 def test_figure_2_has_a_curve_for_each_ratio(theory):

@@ -17,7 +17,7 @@ from nucleation.model.friction.registry import (
 )
 from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline import code
+from replication.pipeline import code
 
 HOME = "nucleation.model.friction"
 

@@ -8,13 +8,13 @@ import pint
 import pytest
 import xarray as xr
 
-from nucleation.configuration import schema
-from nucleation.configuration.settings import Limits
-from nucleation.configuration.study_names import study_parameters
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import magnitude, parse, registry
 from nucleation.theory.fault import QUANTITIES
+from replication.configuration import schema
+from replication.configuration.settings import Limits
+from replication.configuration.study_names import study_parameters
 
 DENSITY = declarations(Material)["density"]
 

@@ -14,12 +14,12 @@ import xarray as xr
 
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
-from nucleation.pipeline import bundle
-from nucleation.pipeline.bundle import CHECKSUMS
-from nucleation.pipeline.recipe_files import RECIPES
-from nucleation.pipeline.recipes import Recipe
-from nucleation.pipeline.store import Store
-from nucleation.pipeline.views import lay
+from replication.pipeline import bundle
+from replication.pipeline.bundle import CHECKSUMS
+from replication.pipeline.recipe_files import RECIPES
+from replication.pipeline.recipes import Recipe
+from replication.pipeline.store import Store
+from replication.pipeline.views import lay
 
 KEY, OTHER, UNSHOWN = "0" * 16, "1" * 16, "2" * 16
 

@@ -7,27 +7,32 @@ import sys
 
 import pytest
 
-from nucleation.pipeline import bytecode, code
+from replication.pipeline import bytecode, code
+
+LOW = "import numpy as np\n\nX = 1\n\n\ndef f(a):\n    return np.sin(a) + X\n"
+HIGH = "from . import low\nfrom .low import f as g\n\nY = low.X + g(2)\n"
+JOB = "from replication.pipeline import around\nfrom nucleation.wing.high import Y\nprint(Y)\n"
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """A package of its own in the place of the project's."""
-    monkeypatch.setattr(code, "_ROOT", tmp_path / "nucleation")
+    monkeypatch.setattr(code, "_ROOT", tmp_path)
     monkeypatch.setattr(code, "_PARSED", tmp_path / "digests.json")
     code.forget()
     code._parsed.cache_clear()
     files = {
-        "__init__.py": '"""Words."""\n__version__ = "1"\n',
-        "wing/__init__.py": '"""Words."""\n',
-        "wing/low.py": "import numpy as np\n\nX = 1\n\n\ndef f(a):\n    return np.sin(a) + X\n",
-        "wing/high.py": "from . import low\nfrom .low import f as g\n\nY = low.X + g(2)\n",
-        "pipeline/__init__.py": "",
-        "pipeline/around.py": "Z = 1\n",
-        "job.py": "from .pipeline import around\nfrom nucleation.wing.high import Y\nprint(Y)\n",
+        "nucleation/__init__.py": '"""Words."""\n__version__ = "1"\n',
+        "nucleation/wing/__init__.py": '"""Words."""\n',
+        "nucleation/wing/low.py": LOW,
+        "nucleation/wing/high.py": HIGH,
+        "replication/__init__.py": "",
+        "replication/pipeline/__init__.py": "",
+        "replication/pipeline/around.py": "Z = 1\n",
+        "nucleation/job.py": JOB,
     }
     for name, text in files.items():
-        path = tmp_path / "nucleation" / name
+        path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     yield tmp_path
@@ -50,7 +55,7 @@ def digest(package):
         ("nucleation/wing/high.py", "g(2)", "g(3)", True),
         ("nucleation/wing/__init__.py", '"""Words."""', "import os", True),
         ("nucleation/__init__.py", '"1"', '"2"', False),
-        ("nucleation/pipeline/around.py", "Z = 1", "Z = 2", False),
+        ("replication/pipeline/around.py", "Z = 1", "Z = 2", False),
         ("nucleation/job.py", "print(Y)", "print(-Y)", True),
     ],
 )

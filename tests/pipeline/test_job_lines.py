@@ -5,7 +5,7 @@ from enum import Enum
 
 import pytest
 
-from nucleation.pipeline.job_lines import shorten
+from replication.pipeline.job_lines import shorten
 
 
 class Kinds(Enum):

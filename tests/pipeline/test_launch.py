@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.pipeline import launch
+from replication.pipeline import launch
 
 ROOT = Path(__file__).parents[2]
 GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"

@@ -5,12 +5,12 @@ from types import SimpleNamespace
 import pytest
 from snakemake.io import IOCache
 
-from nucleation.pipeline import code
-from nucleation.pipeline.making import verify
-from nucleation.pipeline.planning import Plan
-from nucleation.pipeline.recipes import Recipe, read
+from replication.pipeline import code
+from replication.pipeline.making import verify
+from replication.pipeline.planning import Plan
+from replication.pipeline.recipes import Recipe, read
 
-CALL = "nucleation.analysis.rows:rows_of"
+CALL = "replication.tables.rows:rows_of"
 
 
 @pytest.fixture

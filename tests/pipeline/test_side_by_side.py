@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from nucleation.pipeline.side_by_side import side_by_side
+from replication.pipeline.side_by_side import side_by_side
 
 NAMES = ["first", "second", "third", "fourth"]
 

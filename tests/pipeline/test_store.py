@@ -13,10 +13,10 @@ import xarray as xr
 
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
-from nucleation.pipeline import entries
-from nucleation.pipeline import store as module
-from nucleation.pipeline.entries import NOTE, read_note
-from nucleation.pipeline.store import VARIABLE, Store, give_all, others
+from replication.pipeline import entries
+from replication.pipeline import store as module
+from replication.pipeline.entries import NOTE, read_note
+from replication.pipeline.store import VARIABLE, Store, give_all, others
 
 KEY, OTHER = "0" * 16, "1" * 16
 

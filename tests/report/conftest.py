@@ -11,10 +11,11 @@ from coarse_run import CONFIG
 from once import once
 
 from nucleation.datasets import provenance
-from nucleation.figures import catalogue, style
-from nucleation.figures.paper import figure_2
-from nucleation.report import encode, page, stability
+from nucleation.pictures import style
 from nucleation.theory.curves import Curves, theory_dataset
+from replication.figures import catalogue
+from replication.figures.paper import figure_2
+from replication.report import encode, page, stability
 
 ROOT = Path(__file__).parents[2]
 PATCH_TABLES = ROOT / "results" / "reference" / "patch_tables.json"

@@ -15,8 +15,8 @@ from nucleation.api import (
     weakening_patch_length,
 )
 from nucleation.commands import run
-from nucleation.report import calculator, patch_tables, stability, tabulated
 from nucleation.theory.fault import QUANTITIES
+from replication.report import calculator, patch_tables, stability, tabulated
 
 pytestmark = pytest.mark.system
 PATCH_TABLES = Path(__file__).parents[2] / "results" / "reference" / "patch_tables.json"

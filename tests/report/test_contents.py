@@ -14,8 +14,8 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from PIL import Image
 
-from nucleation.figures import catalogue
-from nucleation.report import encode, page, summary, tables, verdicts
+from replication.figures import catalogue
+from replication.report import encode, page, summary, tables, verdicts
 
 ROOT = encode.HERE.parents[2]
 
@@ -156,7 +156,7 @@ def test_no_text_can_end_the_script_that_holds_the_data():
 
 
 def test_catalogue_names_figures_that_exist_and_what_they_stand_on():
-    drawn = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
+    drawn = {path.stem for path in (ROOT / "src/replication/figures").rglob("figure_*.py")}
     assert set(catalogue.FIGURES) - {"animation"} == drawn - {"figure_crosscheck", "figure_studies"}
     assert "figure_3" not in catalogue.drawable(["mine"])
     assert {"figure_2", "figure_3", "animation"} <= set(catalogue.drawable(["paper"]))

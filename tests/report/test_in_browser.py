@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nucleation.api import critical_length, stability_length
-from nucleation.report import stability
+from replication.report import stability
 
 pytestmark = pytest.mark.system
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import catalogue
-from nucleation.report import page, tables
+from replication.figures import catalogue
+from replication.report import page, tables
 
 STUDIES = {"mine": "granite"}
 WARNINGS = {"mine": ["mesh too coarse (x): by far"]}

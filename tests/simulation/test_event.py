@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nucleation.analysis.definitions import find_onset
-from nucleation.analysis.record import Record
+from nucleation.extraction.definitions import find_onset
+from nucleation.extraction.record import Record
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from nucleation.simulation import remarks, start
 from nucleation.simulation.event import DropWatch, Outcome, PatchBursts

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import extract
+from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping

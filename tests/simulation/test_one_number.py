@@ -6,7 +6,7 @@ import functools
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import extract
+from nucleation.extraction.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
 from nucleation.simulation.recording import Recorder

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from nucleation.extraction.frozen import frozen_patch
 from nucleation.fem.bodies import body_of
 from nucleation.model.parameters import Parameters
-from nucleation.patch.frozen import frozen_patch
 from nucleation.simulation.run import run, simulate
 
 COARSE = Parameters().replaced(

@@ -5,13 +5,13 @@ import os
 import numpy as np
 import pytest
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.analysis.extraction import extract
-from nucleation.analysis.record import Record
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.extraction import extract
+from nucleation.extraction.growth import follow_patch
+from nucleation.extraction.record import Record
 from nucleation.model.parameters import Parameters
-from nucleation.patch.growth import follow_patch
 from nucleation.simulation.run import simulate
 
 ONE = Parameters().replaced(

@@ -5,8 +5,8 @@ import pytest
 import square_evolution
 from simulation.test_event import THICK, fastest_elsewhere
 
-from nucleation.analysis.definitions import find_onset
-from nucleation.analysis.record import Record
+from nucleation.extraction.definitions import find_onset
+from nucleation.extraction.record import Record
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation import start

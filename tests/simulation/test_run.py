@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import extract
+from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import EVOLUTIONS
 from nucleation.model.material import Material

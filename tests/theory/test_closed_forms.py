@@ -5,7 +5,7 @@ import pytest
 from layer_problem import reference_transfer
 from two_bodies import Body, critical_wavenumber
 
-from nucleation.answers.formulas import bimaterial
+from nucleation.lengths.formulas import bimaterial
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.closed_forms import (

@@ -15,13 +15,10 @@ from two_bodies import (
     transfer_functions,
 )
 
-from nucleation.answers.formulas import bimaterial
+from nucleation.lengths.formulas import bimaterial
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.theory.closed_forms import (
-    bimaterial_length_ratio,
-    thin_limit_length,
-)
+from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 from nucleation.theory.status import NoLength
 from nucleation.theory.stiffness import FAR_SIDES
 

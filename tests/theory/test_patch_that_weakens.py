@@ -10,8 +10,8 @@ import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nucleation.answers.formulas import FINITE_PATCH
 from nucleation.api import critical_length, spectrum, weakening_patch_length
+from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import patch_basis, weakening_patch
 from nucleation.theory.pair import LayerPair

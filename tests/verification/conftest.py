@@ -4,7 +4,7 @@ import pytest
 import xarray as xr
 from once import once
 
-from nucleation.verification.orders import convergence_dataset
+from replication.verification.orders import convergence_dataset
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,6 @@ from scipy.sparse import csr_array
 from two_bodies import RIGID, transfer_functions
 from two_bodies import Body as Layer
 
-from nucleation.claims.independent import printed
 from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock
@@ -22,9 +21,10 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.of_runs import far_sides, systems_of
-from nucleation.verification import dispersion, pair_modes, single_mode
-from nucleation.verification.orders import orders
-from nucleation.verification.single_mode import sliding_period, sliding_state
+from replication.claims.independent import printed
+from replication.verification import dispersion, pair_modes, single_mode
+from replication.verification.orders import orders
+from replication.verification.single_mode import sliding_period, sliding_state
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 MATERIAL = Material(poisson_ratio=0.29)

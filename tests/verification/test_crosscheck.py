@@ -14,15 +14,15 @@ import pandas as pd
 import pytest
 from configurations import papers
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.analysis.record import Record
 from nucleation.datasets.variables import DatasetError
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.record import Record
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import IN_TIME, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import simulate
-from nucleation.verification.crosscheck import compare, freefem
-from nucleation.verification.crosscheck.plan import CrosscheckSettings, runs
+from replication.verification.crosscheck import compare, freefem
+from replication.verification.crosscheck.plan import CrosscheckSettings, runs
 
 pytestmark = pytest.mark.system
 

@@ -2,14 +2,14 @@
 
 With the displacement of the interface prescribed (elastodynamics: the body, its inertia, its loads
 and the time stepping), and with friction of either law, its state variable and the computed normal
-stress solved together by the solver's own steps (nucleation.verification.orders has the fields).
+stress solved together by the solver's own steps (replication.verification.orders has the fields).
 """
 
 import numpy as np
 import pytest
 
-from nucleation.verification import orders as measured
-from nucleation.verification.orders import ERRORS, SCALE, manufactured, orders
+from replication.verification import orders as measured
+from replication.verification.orders import ERRORS, SCALE, manufactured, orders
 
 pytestmark = pytest.mark.slow
 

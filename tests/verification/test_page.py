@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nucleation.verification import orders
+from replication.verification import orders
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "verification.md").read_text(encoding="utf-8")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nucleation.verification import orders
+from replication.verification import orders
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ import yaml
 from once import once
 from warm_snakemake import warm
 
-from nucleation.verification.crosscheck import freefem
+from replication.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 

@@ -10,8 +10,8 @@ import pandas as pd
 import psutil
 import pytest
 
-from nucleation.configuration.load import configure
 from nucleation.datasets import netcdf
+from replication.configuration.load import configure
 
 SHORT = {
     "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0,
@@ -196,7 +196,7 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
         time.sleep(0.02)
         assert process.poll() is None
     for child in psutil.Process(process.pid).children(recursive=True):
-        if "nucleation.pipeline.job" in child.cmdline():
+        if "replication.pipeline.job" in child.cmdline():
             child.terminate()
     printed, _ = process.communicate(timeout=120)
     left = list((slow.directory / "results/unfinished").glob("*.checkpoint.npz"))

@@ -7,7 +7,7 @@ import tarfile
 import pytest
 import yaml
 
-from nucleation.pipeline import bundle
+from replication.pipeline import bundle
 
 RESULTS = "results/quick"
 

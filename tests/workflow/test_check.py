@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.configuration.strict_yaml import read_yaml
-from nucleation.pipeline import check
+from nucleation.strict_yaml import read_yaml
+from replication.pipeline import check
 
 RUN = "paper-slip-H0.02-phi1"
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.datasets import netcdf
+from nucleation.strict_yaml import read_yaml
 
 QUICK = read_yaml(Path(__file__).parents[2] / "config" / "quick.yaml")
 TARGET = "patch_convergence"

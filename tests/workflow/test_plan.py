@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.configuration.load import load, read_yaml
-from nucleation.verification.crosscheck import freefem
+from replication.configuration.load import load, read_yaml
+from replication.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 
@@ -217,7 +217,7 @@ def test_studies_that_all_have_their_own_table_can_be_built(workflow):
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     listed = workflow("--list-rules").stdout
     texts = dict(re.findall(r"^(\w+) \((.+)\)$", listed, re.M))
-    modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
+    modules = {path.stem for path in (ROOT / "src/replication/figures").rglob("figure_*.py")}
     assert len(modules) > 9
     assert modules == {name for name in texts if name.startswith("figure_")}
     assert {"paper", "lengths", "report", "simulate", "figure_3"} <= texts.keys()

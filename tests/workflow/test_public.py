@@ -32,7 +32,7 @@ OF_THE_PLAN = {
     "persistence",
     "iocache",
 }
-"""What :class:`nucleation.pipeline.planning.Plan` asks the workflow."""
+"""What :class:`replication.pipeline.planning.Plan` asks the workflow."""
 
 
 def imports(text: str) -> set[str]:
@@ -59,6 +59,6 @@ def test_rules_ask_the_workflow_for_what_is_listed():
 
 
 def test_the_plan_asks_the_workflow_for_what_is_listed():
-    text = (ROOT / "src/nucleation/pipeline/planning.py").read_text("utf-8")
+    text = (ROOT / "src/replication/pipeline/planning.py").read_text("utf-8")
     asked = re.findall(r"\b(?:_workflow|workflow)\.(\w+)", text)
     assert set(asked) == OF_THE_PLAN

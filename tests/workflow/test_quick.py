@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nucleation.analysis import lengths
-from nucleation.analysis.extraction import extract
-from nucleation.configuration.load import load, read_yaml
 from nucleation.datasets import netcdf
+from nucleation.extraction.extraction import extract
 from nucleation.model.parameters import Parameters
-from nucleation.pipeline.keys import key_in
+from replication.configuration.load import load, read_yaml
+from replication.pipeline.keys import key_in
+from replication.tables import lengths
 
 ROOT = Path(__file__).parents[2]
 CLAIMING = {"claims", "write_article"}
@@ -125,8 +125,8 @@ OF_LENGTHS = {"extract", "lengths", "figure_3", "figure_s2", *CLAIMING}
 EDITS = {
     "words": (WORDS, set()),
     "solver": ({"src/nucleation/fem/kernels.py": SPARE}, OF_SOLVER | OF_LENGTHS),
-    "extraction": ({"src/nucleation/analysis/lengths.py": SPARE}, OF_LENGTHS),
-    "figure": ({"src/nucleation/figures/paper/figure_2.py": SPARE}, {"figure_2"}),
+    "extraction": ({"src/replication/tables/lengths.py": SPARE}, OF_LENGTHS),
+    "figure": ({"src/replication/figures/paper/figure_2.py": SPARE}, {"figure_2"}),
 }
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from nucleation.configuration.load import load, read_yaml
 from nucleation.datasets import netcdf
-from nucleation.figures import catalogue
+from replication.configuration.load import load, read_yaml
+from replication.figures import catalogue
 
 STUDIES = ("paper", "converged")
 

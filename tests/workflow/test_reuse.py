@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.strict_yaml import read_yaml
 
 SIMULATIONS = 6  # of the quick configuration
 
@@ -68,7 +68,7 @@ def test_new_law_makes_nothing_stale(plain):
 
 def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
-    edit(plain, "src/nucleation/pipeline/job.py", "    began = time.monotonic()\n",
+    edit(plain, "src/replication/pipeline/job.py", "    began = time.monotonic()\n",
          "    began = time.monotonic()\n"
          "    _f = Path(__file__).parents[1] / 'simulation/control.py'\n"
          "    _c = _f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5')\n"

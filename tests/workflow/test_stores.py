@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from nucleation.pipeline.entries import read_note
-from nucleation.pipeline.store import Store
+from replication.pipeline.entries import read_note
+from replication.pipeline.store import Store
 
 RUN = {"height": [0.02, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
 
@@ -85,7 +85,7 @@ def test_job_goes_on_without_a_store_that_its_node_lacks(workflow, monkeypatch):
     command = [
         sys.executable,
         "-m",
-        "nucleation.pipeline.job",
+        "replication.pipeline.job",
         recipe,
         "table_s1",
         "1",

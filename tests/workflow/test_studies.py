@@ -6,9 +6,9 @@ import signal
 import pandas as pd
 import pytest
 
-from nucleation.analysis import convergence, sensitivity
-from nucleation.configuration.load import load
 from nucleation.datasets import netcdf
+from replication.configuration.load import load
+from replication.tables import convergence, sensitivity
 
 TARGETS = ("figure_convergence", "figure_sensitivity")
 

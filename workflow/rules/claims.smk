@@ -8,7 +8,7 @@ PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map
 @functools.cache
 def statements():
     """The claims, by subject."""
-    return read_yaml(Path(SOURCE, "nucleation", "claims", "claims.yaml"))
+    return read_yaml(Path(SOURCE, "replication", "claims", "claims.yaml"))
 
 
 rule claims:
@@ -24,7 +24,7 @@ rule claims:
     log:
         f"{RESULTS}/logs/tables/claims.log",
     params:
-        call="nucleation.claims.evaluation:of_paper",
+        call="replication.claims.evaluation:of_paper",
         loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
         reads=lambda wildcards: {
             "longer": simulations(longer()),
@@ -57,7 +57,7 @@ rule evaluate_pairs:
     log:
         f"{RESULTS}/logs/tables/claims_pairs.log",
     params:
-        call="nucleation.claims.evaluation:of_pairs",
+        call="replication.claims.evaluation:of_pairs",
         statements=lambda wildcards: {PAIRED: statements()[PAIRED]},
     message:
         "Claims on two bodies, by simulations"
@@ -78,7 +78,7 @@ rule write_article:
         f"{RESULTS}/logs/article.log",
     localrule: True
     params:
-        call="nucleation.claims.evaluation:write_article",
+        call="replication.claims.evaluation:write_article",
     message:
         "Article on the replication, its numbers from the results"
     shell:
@@ -100,7 +100,7 @@ rule print_article:
         f"{RESULTS}/logs/replication.log",
     localrule: True
     params:
-        call="nucleation.claims.printing:write",
+        call="replication.claims.printing:write",
         names=PRINTED,
     message:
         "Article on the replication as PDF and LaTeX"

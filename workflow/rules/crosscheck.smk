@@ -6,7 +6,7 @@ FREEFEM_SCRIPTS = sorted(map(str, Path(BASE, "workflow", "crosscheck").glob("*.e
 @functools.cache
 def crosschecks():
     """The runs of both solvers, by name."""
-    from nucleation.verification.crosscheck import plan
+    from replication.verification.crosscheck import plan
 
     return plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
 
@@ -18,7 +18,7 @@ def crosschecked(solver):
 
 def freefem_scripts(wildcards):
     """The scripts; without the program that runs them, the workflow stops before any job."""
-    from nucleation.verification.crosscheck import freefem
+    from replication.verification.crosscheck import freefem
 
     if not freefem.installed():
         raise WorkflowError(freefem.MISSING)
@@ -53,7 +53,7 @@ rule crosscheck_freefem:
     log:
         f"{RESULTS}/logs/crosscheck/freefem/{{name}}.log",
     params:
-        call="nucleation.verification.crosscheck.freefem:of_run",
+        call="replication.verification.crosscheck.freefem:of_run",
         loads=lambda wildcards: plugins(crosschecks()[wildcards.name]),
         parameters=lambda wildcards: crosschecks()[wildcards.name].to_dict(),
         crosscheck=asdict(settings.crosscheck),
@@ -75,7 +75,7 @@ rule compare_crosscheck:
     log:
         f"{RESULTS}/logs/crosscheck.log",
     params:
-        call="nucleation.verification.crosscheck.compare:compared",
+        call="replication.verification.crosscheck.compare:compared",
         ids=lambda wildcards: list(crosschecks()),
         settings=asdict(settings.extraction),
     message:
@@ -97,7 +97,7 @@ rule figure_crosscheck:
         f"{RESULTS}/logs/figures/figure_crosscheck.log",
     localrule: True
     params:
-        call="nucleation.figures.checks.figure_crosscheck:draw",
+        call="replication.figures.checks.figure_crosscheck:draw",
         settings=asdict(settings.extraction),
     message:
         "Crosscheck: patch length and driving force by both solvers"

@@ -15,7 +15,7 @@ rule figure_1:
         f"{RESULTS}/logs/figures/figure_1.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.figure_1:draw",
+        call="replication.figures.paper.figure_1:draw",
     message:
         "Figure 1: the two set-ups"
     shell:
@@ -38,7 +38,7 @@ rule figure_2:
         f"{RESULTS}/logs/figures/figure_2.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.figure_2:draw",
+        call="replication.figures.paper.figure_2:draw",
     message:
         "Figure 2: bimaterial interfaces"
     shell:
@@ -63,7 +63,7 @@ rule figure_3:
         f"{RESULTS}/logs/figures/figure_3.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.figure_3:draw_run",
+        call="replication.figures.paper.figure_3:draw_run",
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     message:
@@ -88,7 +88,7 @@ rule figure_s1:
         f"{RESULTS}/logs/figures/figure_s1.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.figure_s1:draw",
+        call="replication.figures.paper.figure_s1:draw",
     message:
         "Figure S1: steady-state friction"
     shell:
@@ -112,7 +112,7 @@ rule figure_s2:
         f"{RESULTS}/logs/figures/figure_s2.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.figure_s2:draw_run",
+        call="replication.figures.paper.figure_s2:draw_run",
         reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
         id=lambda wildcards: space_time_run().id,
     message:
@@ -138,7 +138,7 @@ rule figure_patch_stability:
         f"{RESULTS}/logs/figures/figure_patch_stability.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_patch_stability:draw",
+        call="replication.figures.beyond.figure_patch_stability:draw",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES["patch_stability"])},
     message:
         "Stability of the creeping patch"
@@ -165,7 +165,7 @@ rule figure_3_extended:
         f"{RESULTS}/logs/figures/figure_3_extended.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_3_extended:draw",
+        call="replication.figures.beyond.figure_3_extended:draw",
     message:
         "Lengths of the drop and of the patch's stability"
     shell:
@@ -188,7 +188,7 @@ rule figure_drop:
         f"{RESULTS}/logs/figures/figure_drop.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_drop:draw",
+        call="replication.figures.beyond.figure_drop:draw",
     message:
         "Where the force drops under a declared perturbation"
     shell:
@@ -211,7 +211,7 @@ rule figure_weakening:
         f"{RESULTS}/logs/figures/figure_weakening.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_weakening:draw",
+        call="replication.figures.beyond.figure_weakening:draw",
     message:
         "Where slow slip ends: lengths over the weakening"
     shell:
@@ -234,7 +234,7 @@ rule figure_weakening_patches:
         f"{RESULTS}/logs/figures/figure_weakening_patches.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_weakening_patches:draw",
+        call="replication.figures.beyond.figure_weakening_patches:draw",
     message:
         "Weakening patches among strengthening surroundings"
     shell:
@@ -257,7 +257,7 @@ rule figure_map:
         f"{RESULTS}/logs/figures/figure_map.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_map:draw",
+        call="replication.figures.beyond.figure_map:draw",
     message:
         "Lengths over height and weakening: a map"
     shell:
@@ -280,7 +280,7 @@ rule figure_patch_theory:
         f"{RESULTS}/logs/figures/figure_patch_theory.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_patch_theory:draw",
+        call="replication.figures.beyond.figure_patch_theory:draw",
     message:
         "Stability of the creeping patch by theory"
     shell:
@@ -303,7 +303,7 @@ rule figure_dispersion:
         f"{RESULTS}/logs/figures/figure_dispersion.log",
     localrule: True
     params:
-        call="nucleation.figures.checks.figure_dispersion:draw",
+        call="replication.figures.checks.figure_dispersion:draw",
     message:
         "Growth of single modes: simulation and theory"
     shell:
@@ -326,7 +326,7 @@ rule figure_verification:
         f"{RESULTS}/logs/figures/figure_verification.log",
     localrule: True
     params:
-        call="nucleation.figures.checks.figure_verification:draw",
+        call="replication.figures.checks.figure_verification:draw",
     message:
         "Orders of convergence on manufactured solutions"
     shell:
@@ -349,7 +349,7 @@ rule figure_convergence:
         f"{RESULTS}/logs/figures/figure_convergence.log",
     localrule: True
     params:
-        call="nucleation.figures.checks.figure_convergence:draw",
+        call="replication.figures.checks.figure_convergence:draw",
     message:
         "Length at the drop against mesh and steps"
     shell:
@@ -372,7 +372,7 @@ rule figure_sensitivity:
         f"{RESULTS}/logs/figures/figure_sensitivity.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_sensitivity:draw",
+        call="replication.figures.beyond.figure_sensitivity:draw",
     message:
         "Sensitivity to parameters and definitions"
     shell:
@@ -403,7 +403,7 @@ rule figure_pairs:
         f"{RESULTS}/logs/figures/figure_pairs.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_pairs:draw",
+        call="replication.figures.beyond.figure_pairs:draw",
         theory=lambda wildcards: theory_of_identical_blocks(),
     message:
         "Two deformable bodies"
@@ -428,7 +428,7 @@ rule figure_2_simulated:
         f"{RESULTS}/logs/figures/figure_2_simulated.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_2_simulated:draw",
+        call="replication.figures.beyond.figure_2_simulated:draw",
     message:
         "Figure 2 with simulations, in both senses of the contrast"
     shell:
@@ -451,7 +451,7 @@ rule figure_literature:
         f"{RESULTS}/logs/figures/figure_literature.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_literature:draw",
+        call="replication.figures.beyond.figure_literature:draw",
     message:
         "Lengths of the literature, simulated in their own settings"
     shell:
@@ -483,7 +483,7 @@ rule draw_study:
         f"{RESULTS}/logs/figures/study_{{study}}.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.figure_studies:draw",
+        call="replication.figures.beyond.figure_studies:draw",
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),
@@ -504,7 +504,7 @@ rule film:
     log:
         f"{RESULTS}/logs/film.log",
     params:
-        call="nucleation.analysis.film:of_run",
+        call="replication.figures.film:of_run",
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     message:
@@ -529,7 +529,7 @@ rule animation:
         f"{RESULTS}/logs/figures/animation.log",
     localrule: True
     params:
-        call="nucleation.figures.beyond.animation:of_run",
+        call="replication.figures.beyond.animation:of_run",
         id=lambda wildcards: inset_run().id,
     message:
         "Creep, nucleation and rupture"

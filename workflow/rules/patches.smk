@@ -30,7 +30,7 @@ rule patch:
         f"{RESULTS}/logs/patches/{{name}}.log",
     localrule: True
     params:
-        call="nucleation.patch.growth:follow_patch",
+        call="nucleation.extraction.growth:follow_patch",
         loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
         reads=lambda wildcards: {"simulation": simulations([run_of(wildcards.name)])[0]},
         settings=asdict(settings.extraction),
@@ -54,7 +54,7 @@ rule gather_patches:
         f"{RESULTS}/logs/{{table}}.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.stability:gather_stability",
+        call="replication.tables.stability:gather_stability",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES[wildcards.table])},
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.table])),
     message:

@@ -70,7 +70,7 @@ rule patch_tables:
     log:
         f"{RESULTS}/logs/patch_tables.log",
     params:
-        call="nucleation.report.patch_tables:files",
+        call="replication.report.patch_tables:files",
     message:
         "Tables of L_run and W_c"
     shell:
@@ -91,7 +91,7 @@ rule report:
         page_files=sorted(
             str(path)
             for kind in ("html", "css", "js")
-            for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
+            for path in Path(SOURCE, "replication", "report").glob(f"*.{kind}")
         ),
         recipe=recipe("report"),
     output:
@@ -100,7 +100,7 @@ rule report:
         f"{RESULTS}/logs/report.log",
     localrule: True
     params:
-        call="nucleation.report.page:write",
+        call="replication.report.page:write",
         loads=plugins(settings.base),
         names=list(ENTRIES),
         dataset_names=catalogue.datasets_of(ENTRIES.values()),

@@ -48,7 +48,7 @@ rule simulate_and_measure:
         ),
         runtime=ceil(settings.limits.runtime),
     params:
-        call="nucleation.patch.tables.runs:measured_runs",
+        call="replication.tables.runs:measured_runs",
         loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
         makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
@@ -93,7 +93,7 @@ rule extract:
     priority: 1
     localrule: True
     params:
-        call="nucleation.analysis.lengths:lengths_table",
+        call="replication.tables.lengths:lengths_table",
         reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
         runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
         settings=asdict(settings.extraction),
@@ -114,7 +114,7 @@ rule join_batches:
         f"{RESULTS}/logs/lengths/{{study}}.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.runs:study_table",
+        call="replication.tables.runs:study_table",
         ids=lambda wildcards: [run.id for run in runs_of(wildcards.study)],
     message:
         "Critical lengths of the study {wildcards.study}"
@@ -133,7 +133,7 @@ rule lengths:
         f"{RESULTS}/logs/lengths.log",
     localrule: True
     params:
-        call="nucleation.analysis.lengths:of_studies",
+        call="replication.tables.lengths:of_studies",
     message:
         "Critical lengths of the studies that share lengths.csv"
     shell:

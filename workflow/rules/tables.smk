@@ -11,7 +11,7 @@ rule gather_drop:
         f"{RESULTS}/logs/drop.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.drops:drop_files",
+        call="replication.tables.drops:drop_files",
         loads=lambda wildcards: laws_of(runs_for("drop")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("drop"))),
     message:
@@ -30,7 +30,7 @@ rule gather_weakening:
     log:
         f"{RESULTS}/logs/weakening.log",
     params:
-        call="nucleation.patch.tables.weakening:weakening_files",
+        call="replication.tables.weakening:weakening_files",
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
     message:
@@ -49,7 +49,7 @@ rule other_faults:
     log:
         f"{RESULTS}/logs/other_faults.log",
     params:
-        call="nucleation.patch.tables.other_faults:gather_other_faults",
+        call="replication.tables.other_faults:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
         runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
     message:
@@ -72,7 +72,7 @@ rule floors:
         f"{RESULTS}/logs/floors.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.drops:noise_floors",
+        call="replication.tables.drops:noise_floors",
         loads=lambda wildcards: laws_of(runs_for("convergence_quiet")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
     message:
@@ -92,7 +92,7 @@ rule gather_map:
         f"{RESULTS}/logs/map.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.map:map_files",
+        call="replication.tables.map:map_files",
     message:
         "The map of lengths over height and weakening"
     shell:
@@ -117,7 +117,7 @@ rule gather_patch_theory:
     log:
         f"{RESULTS}/logs/patch_theory.log",
     params:
-        call="nucleation.patch.tables.theory:theory_files",
+        call="replication.tables.theory:theory_files",
         loads=lambda wildcards: laws_of(compared_with_theory()),
         runs=lambda wildcards: as_dicts(compared_with_theory()),
     message:
@@ -141,7 +141,7 @@ rule gather_pairs:
         f"{RESULTS}/logs/pairs.log",
     localrule: True
     params:
-        call="nucleation.patch.tables.pairs:gather_pairs",
+        call="replication.tables.pairs:gather_pairs",
         reads=lambda wildcards: {
             "simulations": simulations(runs_in(*PAIR_STUDIES)),
             "patches": patches(*PAIR_STUDIES),
@@ -164,7 +164,7 @@ rule convergence:
     log:
         f"{RESULTS}/logs/convergence.log",
     params:
-        call="nucleation.analysis.convergence:refinement_table",
+        call="replication.tables.convergence:refinement_table",
     message:
         "Critical lengths against mesh and steps"
     shell:
@@ -181,7 +181,7 @@ rule sensitivity:
     log:
         f"{RESULTS}/logs/sensitivity.log",
     params:
-        call="nucleation.analysis.sensitivity:sensitivity_table",
+        call="replication.tables.sensitivity:sensitivity_table",
         reads=lambda wildcards: {"simulations": simulations(runs_for("sensitivity"))},
         runs=lambda wildcards: as_dicts(runs_for("sensitivity")),
         settings=asdict(settings.extraction),
@@ -201,7 +201,7 @@ rule gather_literature:
     log:
         f"{RESULTS}/logs/literature.log",
     params:
-        call="nucleation.analysis.literature:literature_table",
+        call="replication.tables.literature:literature_table",
         reads=lambda wildcards: {"simulations": simulations(runs_for("literature"))},
         runs=lambda wildcards: as_dicts(runs_for("literature")),
     message:
@@ -222,7 +222,7 @@ rule gather_weakening_patches:
     log:
         f"{RESULTS}/logs/weakening_patches.log",
     params:
-        call="nucleation.analysis.weakening_patches:weakening_patches_table",
+        call="replication.tables.weakening_patches:weakening_patches_table",
         loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
         reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
         runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),

@@ -74,7 +74,7 @@ rule check:
     message:
         "Check of the results"
     shell:
-        f"{PYTHON} -m nucleation.pipeline.check check {{params.results:q}} {{params.expected:q}}"
+        f"{PYTHON} -m replication.pipeline.check check {{params.results:q}} {{params.expected:q}}"
         " | tee {log:q}"
 
 
@@ -89,5 +89,5 @@ rule prune:
     message:
         "Results that are not in use"
     shell:
-        f"{PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"
+        f"{PYTHON} -m replication.pipeline.check prune {{params.results:q}} {{params.expected:q}}"
         " | tee {log:q}"

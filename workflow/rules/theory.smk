@@ -32,7 +32,7 @@ rule dispersion:
         f"{RESULTS}/logs/dispersion.log",
     priority: 3  # the verdicts wait for it
     params:
-        call="nucleation.verification.dispersion:files",
+        call="replication.verification.dispersion:files",
         loads=plugins(settings.base),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
@@ -53,7 +53,7 @@ rule pair_modes:
     log:
         f"{RESULTS}/logs/pair_modes.log",
     params:
-        call="nucleation.verification.pair_modes:files",
+        call="replication.verification.pair_modes:files",
         loads=plugins(settings.base),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
@@ -74,7 +74,7 @@ rule verification:
     log:
         f"{RESULTS}/logs/verification.log",
     params:
-        call="nucleation.verification.orders:files",
+        call="replication.verification.orders:files",
         loads=EVOLUTIONS,
     message:
         "Convergence: errors of manufactured solutions against element size and time step"
@@ -92,7 +92,7 @@ rule table_s1:
         f"{RESULTS}/logs/tables/table_s1.log",
     localrule: True
     params:
-        call="nucleation.figures.paper.table_s1:files",
+        call="replication.figures.paper.table_s1:files",
         loads=plugins(settings.base),
         friction=asdict(settings.base.friction),
     message:

@@ -29,8 +29,8 @@ import importlib
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ..answers.in_use import lengths_in_use
-from ..configuration.installed import MissingExtra, require, require_own
+from ..installed import MissingExtra, require, require_own
+from ..lengths.in_use import lengths_in_use
 from ..model.friction.law import Friction
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
@@ -39,28 +39,24 @@ from ..model.perturbation import Perturbation
 from ..model.quantities import ParameterError
 from ..model.recording import Recording
 from ..model.second_body import SecondBody
-from ..theory.arrays import (
-    critical_length,
-    critical_mode,
-    spectrum,
-    transfer_functions,
-)
+from ..theory.arrays import critical_length, critical_mode, spectrum, transfer_functions
 from ..theory.critical import CriticalMode
 from ..theory.status import NoLength
 from .fault import Fault
 
 if TYPE_CHECKING:
-    from ..analysis.definitions import ExtractionSettings
-    from ..analysis.extraction import extract
-    from ..answers.specimen import specimen_fit
-    from ..answers.specimen_quantiles import specimen_quantiles
-    from ..answers.status import length_statuses
-    from ..answers.uncertainty import length_quantiles
-    from ..configuration.samples import read_samples
+    from replication.configuration.samples import read_samples
+
     from ..datasets.netcdf import read, write
-    from ..figures.overview import film, plot_length, plot_run, plot_spectrum
-    from ..patch.drop_quantiles import drop_quantiles
-    from ..patch.expected_drop import expected_drop
+    from ..drop.drop_quantiles import drop_quantiles
+    from ..drop.expected_drop import expected_drop
+    from ..extraction.definitions import ExtractionSettings
+    from ..extraction.extraction import extract
+    from ..lengths.specimen import specimen_fit
+    from ..lengths.specimen_quantiles import specimen_quantiles
+    from ..lengths.status import length_statuses
+    from ..lengths.uncertainty import length_quantiles
+    from ..pictures.overview import film, plot_length, plot_run, plot_spectrum
     from ..simulation.progress import simulate
     from ..simulation.run import run
     from ..theory.creep.lengths import stability_length
@@ -114,22 +110,22 @@ __all__ = [
 require_own()
 
 _LATER = {
-    "nucleation.analysis.definitions": ("ExtractionSettings",),
-    "nucleation.analysis.extraction": ("extract",),
+    "nucleation.extraction.definitions": ("ExtractionSettings",),
+    "nucleation.extraction.extraction": ("extract",),
     "nucleation.simulation.progress": ("simulate",),
-    "nucleation.configuration.samples": ("read_samples",),
+    "replication.configuration.samples": ("read_samples",),
     "nucleation.datasets.netcdf": ("read", "write"),
-    "nucleation.figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
-    "nucleation.patch.drop_quantiles": ("drop_quantiles",),
-    "nucleation.patch.expected_drop": ("expected_drop",),
+    "nucleation.pictures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
+    "nucleation.drop.drop_quantiles": ("drop_quantiles",),
+    "nucleation.drop.expected_drop": ("expected_drop",),
     "nucleation.simulation.run": ("run",),
     "nucleation.theory.creep.lengths": ("stability_length",),
     "nucleation.theory.creep.runaway": ("runaway_length",),
     "nucleation.theory.weakening_patch": ("weakening_patch_length",),
-    "nucleation.answers.specimen": ("specimen_fit",),
-    "nucleation.answers.specimen_quantiles": ("specimen_quantiles",),
-    "nucleation.answers.status": ("length_statuses",),
-    "nucleation.answers.uncertainty": ("length_quantiles",),
+    "nucleation.lengths.specimen": ("specimen_fit",),
+    "nucleation.lengths.specimen_quantiles": ("specimen_quantiles",),
+    "nucleation.lengths.status": ("length_statuses",),
+    "nucleation.lengths.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 

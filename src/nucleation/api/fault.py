@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ..answers.in_use import lengths_in_use
+from ..lengths.in_use import lengths_in_use
 from ..model.friction.law import Friction
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
@@ -24,8 +24,8 @@ from ..theory.values import OF_THEORY, ZONE, Values
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ..answers.specimen import Fit
-    from ..patch.expected_drop import ExpectedDrop
+    from ..drop.expected_drop import ExpectedDrop
+    from ..lengths.specimen import Fit
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -78,8 +78,8 @@ class Fault(FaultParameters):
         ParameterError
             If a name or a value is wrong, or a parameter is missing.
         """
-        from ..configuration.given_fault import fault_from
-        from ..configuration.parameter_files import read_parameters
+        from replication.configuration.given_fault import fault_from
+        from replication.configuration.parameter_files import read_parameters
 
         given = {"second_body": "deformable"} | read_parameters(Path(path))
         of_theory = {name: given.pop(name) for name in OF_THEORY if name in given}
@@ -139,7 +139,7 @@ class Fault(FaultParameters):
 
     def length_statuses(self, **options: Any) -> xr.Dataset:
         """All lengths with reasons, :func:`nucleation.api.length_statuses`."""
-        from ..answers.status import length_statuses
+        from ..lengths.status import length_statuses
 
         return length_statuses(**options, **self)
 
@@ -159,7 +159,7 @@ class Fault(FaultParameters):
         -------
         Fit
         """
-        from ..answers.specimen import specimen_fit
+        from ..lengths.specimen import specimen_fit
 
         others = {name: value for name, value in dict(self).items() if name != unknown}
         return specimen_fit(unknown, length, criterion, **others)
@@ -183,8 +183,8 @@ class Fault(FaultParameters):
         ParameterError
             If the fault is an array, lacks V or f, or can't be simulated.
         """
-        from ..configuration.half_spaces import without_half_spaces
-        from ..configuration.single_run import merged, single_run
+        from replication.configuration.half_spaces import without_half_spaces
+        from replication.configuration.single_run import merged, single_run
 
         given = self._by_study_names() | changes
         fixed, _ = without_half_spaces(None, given | follows_from(given))
@@ -203,7 +203,7 @@ class Fault(FaultParameters):
         -------
         ExpectedDrop
         """
-        from ..patch.expected_drop import expected_drop
+        from ..drop.expected_drop import expected_drop
 
         usual = {"perturbation": "normal_load", "strength": 1e-4}
         return expected_drop(self.parameters(**usual | perturbation))

@@ -15,7 +15,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..configuration.installed import MissingExtra
+from ..installed import MissingExtra
 
 DONE = 0
 FAILED = 1
@@ -139,6 +139,6 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _print_error(*lines: str) -> None:
-    from .text import wrapped  # imported here, so that the help is quick
+    from .text import wrapped
 
     click.echo("\n".join(wrapped(*lines, err=True)), err=True)

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.draws import Draws, draw
-from ..configuration.given_fault import IN_STUDIES
-from ..configuration.half_spaces import Blocks, without_half_spaces
-from ..configuration.runs import Run
-from ..configuration.samples import read_samples
-from ..configuration.single_run import merged, merged_parameters, single_run
-from ..configuration.study_names import study_parameters
+from replication.configuration.given_fault import IN_STUDIES
+from replication.configuration.half_spaces import Blocks, without_half_spaces
+from replication.configuration.runs import Run
+from replication.configuration.samples import read_samples
+from replication.configuration.single_run import merged, merged_parameters, single_run
+from replication.configuration.study_names import study_parameters
+
+from ..lengths.draws import Draws, draw
 from ..model.friction.constants import CONSTANTS
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters, names

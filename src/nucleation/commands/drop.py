@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..configuration.advice import changing_friction
-from ..configuration.single_run import merged_parameters
+from replication.configuration.advice import changing_friction
+from replication.configuration.single_run import merged_parameters
+
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
@@ -28,7 +29,7 @@ from .uncertain_drop import print_drop_quantiles
 from .unit_text import in_unit
 
 if TYPE_CHECKING:
-    from ..patch.expected_drop import ExpectedDrop
+    from ..drop.expected_drop import ExpectedDrop
 
 _COMPARED = (
     "Against simulations of the paper's fault at strengths up to 1e-4 the median has an error of "
@@ -89,7 +90,7 @@ def command(
         run = run_of(values)
         critical = run.critical_length
         # imported here, since the solver takes seconds
-        from ..patch.expected_drop import expected_drop
+        from ..drop.expected_drop import expected_drop
 
         try:
             found = expected_drop(run.parameters)

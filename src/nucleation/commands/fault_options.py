@@ -5,9 +5,10 @@ from typing import Any
 
 import click
 
-from ..answers.draws import parse_range
-from ..configuration.given_fault import IN_STUDIES, fault_from, sets_law
-from ..configuration.single_run import merged_parameters
+from replication.configuration.given_fault import IN_STUDIES, fault_from, sets_law
+from replication.configuration.single_run import merged_parameters
+
+from ..lengths.draws import parse_range
 from ..model.parameters import names
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, required

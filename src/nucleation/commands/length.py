@@ -7,11 +7,11 @@ from typing import Any
 
 import click
 
-from ..answers import formulas
-from ..answers.draws import parse_range
-from ..answers.in_use import LENGTHS, WEAKENING_RATE
-from ..answers.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
-from ..answers.status import Answers, answers_of
+from ..lengths import formulas
+from ..lengths.draws import parse_range
+from ..lengths.in_use import LENGTHS, WEAKENING_RATE
+from ..lengths.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
+from ..lengths.status import Answers, answers_of
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
 from ..theory.arrays import critical_mode
@@ -33,11 +33,7 @@ from .system_text import (
     systems_of_lengths,
 )
 from .text import Row, as_plain, show, table, wrapped
-from .uncertainty import (
-    print_quantiles,
-    ranges_among,
-    take_uncertain,
-)
+from .uncertainty import print_quantiles, ranges_among, take_uncertain
 from .unit_text import in_unit
 from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
 

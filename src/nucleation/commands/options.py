@@ -9,10 +9,11 @@ from typing import Any, TypeVar
 import click
 from click.shell_completion import CompletionItem
 
-from ..answers.draws import DRAWS, parse_range
-from ..configuration.parameter_files import means_half_space
-from ..configuration.single_run import flat
-from ..configuration.study_names import study_parameters
+from replication.configuration.parameter_files import means_half_space
+from replication.configuration.single_run import flat
+from replication.configuration.study_names import study_parameters
+
+from ..lengths.draws import DRAWS, parse_range
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names

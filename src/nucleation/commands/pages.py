@@ -9,7 +9,7 @@ import re
 from functools import cache
 from pathlib import Path
 
-from ..configuration.installed import DISTRIBUTION
+from ..installed import DISTRIBUTION
 
 _CITED = re.compile(r"\bdocs/(\w+\.md)\b")
 _CHECKOUT = Path(__file__).parents[3] / "docs"

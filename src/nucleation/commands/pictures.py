@@ -47,7 +47,7 @@ def save(figure: Figure, path: Path) -> None:
     import matplotlib as mpl
 
     from ..datasets.files import replacing
-    from ..figures import style
+    from ..pictures import style
 
     with mpl.rc_context(style.STYLE), replacing(path) as temporary:
         figure.savefig(temporary, format=path.suffix[1:])

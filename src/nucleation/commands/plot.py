@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
-from ..answers.draws import Draws, with_default_unit
-from ..answers.specimen import SPECIMEN
-from ..configuration.installed import require
-from ..configuration.parameter_files import name_in_studies
-from ..configuration.study_names import study_parameters
+from replication.configuration.parameter_files import name_in_studies
+from replication.configuration.study_names import study_parameters
+from replication.figures.lengths_over import lengths_over
+
+from ..drop.drop_quantiles import TITLES
+from ..installed import require
+from ..lengths.draws import Draws, with_default_unit
+from ..lengths.specimen import SPECIMEN
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity, declared
 from ..model.units import NUMBER, parse
-from ..patch.drop_quantiles import TITLES
-from ..patch.lengths_over import lengths_over
 from ..types import Array
 from . import DONE, EXIT_CODES, STABLE
 from .cases import (
@@ -32,12 +33,7 @@ from .cases import (
     system_of_case,
     uncertain_of,
 )
-from .options import (
-    draws_option,
-    force_option,
-    option,
-    samples_option,
-)
+from .options import draws_option, force_option, option, samples_option
 from .pictures import require_picture, save
 from .progress import progress_of
 from .sources import keys_of_command, sourced
@@ -150,7 +146,7 @@ def command(
     if not np.isfinite(found["length"]).any():
         click.echo("\n".join(_missing(found, refusals)), err=True)
         return STABLE
-    from ..figures.lengths import draw  # imported here, since Matplotlib takes a while
+    from replication.figures.lengths import draw
 
     save(draw(found, specimen, _band(drawn, lengths)), output)
     if not as_json:

@@ -13,11 +13,12 @@ import click
 import numpy as np
 import xarray as xr
 
-from ..analysis.extraction import extract
-from ..analysis.record import parameters_of
-from ..analysis.rows import rows_of
-from ..configuration.installed import require
+from replication.tables.rows import rows_of
+
 from ..datasets import netcdf
+from ..extraction.extraction import extract
+from ..extraction.record import parameters_of
+from ..installed import require
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..theory.critical import run_length
@@ -99,12 +100,12 @@ def _check_plot(plot: Path, kind: _Kind, force: bool) -> None:
 def _save(dataset: xr.Dataset, kind: _Kind, plot: Path) -> None:
     """Write the figure in the style of the project, or a film, in the format of the name."""
     if plot.suffix == ".gif":
-        from ..figures import overview  # imported here, since Matplotlib takes a while
+        from ..pictures import overview
 
         overview.film(dataset, plot)
         return
     module, _, function = kind.figure.rpartition(".")
-    figures = importlib.import_module(f"nucleation.figures.{module}")
+    figures = importlib.import_module(f"replication.figures.{module}")
     save(getattr(figures, function)(dataset), plot)
 
 
@@ -119,7 +120,7 @@ def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == _SIMULATION:
-            from ..pipeline.running import simulation_code  # imported here: the solver is an extra
+            from replication.pipeline.running import simulation_code
 
             differs = digest != simulation_code(parameters_of(dataset))
             verdict = f", {'NOT ' if differs else ''}that of this installation"

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..configuration.advice import advise
-from ..configuration.half_spaces import without_half_spaces
-from ..configuration.installed import require
-from ..configuration.runs import Run
-from ..configuration.settings import Limits, StudySettings, estimated_megabytes
-from ..configuration.single_run import STUDY, flat, merged, single_run
-from ..configuration.study_names import study_parameters
+from replication.configuration.advice import advise
+from replication.configuration.half_spaces import without_half_spaces
+from replication.configuration.runs import Run
+from replication.configuration.settings import Limits, StudySettings, estimated_megabytes
+from replication.configuration.single_run import STUDY, flat, merged, single_run
+from replication.configuration.study_names import study_parameters
+
+from ..installed import require
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
@@ -25,15 +26,7 @@ from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
 from .options import force_option, option, parameter_options, source_options
 from .sources import given_of, sourced
 from .system_text import system_of_run
-from .text import (
-    event_lines,
-    outcome,
-    parameter_lines,
-    require_writable,
-    show,
-    warn,
-    wrapped,
-)
+from .text import event_lines, outcome, parameter_lines, require_writable, show, warn, wrapped
 from .unit_text import in_unit
 
 if TYPE_CHECKING:
@@ -155,9 +148,10 @@ def _described(run: Run) -> dict[str, Any]:
 
 def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
-    from ..analysis.extraction import extract
+    from replication.pipeline.running import checkpoint_of, run_to_file, simulation_code
+
     from ..datasets import netcdf, provenance
-    from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
+    from ..extraction.extraction import extract
     from ..simulation.checkpoints import Stopped
     from ..simulation.progress import Progress
     from ..simulation.run import simulate

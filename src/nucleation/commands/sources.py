@@ -6,11 +6,12 @@ from typing import Any
 
 import click
 
-from ..answers.draws import Range
-from ..configuration.installed import require
-from ..configuration.load import load
-from ..configuration.parameter_files import read_parameters, with_second_body
-from ..configuration.study_names import other_names, study_parameters
+from replication.configuration.load import load
+from replication.configuration.parameter_files import read_parameters, with_second_body
+from replication.configuration.study_names import other_names, study_parameters
+
+from ..installed import require
+from ..lengths.draws import Range
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
@@ -95,8 +96,8 @@ def _of_run(config: str | None, run_id: str) -> Parameters:
 def _of_dataset(path: Path) -> Parameters:
     require("solver")
     # imported here, since the libraries take a second
-    from ..analysis.record import parameters_of
     from ..datasets import netcdf
+    from ..extraction.record import parameters_of
 
     dataset = netcdf.read(path, requires=["slip_rate", "driving_force"])
     return parameters_of(dataset)

@@ -6,17 +6,9 @@ from typing import Any
 
 import click
 
-from ..answers.specimen import (
-    CRITERIA,
-    NAMES,
-    SPECIMEN,
-    UNKNOWNS,
-    Fit,
-    Interval,
-    specimen_fit,
-)
-from ..answers.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
-from ..answers.status import Answers, answers_of_theory
+from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, Interval, specimen_fit
+from ..lengths.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
+from ..lengths.status import Answers, answers_of_theory
 from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
@@ -25,12 +17,7 @@ from .options import draws_option, json_option, option, samples_option
 from .progress import progress_of
 from .system_text import plane_in_words, printed_warnings, system_of_fault
 from .text import as_plain, show, wrapped
-from .uncertainty import (
-    as_sure,
-    ranges_among,
-    take_uncertain,
-    varying,
-)
+from .uncertainty import as_sure, ranges_among, take_uncertain, varying
 from .unit_text import engineering_unit, in_unit
 
 

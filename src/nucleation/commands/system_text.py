@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from ..answers.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS, number
+from ..lengths.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS, number
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..answers.status import Answers
+from ..lengths.status import Answers
 from ..model.parameters import GROUPS, Parameters
 from ..model.quantities import ParameterError, declarations
 from .pages import with_addresses
@@ -173,7 +173,7 @@ def event_lines(
     Parameters
     ----------
     found : dict
-        The event of a run, from :func:`nucleation.analysis.extraction.extract`.
+        The event of a run, from :func:`nucleation.extraction.extraction.extract`.
     critical_length : float
         L_c of the theory (m); NaN if homogeneous sliding is stable.
 
@@ -201,7 +201,7 @@ def _with_spread(
 
 def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
     """The status and the event of a simulation, for JSON, in SI units."""
-    from ..analysis.extraction import extract  # imported here, since the libraries take a second
+    from ..extraction.extraction import extract
 
     return {
         "status": dataset.attrs["status"],

@@ -46,7 +46,7 @@ def print_drop_quantiles(
     int
         The exit code.
     """
-    from ..patch.drop_quantiles import drop_quantiles  # imported here, since SciPy takes a while
+    from ..drop.drop_quantiles import drop_quantiles
 
     fixed = {name: value for name, value in given.items() if name not in uncertain}
     drawn = drawn_from(uncertain, draws)

@@ -9,22 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..answers.draws import Range
-from ..answers.in_use import LENGTHS
-from ..answers.length import THIS_FAULT, TWO_MATERIALS
-from ..answers.uncertainty import QUANTILES, length_quantiles
-from ..configuration.samples import read_samples
+from replication.configuration.samples import read_samples
+
+from ..lengths.draws import Range
+from ..lengths.in_use import LENGTHS
+from ..lengths.length import THIS_FAULT, TWO_MATERIALS
+from ..lengths.uncertainty import QUANTILES, length_quantiles
 from ..model.quantities import ParameterError
 from ..theory.fault import FaultParameters
 from ..types import Array
 from . import DONE, STABLE
 from .progress import progress_of
-from .system_text import (
-    parameters_of,
-    printed_warnings,
-    system_of_fault,
-    systems_of_lengths,
-)
+from .system_text import parameters_of, printed_warnings, system_of_fault, systems_of_lengths
 from .text import Row, show, table, wrapped
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ import dataclasses
 import math
 from typing import Any
 
-from ..answers.weakening_patch import patch_answer
+from ..lengths.weakening_patch import patch_answer
 from ..model.heterogeneity import Heterogeneity
 from ..model.quantities import ParameterError, declarations
 from ..theory.fault import QUANTITIES, FaultParameters
@@ -50,7 +50,7 @@ def patch_of(fault: FaultParameters, options: dict[str, Any]) -> dict[str, Any] 
     Returns
     -------
     dict or None
-        Of :func:`~nucleation.answers.weakening_patch.patch_answer`; None if no option is given.
+        Of :func:`~nucleation.lengths.weakening_patch.patch_answer`; None if no option is given.
 
     Raises
     ------

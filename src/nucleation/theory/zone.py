@@ -22,14 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .stiffness import (
-    FAR_SIDES,
-    Array,
-    Layers,
-    Stiffness,
-    StiffnessTerms,
-    antiplane_terms,
-)
+from .stiffness import FAR_SIDES, Array, Layers, Stiffness, StiffnessTerms, antiplane_terms
 from .waves import Waves
 
 

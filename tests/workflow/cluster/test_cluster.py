@@ -9,11 +9,11 @@ import psutil
 import pytest
 from commands_of_slurm import output_of, wait_for
 
-from nucleation.configuration.load import configure
-from nucleation.configuration.settings import estimated_megabytes
-from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.datasets import netcdf
 from nucleation.simulation.checkpoints import VARIABLE
+from nucleation.strict_yaml import read_yaml
+from replication.configuration.load import configure
+from replication.configuration.settings import estimated_megabytes
 
 ROOT = Path(__file__).parents[3]
 OFTEN = ("--slurm-init-seconds-before-status-checks", "2")
@@ -46,7 +46,7 @@ def hold(workflow):
     held = []
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
-            if "nucleation.pipeline.job" not in process.cmdline():
+            if "replication.pipeline.job" not in process.cmdline():
                 continue
             if wanted & {file.path for file in process.open_files()}:
                 process.suspend()

@@ -1,0 +1,295 @@
+"""The nucleation lengths in use, each with formula, source and validity in words.
+
+Their common definitions are in :mod:`nucleation.lengths.formulas`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from operator import methodcaller
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..model.quantities import declared
+from ..theory.arrays import fault_of
+from ..theory.fault import FaultParameters, takes_fault
+from ..theory.values import Numbers, Values, checked, labelled, where
+from . import formulas
+from .finite_patch import NEAREST, loaded_patch_factor
+from .formulas import Setting, nan0, valid
+from .length import HALF_SPACES, RIGID_BASE, THIS_FAULT, Length, number
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_FALL = "rate of linear slip weakening of the shear strength"
+WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
+
+
+def _stability_length(fault: FaultParameters) -> Numbers:
+    from ..theory.creep.lengths import stability_answers
+
+    return stability_answers(fault)[0]
+
+
+def _crack(s: Setting) -> Numbers:
+    weakening = (s.b - s.a) / nan0(s.b)
+    length = 2.0 / math.pi * nan0(weakening) ** -2 * s.state_evolution()
+    within = (s.a > formulas.CRACK_LIMIT * s.b) & (s.a < s.b)
+    return valid(within, length)
+
+
+def _localised(s: Setting) -> Numbers:
+    within = s.a < formulas.LOCALISED_LIMIT * s.b
+    return valid(within, formulas.LOCALISED_FACTOR * s.state_evolution())
+
+
+def _uenishi_rice(s: Setting) -> Numbers:
+    length = formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
+    return valid(s.weakening_rate > 0.0, length)
+
+
+def _thin_layer(s: Setting) -> Numbers:
+    length = valid(s.a < 0.5 * s.b, s.state_evolution())
+    return s.thin(2.0 * s.height * length)
+
+
+def _thin_limit(s: Setting) -> Numbers:
+    return s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi)
+
+
+def _loaded_patch(s: Setting) -> Numbers:
+    within = (s.a > 0.0) & (s.a < NEAREST * s.b)
+    ratio = where(within, s.a / nan0(s.b), 0.5)
+    length = loaded_patch_factor(ratio) / (1.0 - ratio) * s.state_evolution()
+    return valid(within, length)
+
+
+_GAP = (
+    f"between {formulas.LOCALISED_LIMIT} and 1/2 neither length of Rubin and Ampuero holds: "
+    "simulated zones are longer than their fixed length there, by 5 % for a/b = 0.4 and 17 % for "
+    "0.45"
+)
+_STEADY = "velocity weakening, near steady sliding, either law"
+
+_OF_FAULT = Length(
+    key="stability_length",
+    title="creeping patch L_s",
+    formula="its own eigenproblem, docs/creeping_patch.md",
+    source="this project",
+    validity="a patch that creeps under the fault's loading, either law",
+    system=THIS_FAULT,
+    needs="zeta > 0 and L_s < 3 L_c",
+    compute=_stability_length,
+)
+_OF_ONE_MATERIAL = (
+    Length(
+        key="homogeneous_sliding",
+        title="homogeneous sliding",
+        formula="pi mu* D/(zeta sigma0)",
+        source="Rice and Ruina (1983); Aldam et al. (2017), Eq. (6)",
+        validity=_STEADY,
+        compute=lambda s: s.plane(math.pi),
+    ),
+    Length(
+        key="rice_ruina",
+        title="Rice-Ruina h*",
+        formula="(pi/4) mu* D/(zeta sigma0)",
+        source="Rice and Ruina (1983); Lapusta and Liu (2009)",
+        validity=f"{_STEADY}; a spring block at K_c",
+        compute=lambda s: s.plane(0.25 * math.pi),
+    ),
+    *(
+        Length(
+            key=f"dieterich_{end}",
+            title=f"conventional, eta = {words}",
+            formula="eta mu D/(zeta sigma0)",
+            source="Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
+            validity=f"{_STEADY}; {end} of the crack models",
+            compute=methodcaller("conventional", eta),
+        )
+        for end, words, eta in zip(
+            ("shortest", "longest"), ("2/pi", "4/3"), formulas.CONVENTIONAL_ETA, strict=True
+        )
+    ),
+    Length(
+        key="state_evolution",
+        title="state evolution L_b",
+        formula="mu* D/(b sigma0)",
+        source="Dieterich (1992); Rubin and Ampuero (2005)",
+        validity="far above steady state; a mesh has to resolve it",
+        needs="b > 0",
+        compute=Setting.state_evolution,
+    ),
+    Length(
+        key="rubin_ampuero_localised",
+        title="Rubin-Ampuero, fixed length",
+        formula="2 x 1.3774 mu* D/(b sigma0)",
+        source="Rubin and Ampuero (2005), 2 L_nu",
+        validity="aging law, far above steady state; a/b < 0.3781",
+        needs=f"a/b < {formulas.LOCALISED_LIMIT}",
+        beyond=_GAP,
+        compute=_localised,
+    ),
+    Length(
+        key="rubin_ampuero_crack",
+        title="Rubin-Ampuero, expanding",
+        formula="(2/pi) mu* b D/[(b - a)^2 sigma0]",
+        source="Rubin and Ampuero (2005), 2 L_infinity",
+        validity="aging law, crack-like expansion; 1/2 < a/b < 1",
+        needs="1/2 < a/b < 1",
+        beyond=_GAP,
+        compute=_crack,
+    ),
+    Length(
+        key="uenishi_rice",
+        title="Uenishi-Rice",
+        formula="1.158 mu*/W, W = b sigma0/D unless given",
+        source="Uenishi and Rice (2003)",
+        validity="strength falls linearly with slip, without direct effect",
+        needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
+        compute=_uenishi_rice,
+    ),
+    Length(
+        key="creeping_asperity",
+        title="asperity, rigid surroundings",
+        formula="1.158 mu* D/(zeta sigma0)",
+        source="Viesca and Garagash (2025), first scenario, by our derivation; "
+        "Uenishi and Rice (2003)",
+        validity="patch in steady creep, in surroundings that creep at V; else W_c by "
+        "--outside-zeta",
+        compute=lambda s: s.plane(formulas.FINITE_PATCH),
+    ),
+    Length(
+        key="loaded_patch",
+        title="pinned patch, steady load",
+        formula="C(a/b) mu* D/(zeta sigma0)",
+        source="Viesca and Garagash (2025), second scenario, by our computation of C",
+        validity="velocity weakening, patch of fixed length under a rising load, either law",
+        needs=f"0 < a/b < {NEAREST}",
+        compute=_loaded_patch,
+    ),
+    Length(
+        key="thin_limit",
+        title="thin layer, Hk -> 0",
+        formula="2 pi sqrt[2 mu* H D/(zeta sigma0)]",
+        source="Aldam et al. (2017), Eq. (11)",
+        validity=f"{_STEADY}; 2 pi H/L << 1",
+        system=RIGID_BASE,
+        needs=f"zeta > 0 and 2 pi H/L < {formulas.THIN}",
+        compute=_thin_limit,
+    ),
+    Length(
+        key="thin_layer",
+        title="thin layer, aging law",
+        formula="2 pi sqrt[2 mu* H D/(b sigma0)]",
+        source="Viesca (2016)",
+        validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
+        system=RIGID_BASE,
+        needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
+        compute=_thin_layer,
+    ),
+)
+_OF_TWO_MATERIALS = tuple(
+    length.of_two()
+    for length in _OF_ONE_MATERIAL
+    if length.system == HALF_SPACES and "mu*" in length.formula
+)
+LENGTHS = (_OF_FAULT, *_OF_ONE_MATERIAL, *_OF_TWO_MATERIALS)
+"""The lengths in use, in the order of their listing."""
+
+
+@takes_fault
+def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> xr.Dataset:
+    """All lengths of :data:`LENGTHS` for a fault.
+
+    Parameters
+    ----------
+    weakening_rate : array_like, optional
+        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
+        ``a/b < 0.1``.
+    **fault
+        The parameters of :class:`~nucleation.api.fault.Fault`. The second body matters only to
+        the creeping patch and to the lengths of two materials, with keys that end with
+        ``_two_materials``.
+
+    Returns
+    -------
+    Dataset
+        One variable (m) for each, NaN outside its validity, with ``formula``, ``source``,
+        ``validity``, ``system``, ``needs`` and ``beyond`` as attributes. Arrays without named
+        dimensions have the dimensions ``axis_0``, ``axis_1``, ... The values are plain numbers in
+        metres, also for parameters that are pint quantities.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> found = lengths_in_use(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> round(float(found["rice_ruina"]), 3), found["rice_ruina"].attrs["formula"]
+    (0.628, '(pi/4) mu* D/(zeta sigma0)')
+    """
+    import xarray as xr
+
+    found = with_dimensions(values_of(fault_of(fault), weakening_rate))
+    variables = {}
+    for length in LENGTHS:
+        variables[length.key] = found[length.key].assign_attrs(length.words())
+    return xr.Dataset(variables)
+
+
+def with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+    """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
+    import xarray as xr
+
+    plain = {key: array for key, array in found.items() if not labelled(array)}
+    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
+    dims = [f"axis_{n}" for n in range(len(shape))]
+    named = dict(found)
+    for key, array in plain.items():
+        named[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
+    return named
+
+
+def values_of(
+    fault: FaultParameters,
+    weakening_rate: Values | None = None,
+    lengths: Iterable[Length] = LENGTHS,
+) -> dict[str, Numbers]:
+    """Nucleation lengths as numbers, arrays or DataArrays.
+
+    Parameters
+    ----------
+    fault : FaultParameters
+        One fault, or arrays of faults.
+    weakening_rate : array_like, optional
+        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
+        ``a/b < 0.1``.
+    lengths : iterable of Length
+        The lengths to compute.
+
+    Returns
+    -------
+    dict
+        Lengths (m) by key, NaN outside their validity.
+
+    Raises
+    ------
+    ParameterError
+        If `weakening_rate` is outside its range.
+    """
+    if weakening_rate is None:
+        b = number(fault, "b")
+        usual = b * number(fault, "normal_stress") / number(fault, "slip_distance")
+        rate = valid(number(fault, "a") < formulas.NEGLIGIBLE * b, usual)
+    else:
+        rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
+    return {length.key: length.evaluate(fault, rate) for length in lengths}

@@ -1,0 +1,137 @@
+"""The article on the replication: a template whose numbers come from the results alone."""
+
+import math
+from collections.abc import Iterable
+
+import jinja2
+import xarray as xr
+
+from ..tables.lengths import over_realisations
+from ..tables.rows import rows_of
+from .claim import Row, Verdict
+from .phrases import caution, mesh, span
+from .table import counts, escaped
+
+
+def render(
+    template: str,
+    claims: list[Row],
+    lengths: Iterable[xr.Dataset],
+    beyond: bool = False,
+) -> str:
+    """The article's text.
+
+    Parameters
+    ----------
+    template : str
+        Markdown with Jinja2's expressions. The template can use ``claim(id)``, a claim's row;
+        ``ours(id)``, our number with range and unit; ``checked(id)``, whether it has a verdict;
+        ``mesh``, that of the role ``paper`` in words, and the ``caution`` that a coarse one needs;
+        ``verdicts``, their counts; ``verdict``, :class:`~replication.claims.claim.Verdict`;
+        ``claims``, all rows; ``runs(role)``, the role's rows of lengths, one for each fault;
+        ``pairs``, the faults of the paper's study, each with its row of the converged study;
+        ``by_theory(role)``, the range of L_s/L_c by theory; and the filters ``digits(n)``,
+        ``span(n)`` of numbers, ``percent(n)`` and ``typeset``, the last for texts with formulas.
+    claims : list of dict
+        Rows of :func:`replication.claims.table.evaluate`.
+    lengths : iterable of Dataset
+        Tables of lengths, one for each study.
+    beyond : bool
+        Whether the text includes the figures of L_s, the drop and the map.
+
+    Returns
+    -------
+    str
+        Markdown.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        For a name that the results do not have.
+    KeyError
+        For an unknown claim.
+    """
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters |= {
+        "digits": digits,
+        "percent": _percent,
+        "span": lambda values, number: span(values, lambda value: digits(value, number)),
+        "typeset": escaped,
+    }
+    by_id = {row["id"]: row for row in claims}
+    faults = _faults(lengths)
+
+    def runs(role: str) -> list[Row]:
+        return [row for row in faults if row["role"] == role]
+
+    def by_theory(role: str) -> str:
+        ratios = [row["stability_length"] / row["critical_length"] for row in runs(role)]
+        return span(ratios, ".2f")
+
+    converged = {row["fault"]: row for row in runs("converged")}
+    return environment.from_string(template).render(
+        claim=by_id.__getitem__,
+        ours=lambda id: rounded(by_id[id]),
+        checked=lambda id: by_id[id]["verdict"] != Verdict.UNCHECKED,
+        mesh=mesh(runs("paper")),
+        caution=caution(runs("paper")),
+        verdicts=counts(claims),
+        verdict=Verdict,
+        claims=claims,
+        runs=runs,
+        pairs=[(row, converged.get(row["fault"])) for row in runs("paper")],
+        by_theory=by_theory,
+        beyond=beyond,
+    )
+
+
+def _faults(lengths: Iterable[xr.Dataset]) -> list[Row]:
+    """The rows of all tables, one for each fault."""
+    rows: list[Row] = []
+    for table in lengths:
+        rows += rows_of(over_realisations(table))
+    return rows
+
+
+def digits(
+    value: float | None,
+    number: int,
+) -> str:
+    """A number with some significant digits, or a dash for None.
+
+    Parameters
+    ----------
+    value : float or None
+        The number.
+    number : int
+        How many digits.
+    """
+    if value is None:
+        return "–"
+    mantissa, _, power = f"{value:.{number}g}".partition("e")
+    if not power:
+        return mantissa
+    factor = "" if mantissa == "1" else rf"{mantissa}\times "
+    return f"${factor}10^{{{int(power)}}}$"
+
+
+def rounded(row: Row) -> str:
+    """Our number of a claim with range and unit, to three digits of the largest of them."""
+    if row["ours"] is None:
+        return "not computed"
+    numbers = [row["ours"], *row["uncertainty"]]
+    largest = max(map(abs, numbers)) or 1.0
+    places = max(0, 2 - math.floor(math.log10(largest)))
+    value, low, high = (f"{number:.{places}f}" for number in numbers)
+    unit = "" if row["unit"] == "1" else f" {row['unit']}"
+    return f"{value}{unit}" if low == high else f"{value} ({low} to {high}){unit}"
+
+
+def _percent(value: float | None, places: int = 0) -> str:
+    """A part in percent, or a dash for None."""
+    return "–" if value is None else f"{100.0 * value:.{places}f} %"

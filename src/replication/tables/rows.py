@@ -1,0 +1,101 @@
+"""Rows of a table, the ratios in them, and why a run has no length."""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import xarray as xr
+
+from nucleation.datasets.shared import SHARED
+from nucleation.datasets.variables import Variable
+from nucleation.simulation.event import NEAR
+
+Row = dict[str, Any]
+"""A row of a table: values by column."""
+
+RATIOS = {
+    "length_ratio": ("length", "critical_length"),
+    "stability_ratio": ("stability_length", "critical_length"),
+    "zeta_over_a": ("zeta", "a"),
+}
+"""Ratios by name: the columns of numerator and denominator."""
+
+RATIO_COLUMNS = {
+    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
+    "stability_ratio": Variable("1", "patch length where growth begins over theory", "L_s/L_c"),
+    "zeta_over_a": SHARED["zeta_over_a"],
+}
+
+NEARLY = 0.98
+"""Part of the searched half of the block at which the patch counts as having filled it."""
+
+
+def rows_of(
+    table: xr.Dataset,
+    chosen: Iterable[int] | None = None,
+    names: Iterable[str] | None = None,
+) -> list[Row]:
+    """Rows of a table as dictionaries of plain Python values.
+
+    Parameters
+    ----------
+    table : Dataset
+        Columns on ``run``.
+    chosen : iterable of int, optional
+        Numbers of the rows, by default all.
+    names : iterable of str, optional
+        Names of the columns, by default all.
+
+    Returns
+    -------
+    list of dict
+    """
+    wanted = table.data_vars if names is None else names
+    columns = {str(name): table[name].values.tolist() for name in wanted}
+    numbers = range(table.sizes["run"]) if chosen is None else chosen
+    return [{name: values[i] for name, values in columns.items()} for i in numbers]
+
+
+def ratios(columns: Mapping[Any, Any]) -> Row:
+    """:data:`RATIOS` of one row or of a whole table."""
+    return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
+
+
+def without_event(rows: Iterable[Row]) -> list[str]:
+    """Count the runs without an event, and give the reason for each in a line."""
+    rows = list(rows)
+    quiet = [row for row in rows if not math.isfinite(row["onset_time"])]
+    if not quiet:
+        return []
+    head = f"{len(quiet)} of {len(rows)} runs had no event, and so give no length:"
+    return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
+
+
+def remarked(rows: Iterable[Row]) -> list[str]:
+    """A line for each run with remarks in its status: reasons to doubt its event."""
+    lines = []
+    for row in rows:
+        ended, *remarks = str(row["status"]).split("; ")
+        if ended.startswith("completed") and remarks:
+            lines.append(f"{row['id']}: {'; '.join(remarks)}")
+    return lines
+
+
+def why(row: Row) -> str:
+    """Why a run had no event, as far as its row shows."""
+    status = str(row["status"])
+    if not status.startswith("completed"):
+        return status
+    theory = row["critical_length"]
+    reached = row["reached_length"]
+    patch = f"after {row['simulated_time']:.4g} s its patch was {reached:.3g} m long"
+    if not math.isfinite(theory):
+        zeta = row["zeta"]
+        return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
+    patch += f", {reached / theory:.2g} of the theory's critical length"
+    searched = NEAR * row["block_length"]
+    if row["loading"] == "edge" and reached > NEARLY * searched:
+        return f"{patch}, and filled the half of the block in which it is followed"
+    if reached < theory:
+        return f"{patch}: a longer end_time may show it"
+    return f"{patch}, and the force has not dropped"

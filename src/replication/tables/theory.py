@@ -1,0 +1,190 @@
+"""L_s by the theory of the creeping patch beside L_s of simulations: a row for each fault."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import PchipInterpolator
+
+from nucleation.datasets.shared import SHARED
+from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
+from nucleation.extraction.growth import FITTED
+from nucleation.model.identity import fault
+from nucleation.model.linearised import linearised
+from nucleation.model.parameters import Parameters
+from nucleation.theory.closed_forms import bimaterial_contrast
+from nucleation.theory.creep.front import advance, oscillating
+from nucleation.theory.creep.front_onset import first_growing
+from nucleation.theory.creep.lengths import stability_point
+from nucleation.theory.creep.patches import Patches
+from nucleation.theory.creep.thin import thin_limit
+from nucleation.theory.status import NoLength
+
+from .lengths import COLUMNS as LENGTHS
+from .lengths import description
+from .rows import Row
+
+COLUMNS = {
+    **some(
+        LENGTHS,
+        "id",
+        "study",
+        "role",
+        "evolution",
+        "friction_law",
+        "height",
+    ),
+    **some(SHARED, "zeta_over_a", "f_beta"),
+    "critical_length": LENGTHS["critical_length"],
+    "stability_length": FITTED["stability_length"],
+    "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+    "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
+    "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),
+    "fault": LENGTHS["fault"],
+}
+"""``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
+
+DRAWN = {
+    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
+    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
+    "shown_beta": Variable("1", "friction times bimaterial contrast", "f beta"),
+    "shown_x": Variable("1", "distance from the edge over L_s", "x/L_s"),
+    "shown_rate": Variable("1", "slip rate of the creep over V", "v/V"),
+    "shown_stress": Variable("1", "compression over the applied one", "sigma/sigma0"),
+}
+"""The thin limit's curve, and the creep of some faults at their L_s."""
+
+CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
+PLACES = 121  # along a patch, in its angle
+PROFILES = 4  # number of faults with their creep: evenly over the contrasts
+
+_PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
+
+
+def theory_files(
+    runs: Iterable[Row],
+    tables: Iterable[xr.Dataset],
+) -> dict[str, Any]:
+    """The table, the thin limit's curve and the creep of some faults; the table also as CSV.
+
+    Parameters
+    ----------
+    runs : iterable of dict
+        From :meth:`replication.configuration.runs.Run.to_dict`.
+    tables : iterable of Dataset
+        On ``run``, with ``id`` and ``stability_length`` (m); runs without it are left out.
+
+    Returns
+    -------
+    dict
+        By the ending of the file's name. The dataset has :data:`COLUMNS` on ``run``,
+        :data:`DRAWN` on ``curve``, ``case`` and ``place``.
+    """
+    known = _stability_lengths(tables)
+    faults: dict[tuple[str, str], list[Row]] = {}
+    for run in runs:
+        if run["id"] in known:
+            key = run["study"], fault(Parameters.from_dict(run["parameters"]))
+            faults.setdefault(key, []).append(run)
+    firsts = {}
+    rows = []
+    for first, *others in faults.values():
+        mean = float(np.mean([known[run["id"]] for run in (first, *others)]))
+        rows.append(_row(first, mean))
+        firsts[first["id"]] = first
+    drawn = xr.Dataset(
+        {
+            "curve_ratio": ("curve", CURVE),
+            "curve_stability": ("curve", [thin_limit(ratio).length_ratio for ratio in CURVE]),
+            **_profiles(rows, firsts),
+        }
+    )
+    listed = table(rows, COLUMNS)
+    return {".nc": annotate(listed.merge(drawn), DRAWN), ".csv": to_csv(listed)}
+
+
+def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
+    """Simulated L_s (m) of each run that has it, by its name."""
+    found = {}
+    for measured in tables:
+        names = measured["id"].values
+        lengths = measured["stability_length"].values
+        for name, length in zip(names, lengths, strict=True):
+            if np.isfinite(length):
+                found[str(name)] = float(length)
+    return found
+
+
+def _row(
+    run: Row,
+    measured: float,
+) -> Row:
+    """The columns of one fault, from its first run and its mean simulated L_s (m)."""
+    parameters = Parameters.from_dict(run["parameters"])
+    interface = linearised(parameters.friction, parameters.loading)
+    below = parameters.below
+    f_beta = 0.0
+    if below is not None:
+        f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
+    row = description(run) | dict.fromkeys(_PREDICTED, math.nan)
+    row |= {
+        "zeta_over_a": interface.zeta / interface.a,
+        "f_beta": f_beta,
+        "stability_length": measured,
+    }
+    patches = Patches.of(parameters)
+    critical = run["critical_length"]
+    loading = parameters.loading
+    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
+    try:
+        row["creep_length"] = stability_point(replace(patches, law=None), critical).length
+        row["front_length"] = first_growing(patches, critical, *start)
+        made = advance(patches, [row["front_length"]], *start)
+        row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time
+        row["front_time"] = float(made.time[0])
+    except NoLength:
+        pass
+    return row
+
+
+def _profiles(
+    rows: list[Row],
+    runs: dict[str, Row],
+) -> Row:
+    """The creep of some faults at their L_s, over the range of contrasts."""
+    known = [row for row in rows if row["front_length"] > 0.0]
+    if not known:
+        return {}
+    shown = _evenly_over_contrast(known)
+    contrasts, places, rates, stresses = [], [], [], []
+    for row in shown:
+        parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
+        patches = Patches.of(parameters)
+        made = advance(patches, [row["front_length"]], parameters.loading.initial_state)
+        (creep,) = made.creeps
+        contrasts.append(row["f_beta"])
+        theta = creep.response.modes.theta
+        angles = np.linspace(theta[0], theta[-1], PLACES)
+        places.append(np.cos(angles))
+        rates.append(PchipInterpolator(theta, creep.slip_rate)(angles))
+        stresses.append(PchipInterpolator(theta, creep.normal_stress)(angles))
+    at = "case", "place"
+    return {
+        "shown_beta": ("case", contrasts),
+        "shown_x": (at, np.array(places)),
+        "shown_rate": (at, np.array(rates)),
+        "shown_stress": (at, np.array(stresses)),
+    }
+
+
+def _evenly_over_contrast(rows: list[Row]) -> list[Row]:
+    """Up to :data:`PROFILES` rows with different contrasts, in their order."""
+    ordered = sorted(rows, key=lambda row: row["f_beta"])
+    different = list({round(row["f_beta"], 6): row for row in ordered}.values())
+    places = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
+    shown = {different[i]["id"]: different[i] for i in places}
+    return list(shown.values())

@@ -1,0 +1,314 @@
+"""The bridge for two bodies: single modes between two sliding layers, in time and by Eq. (5).
+
+As :mod:`.dispersion` for one layer on a rigid base. The two measured rates of a mode are the roots
+of Eq. (5). Each of them thus gives the elastic response of the bodies without any theory of them:
+
+    G1 - i f G2 = -sigma0 Lambda (a Lambda ell - zeta V) / [mu k V (V + Lambda ell)] .
+
+Between layers higher than a wavelength that is the response of half-spaces, Eqs. (7) and (8).
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from nucleation.datasets.shared import SHARED
+from nucleation.datasets.variables import annotate
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import interface_state
+from nucleation.model.material import Material
+from nucleation.model.parameters import Loading, Parameters
+from nucleation.theory.closed_forms import bimaterial_contrast
+from nucleation.theory.critical import unstable_modes
+from nucleation.theory.of_runs import systems_of
+from nucleation.types import Array
+
+from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
+from .single_mode import measured_rates
+
+RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one
+DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
+ENDLESS = 1e3  # m
+SOFT, STIFF = 3.1e9, 9.3e9  # Pa
+SECOND_DENSITY = 2400.0  # kg/m^3
+LOWER_HEIGHT = 0.6  # of a thin lower layer over the upper one's
+
+
+class _LayerPair(NamedTuple):
+    """Two materials, their heights and the far side of the lower layer.
+
+    Parameters
+    ----------
+    name : str
+        Identifier in tables.
+    modulus, second_modulus : float
+        Shear moduli of the upper and the lower layer (Pa).
+    poisson_ratio, second_poisson_ratio : float
+        Their Poisson ratios.
+    far_side : str
+        Far side of the lower layer.
+    height : float or None
+        Height of the upper layer (m); None for half-spaces.
+    """
+
+    name: str
+    modulus: float
+    second_modulus: float
+    poisson_ratio: float = 1.0 / 3.0
+    second_poisson_ratio: float = 0.2
+    far_side: str = "free"
+    height: float | None = None
+
+    def bodies(
+        self,
+        height: float,
+        second_height: float,
+    ) -> dict[str, float]:
+        """Return heights and materials by the names of parameters and of columns.
+
+        Parameters
+        ----------
+        height, second_height : float
+            Heights of the layers (m).
+
+        Returns
+        -------
+        dict
+        """
+        return {
+            "height": height,
+            "second_height": second_height,
+            "shear_modulus": self.modulus,
+            "second_shear_modulus": self.second_modulus,
+            "poisson_ratio": self.poisson_ratio,
+            "second_poisson_ratio": self.second_poisson_ratio,
+        }
+
+    def parameters(
+        self,
+        base: Parameters,
+        height: float,
+        second_height: float,
+    ) -> Parameters:
+        """Return the parameters of the pair.
+
+        Parameters
+        ----------
+        base : Parameters
+            Friction and loading.
+        height, second_height : float
+            Heights of the layers (m).
+
+        Returns
+        -------
+        Parameters
+        """
+        further = {
+            "plane": "strain",
+            "second_body": "deformable",
+            "second_density": SECOND_DENSITY,
+            "second_far_side": self.far_side,
+        }
+        return base.replaced(self.bodies(height, second_height) | further)
+
+
+def _thin_layers() -> tuple[_LayerPair, ...]:
+    """Thin layers with each far side; the upper or the lower one is the stiffer one."""
+    found = []
+    for far_side, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
+        above = _LayerPair(
+            f"stiff above, {far_side}",
+            STIFF,
+            SOFT,
+            far_side=far_side,
+            height=height,
+        )
+        below = _LayerPair(
+            f"stiff below, {far_side}",
+            SOFT,
+            STIFF,
+            far_side=far_side,
+            height=height,
+        )
+        found += [above, below]
+    return tuple(found)
+
+
+THIN_LAYERS = _thin_layers()
+"""Layers of finite height. Free ones are higher: they bend, and bending needs finer elements."""
+
+HALF_SPACES = (
+    _LayerPair("half-spaces, stiff below", SOFT, STIFF),
+    _LayerPair("half-spaces, stiff above", STIFF, SOFT),
+    _LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
+    _LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
+)
+"""Layers of a height at which their far sides do not matter."""
+
+
+def _sized(
+    layers: _LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> tuple[Parameters, float]:
+    """The parameters of a pair for a mode of ``ratio`` k_c, and k_c (1/m)."""
+    if layers.height is not None:
+        found = layers.parameters(
+            base,
+            layers.height,
+            LOWER_HEIGHT * layers.height,
+        )
+        return found, _critical(found)
+    critical = _critical(layers.parameters(base, ENDLESS, ENDLESS))
+    height = DEEP * 2.0 * np.pi / (ratio * critical)
+    return layers.parameters(base, height, height), critical
+
+
+def _critical(parameters: Parameters) -> float:
+    """k_c (1/m)."""
+    own = systems_of([(parameters, interface_state(parameters))])
+    return float(unstable_modes(own).wavenumber[0])
+
+
+def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
+    """Return the elastic response of the bodies to the simulated modes.
+
+    Parameters
+    ----------
+    modes : Dataset
+        As of :func:`pair_modes`.
+
+    Returns
+    -------
+    g1, g2 : ndarray
+        G1 and G2, shape (run, branch).
+    """
+
+    def column(name: str) -> Array:
+        return modes[name].values[:, None]
+
+    growth = modes["measured_growth"].values
+    frequency = modes["measured_frequency"].values
+    rates = growth + 1j * frequency
+    mu = column("shear_modulus")
+    k = column("mode_wavenumber")
+    f = column("friction")
+    a = column("a")
+    zeta = column("zeta")
+    ell = column("slip_distance")
+    v = column("velocity")
+    weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
+    response = -column("normal_stress") * weakening / (mu * k)
+    return response.real, -response.imag / f
+
+
+def mode_row(
+    layers: _LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> dict[str, Any]:
+    """Measure one mode between two layers.
+
+    Parameters
+    ----------
+    layers : _LayerPair
+        The layers.
+    base : Parameters
+        Friction and loading.
+    ratio : float
+        Wavenumber over the critical one.
+
+    Returns
+    -------
+    dict
+        Values of the columns of :func:`pair_modes`, and its complex rates (1/s) as ``measured`` and
+        ``theory``.
+    """
+    parameters, critical = _sized(layers, base, ratio)
+    interface = interface_state(parameters)
+    below = parameters.below
+    assert below is not None
+    height = parameters.geometry.height
+    k = ratio * critical
+    measured = measured_rates(parameters, height, k)
+    theory = systems_of([(parameters, interface)]).growth_rates(np.array([k]))[:, 0]
+    contrast = bimaterial_contrast(parameters.material, below.material)
+    return {
+        "id": layers.name,
+        "far_side": layers.far_side,
+        **layers.bodies(height, below.geometry.height),
+        "friction": interface.friction,
+        "a": interface.a,
+        "zeta": interface.zeta,
+        "slip_distance": interface.slip_length,
+        "velocity": interface.velocity,
+        "normal_stress": interface.normal_stress,
+        "f_beta": interface.friction * contrast,
+        "mode_wavenumber": k,
+        "critical_wavenumber": critical,
+        "measured": by_direction(measured),
+        "theory": by_direction(theory),
+    }
+
+
+def pair_modes(
+    base: Parameters,
+    pairs: tuple[_LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
+    ratios: tuple[float, ...] = RATIOS,
+) -> xr.Dataset:
+    """Measure the rates of modes between two layers, and compute them by Eq. (5).
+
+    Parameters
+    ----------
+    base : Parameters
+        Friction, density and loading.
+    pairs : tuple of _LayerPair
+        The layers.
+    ratios : tuple of float
+        Wavenumbers over the critical one of each pair.
+
+    Returns
+    -------
+    Dataset
+        The two bodies and friction at V on ``run``, the rates (1/s) on (run, branch). The branch
+        with the larger frequency travels along +x and comes first.
+    """
+    rows = [mode_row(layers, base, ratio) for layers in pairs for ratio in ratios]
+    rates: dict[str, Any] = {}
+    for kind in ("measured", "theory"):
+        both = np.array([row.pop(kind) for row in rows])
+        rates[f"{kind}_growth"] = (("run", "branch"), both.real)
+        rates[f"{kind}_frequency"] = (("run", "branch"), both.imag)
+    columns = {name: ("run", [row[name] for row in rows]) for name in rows[0]}
+    return annotate(xr.Dataset(columns | rates), SHARED | MODES_OF_SLIDING)
+
+
+def _csv(dataset: xr.Dataset) -> str:
+    """Return a line for each mode and direction, with the disagreement of the complex rates."""
+    ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
+    table = dataset.assign(wavenumber_over_critical=ratio, disagreement=disagreement(dataset))
+    frame = table.to_dataframe(["run", "branch"]).reset_index()
+    return frame.drop(columns="run").to_csv(index=False, float_format="%.8g")
+
+
+def files(
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+) -> dict[str, xr.Dataset | str]:
+    """Make the files of the step ``pair_modes``.
+
+    Parameters
+    ----------
+    material, friction, loading : Material, Friction, Loading
+        Those of the upper layer; each pair replaces the moduli.
+
+    Returns
+    -------
+    dict
+        :func:`pair_modes` and its CSV, by suffix.
+    """
+    base = Parameters(material=material, friction=friction, loading=loading)
+    found = pair_modes(base)
+    return {".nc": found, ".csv": _csv(found)}

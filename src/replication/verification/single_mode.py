@@ -1,0 +1,204 @@
+"""Growth of one wavenumber on homogeneous sliding, in the time integration.
+
+The time-dependent, nonlinear solver starts from homogeneous sliding on a periodic block
+(:mod:`nucleation.fem.periodic`) with a small perturbation of the state variable at one wavenumber.
+The amplitude of ``exp(-i k x)`` in log(v) then follows ``C1 exp(Lambda1 t) + C2 exp(Lambda2 t)``:
+its samples at equal intervals obey a linear recurrence, which gives both rates without any guess.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from nucleation.fem.bodies import period_of
+from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.simulation.drive import Steady
+from nucleation.simulation.interface import Interface
+from nucleation.simulation.state import State
+from nucleation.simulation.step import Dynamics
+from nucleation.simulation.stepping import BDF
+from nucleation.types import Array, ComplexArray
+
+NODES = 65  # per wavelength, odd
+ROWS = (10, 40)  # fewest and most elements along y
+GRADED = 0.25  # blocks higher than this part of the wavelength have a graded mesh,
+GRADING = 4.0  # as the deformation is near the interface
+SEED = 1e-6  # of log(phi)
+NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: far below the seed
+STEP = 0.008  # in units of D/V
+DURATION = 1.5  # in units of D/V
+SKIPPED = 30  # steps: then they are equal, and the elastic waves of the start have decayed
+INTERVAL = 5  # steps between samples
+
+
+def sliding_period(parameters: Parameters) -> Dynamics:
+    """Compose a period of a long block or pair that slides homogeneously at V.
+
+    It is driven by traction, or by its top. The driving force of its reports has no meaning.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        ``geometry.length`` is the period, ``mesh.n_x`` must be odd.
+
+    Returns
+    -------
+    Dynamics
+    """
+    body = period_of(parameters)
+    law = parameters.friction
+    loading = parameters.loading
+    steady = float(law.steady_coefficient(loading.velocity))
+    load = body.top_load(loading.normal_stress, loading.normal_stress * steady)
+    interface = Interface(law, NEWTON_TOLERANCE)
+    drive = Steady(loading.velocity, load)
+    return Dynamics(body, interface, drive, BDF(body.crossing_time))
+
+
+def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
+    """Make homogeneous steady sliding with a perturbed state variable.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The period, as of :func:`sliding_period`.
+    perturbation : ndarray
+        Added to log(phi) at the period's nodes, shape (n_x,).
+
+    Returns
+    -------
+    State
+    """
+    body = dynamics.body
+    friction = dynamics.interface.friction
+    n = dynamics.grid.n_x
+    velocity = dynamics.drive.velocity
+    load = dynamics.drive.load(0.0)
+    operator = body.operator(0.0)
+    response = operator.respond(load, np.zeros(n))
+    if body.far_side == "velocity":  # the interface lags behind the top that drags it
+        strength = friction.steady_coefficient(velocity) * response.normal[1:]
+        stiffness, _ = operator.apply(np.ones(n))
+        response = operator.respond(load, -strength / stiffness)
+    balance = operator.balance(response, response.w)
+    # the driving traction moves the block at V: seen from there it is at rest
+    motion = body.at_rest(balance.displacement, 0.0)
+    rates = np.full(n + 1, velocity)
+    steady = float(np.log(friction.steady_state(velocity)))
+    log_state = steady + np.append(0.0, perturbation)
+    return State.beginning(
+        motion,
+        rates,
+        log_state,
+        response.w,
+        balance.memory,
+    )
+
+
+def one_wavelength(
+    parameters: Parameters,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
+) -> Parameters:
+    """Replace the block by one wavelength ``2 pi / k``, with a mesh that resolves it.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Material, friction and loading.
+    height : float
+        H (m).
+    wavenumber : float
+        k (1/m).
+    nodes : int
+        Nodes per wavelength; elements are about as high as long, their number along y is within
+        :data:`ROWS`.
+
+    Returns
+    -------
+    Parameters
+    """
+    length = 2.0 * math.pi / wavenumber
+    geometry = Geometry(height, length)
+    mesh = _mesh(geometry, nodes)
+    found = dataclasses.replace(parameters, geometry=geometry, mesh=mesh)
+    if found.below is None:
+        return found
+    below = Geometry(found.below.geometry.height, length)
+    mesh_below = _mesh(below, nodes)
+    changes = {
+        "second_n_y": mesh_below.n_y,
+        "second_grading": mesh_below.grading,
+    }
+    return found.replaced(changes)
+
+
+def _mesh(geometry: Geometry, nodes: int) -> Mesh:
+    """A mesh of a layer, one wavelength long."""
+    fewest, most = ROWS
+    rows = geometry.height * nodes / geometry.length
+    graded = geometry.height > GRADED * geometry.length
+    rows = round(min(max(rows, fewest), most))
+    grading = GRADING if graded else 1.0
+    return Mesh(nodes, rows, grading)
+
+
+def _follow_mode(parameters: Parameters) -> tuple[float, ComplexArray]:
+    """Integrate homogeneous sliding of one period with its first mode seeded in log(phi).
+
+    Returns the time between samples (s) and the samples of the complex amplitude of
+    ``exp(-i k x)`` in log(v).
+    """
+    dynamics = sliding_period(parameters)
+    n = parameters.mesh.n_x
+    phase = 2.0 * np.pi / n * np.arange(n)
+    state = sliding_state(dynamics, SEED * np.cos(phase))
+    rung = dynamics.scheme.steady_rung(STEP * parameters.memory_time)
+    amplitudes = []
+    while state.time < DURATION * parameters.memory_time:
+        state, report = dynamics.advance(state, rung)
+        log_rate = np.log(report.interface.slip_rate[1:])
+        first_mode = np.fft.rfft(log_rate)[1]
+        amplitudes.append(np.conj(first_mode) * 2.0 / n)
+    interval = dynamics.scheme.steady_step(rung) * INTERVAL
+    return interval, np.array(amplitudes[SKIPPED::INTERVAL])
+
+
+def _fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
+    """The two growth rates (1/s) in equidistant samples of a sum of two exponentials.
+
+    Such samples obey ``A[n+2] = p A[n+1] + q A[n]`` (Prony); p and q follow by least squares
+    and the rates from the roots of ``z^2 = p z + q``. The faster growing rate comes first.
+    """
+    last = amplitude[1:-1]
+    before = amplitude[:-2]
+    past = np.stack([last, before], axis=1)
+    (p, q), *_ = np.linalg.lstsq(past, amplitude[2:], rcond=None)
+    growth = np.roots([1.0, -p, -q])
+    rates = np.log(growth) / interval
+    return rates[np.argsort(-rates.real)]
+
+
+def measured_rates(
+    parameters: Parameters,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
+) -> ComplexArray:
+    """Measure both growth rates of a wavenumber in the time integration.
+
+    Parameters
+    ----------
+    parameters, height, wavenumber, nodes
+        As in :func:`one_wavelength`.
+
+    Returns
+    -------
+    ndarray
+        The rates (1/s), the faster growing one first, shape (2,).
+    """
+    period = one_wavelength(parameters, height, wavenumber, nodes)
+    interval, amplitude = _follow_mode(period)
+    return _fitted_rates(interval, amplitude)

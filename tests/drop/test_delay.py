@@ -1,0 +1,144 @@
+"""The law of the drop against its closed form, against realisations, and against a simulation."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.drop.continued import complex_trend, continued, exponent_of, roughness_weights
+from nucleation.drop.delay import SAMPLED, TINY, grown, growth
+from nucleation.drop.mode_history import ModeHistory, mode_history
+from nucleation.extraction.extraction import extract
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import Perturbation
+from nucleation.simulation.realisation import Series, Sheet, profile, spectral_density
+from nucleation.simulation.run import simulate
+
+PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.7), mesh=Mesh(n_x=400, n_y=8))
+START, SPEED, SLOPE, FREQUENCY = 0.25, 0.014, 50.0, 11.0  # L_s, dL/dt, d Re Lambda/dL, Im Lambda
+LOAD = Perturbation(kind="normal_load", strength=1e-5)
+
+
+def history(share=600.0):
+    """A mode whose growth is linear in the length of a patch that grows steadily."""
+    x = np.linspace(0.0, 2.7, 401)
+    length = np.linspace(0.18, 0.33, 40)
+    along_x = np.zeros((40, 401), dtype=complex)
+    along_x[:, :30] = 0.1
+    rate = SLOPE * (length - START) + 1j * FREQUENCY
+    constant = np.full(40, share, dtype=complex)
+    time = (length - 0.18) / SPEED
+    return ModeHistory(PARAMETERS, x, time, length, rate, constant, constant, along_x, along_x)
+
+
+def realised(history, declared):
+    """How the mode grows in the realisation of the declared seed; its strength is not used."""
+    path = continued(history)
+    if declared.kind == "strength":
+        x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
+        rough = profile(declared.seed, declared.correlation_length, x)
+        sums = ((log, float(abs(a @ rough))) for log, a in roughness_weights(history, path, x))
+        return grown(path, np.array([log + np.log(max(s, TINY)) for log, s in sums]))
+    return grown(path, log_integrated(path, forcing(history, path, declared)))
+
+
+def forcing(history, path, declared):
+    """``g xi`` (1/s) at the times of a path, for the seed of a forcing in time."""
+    memory, seed = history.parameters.memory_time, declared.seed
+    time = declared.correlation_time * memory
+    if declared.kind == "state":
+        sheet = Sheet(seed, time, declared.correlation_length, history.x)
+        state = complex_trend(history, history.state / memory)
+        places = zip(path.length, path.time, strict=True)
+        return np.array([state(length) @ sheet.values(t) for length, t in places])
+    series = Series(seed, time)
+    if declared.kind == "normal_load":
+        weights = complex_trend(history, history.normal_load)
+        return weights(path.length) * [series.value(t) for t in path.time]
+    weights = complex_trend(history, history.drive * history.parameters.loading.velocity)
+    return weights(path.length) * [series.integral(t) for t in path.time]
+
+
+def log_integrated(path, forcing):
+    """log|A| (per strength) from ``dA/dt = Lambda A + forcing``, from zero on, without overflow."""
+    exponent, step = exponent_of(path), path.time[1] - path.time[0]
+    seeds = np.cumsum(step * forcing * np.exp(-exponent))
+    return exponent.real + np.log(np.maximum(np.abs(seeds), TINY))
+
+
+def length_at(law, amplitude):
+    """Length (m) at which the amplitude per strength last passes a value."""
+    level = np.log(amplitude)
+    last = np.flatnonzero(law.log_amplitude < level)[-1]
+    around = slice(last, last + 2)
+    return np.interp(level, law.log_amplitude[around], law.length[around])
+
+
+def exact_median(strength, share=600.0):
+    density = spectral_density(FREQUENCY, 0.05)
+    gathered = np.sqrt(np.log(2.0) * density) * (np.pi / (SLOPE * SPEED)) ** 0.25
+    effective = strength * share * gathered
+    return START + np.sqrt(2.0 * SPEED * np.log(1.0 / effective) / SLOPE)
+
+
+@pytest.mark.parametrize("strength", [1e-10, 1e-7, 1e-5])
+def test_linear_growth_gives_the_closed_form(strength):
+    found = growth(history(), LOAD)
+    drop, closed = found.drop(strength), found.closed_form(history(), strength)
+    assert np.isnan(found.drop(1e-300).length)  # where the law does not reach
+    assert drop.length == pytest.approx(exact_median(strength), rel=2e-3)
+    assert closed.length == pytest.approx(exact_median(strength), rel=2e-3)
+    assert closed.front_length == pytest.approx(START, rel=1e-3)
+    assert closed.front_speed == pytest.approx(SPEED, rel=1e-6)
+    assert closed.growth_slope == pytest.approx(SLOPE, rel=1e-6)
+    assert drop.low < drop.length < drop.high
+    assert drop.time == pytest.approx((drop.length - 0.18) / SPEED)
+
+
+def test_drops_come_once_in_a_period_at_any_phase():
+    """Against drawn amplitudes and phases: Rayleigh ones, and even ones over a period's growth."""
+    law, strength, generator = growth(history(), LOAD), 1e-5, np.random.default_rng(5)
+    amplitudes = np.sqrt(-np.log(generator.uniform(size=4000)))
+    reached = np.array([length_at(law, 1.0 / (strength * a)) for a in amplitudes])
+    period = SPEED * 2.0 * np.pi / FREQUENCY
+    drops = reached + period * generator.uniform(-0.5, 0.5, size=4000)
+    found = law.drop(strength)
+    assert (found.low, found.length, found.high) == pytest.approx(
+        tuple(np.quantile(drops, [0.16, 0.5, 0.84])), abs=0.03 * period
+    )
+    assert np.quantile(reached, 0.84) - np.quantile(reached, 0.16) < 0.9 * (found.high - found.low)
+
+
+@pytest.mark.parametrize(
+    "kind", ["drive_velocity", "normal_load", pytest.param("state", marks=pytest.mark.slow)]
+)
+def test_mean_square_of_realisations(kind):
+    declared = Perturbation(kind=kind, strength=1e-5, correlation_length=0.05)
+    mean = growth(history(), declared)
+    late = int(0.8 * mean.time.size)
+    squares = [
+        np.exp(2 * realised(history(), dataclasses.replace(declared, seed=s)).log_amplitude[late])
+        for s in range(24)
+    ]
+    assert np.mean(squares) == pytest.approx(np.exp(2 * mean.log_amplitude[late]), rel=0.6)
+
+
+@pytest.fixture(scope="module")
+def own():
+    return mode_history(PARAMETERS, 0.4509)
+
+
+def test_less_friction_everywhere_is_as_more_load(own):
+    assert own.rate.real[0] < 0.0 < own.rate.real[-1]
+    np.testing.assert_allclose(own.normal_load, own.strength.sum(axis=1), rtol=0.05)
+
+
+@pytest.mark.slow
+def test_a_perturbed_run_drops_where_its_own_realisation_says(own):
+    declared = Perturbation(kind="state", strength=1e-3, seed=4)
+    stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
+    mesh = Mesh(n_x=400, n_y=6, grading=20.0)
+    run = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping, perturbation=declared)
+    measured = extract(simulate(run))
+    expected = length_at(realised(own, declared), 1e3)
+    assert measured["length"] == pytest.approx(expected, rel=0.05)

@@ -1,0 +1,94 @@
+"""The frozen patch's spectrum against differences of the nonlinear equations."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eig
+from scipy.optimize import brentq
+
+from nucleation.extraction.frozen import frozen_patch
+from nucleation.fem.block import Block, BlockOperator
+from nucleation.fem.grid import Grid
+from nucleation.model.friction.law import Friction
+from nucleation.model.material import Material
+from nucleation.theory.creep.linearised import log_state_derivatives
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_log_state_derivatives(law):
+    friction = Friction(evolution=law)
+
+    def rate(v, psi):
+        return friction.state_rate(v, np.exp(psi)) * np.exp(-psi)
+
+    h = 1e-5
+    for v, psi in ((1e-5, -3.0), (2e-9, 1.0), (1e-3, -7.0)):
+        by_rate, by_psi = log_state_derivatives(friction, np.array(v), np.exp(psi))
+        numeric = (rate(v * (1 + h), psi) - rate(v * (1 - h), psi)) / (2 * h * v)
+        assert by_rate == pytest.approx(numeric, rel=1e-6)
+        assert by_psi == pytest.approx((rate(v, psi + h) - rate(v, psi - h)) / (2 * h), rel=1e-6)
+
+
+GRID = Grid(0.8, 0.02, 32, 5)
+OPERATOR = BlockOperator(Block(GRID, Material()), 0.0)
+RATE = np.where(GRID.x < 0.26, 1e-5 * np.exp(-GRID.x / 0.3), 1e-12)
+STATE = 0.07 * (1 + GRID.x)
+FORCE = 1e6 * (1 + 0.1 * np.cos(5 * GRID.x)) * GRID.nodal_lengths
+
+
+@pytest.fixture(params=["aging", "slip"])
+def friction(request):
+    return Friction(evolution=request.param)
+
+
+@pytest.fixture
+def patch(friction):
+    return frozen_patch(OPERATOR, friction, RATE, STATE, FORCE, 1e-7)
+
+
+def test_spectrum_equals_that_of_differences(friction, patch):
+    """Jacobian of (dw/dt, dpsi/dt), v from nodal force balance by bracketing."""
+    nodes, n = patch.nodes, patch.nodes.size
+    assert n == 10
+    base = -friction.coefficient(RATE, STATE)[nodes] * FORCE[nodes]
+
+    def time_derivative(z):
+        w = np.zeros(GRID.n_x)
+        w[nodes - 1] = z[:n]
+        psi = np.log(STATE[nodes]) + z[n:]
+        p, normal = OPERATOR.apply(w)
+        p, normal = base + p[nodes - 1], FORCE[nodes] + normal[nodes]
+        v = np.array(
+            [
+                brentq(lambda v, i=i: p[i] + friction.coefficient(v, np.exp(psi[i])) * normal[i],
+                       1e-14, 1.0, xtol=1e-22, rtol=1e-14)
+                for i in range(n)
+            ]
+        )  # fmt: skip
+        return np.append(v, friction.state_rate(v, np.exp(psi)) * np.exp(-psi))
+
+    steps = np.append(np.full(n, 1e-12), np.full(n, 1e-6))
+    columns = [
+        (time_derivative(unit) - time_derivative(-unit)) / (2 * step)
+        for unit, step in zip(np.diag(steps), steps, strict=True)
+    ]
+    reference = np.linalg.eigvals(np.array(columns).T)
+    reference = reference[np.argsort(-reference.real)]
+    scale = np.abs(reference[:4]).max()
+    np.testing.assert_allclose(patch.eigenvalues[:4].real, reference[:4].real, atol=1e-4 * scale)
+    np.testing.assert_allclose(
+        np.abs(patch.eigenvalues[:4].imag), np.abs(reference[:4].imag), atol=1e-3 * scale
+    )
+
+
+def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):
+    """Right and left eigenvectors of the matrix, of twice the size, by LAPACK."""
+    values, left, right = eig(patch.matrix, left=True)
+    for i in np.argsort(-values.real)[:6]:
+        w, log_state = patch.mode(values[i])
+        own = np.concatenate([w, log_state])
+        assert np.abs(w).max() == pytest.approx(1.0)
+        known = right[:, i] / right[np.abs(right[: w.size, i]).argmax(), i]
+        np.testing.assert_allclose(own, known, rtol=0, atol=1e-6 * np.abs(known).max())
+        weights = patch.amplitude(values[i])
+        known = left[:, i].conj() / (left[:, i].conj() @ own)
+        np.testing.assert_allclose(weights, known, rtol=0, atol=1e-6 * np.abs(known).max())

@@ -1,0 +1,182 @@
+"""Where growth of the patch begins: few frames instead of all, and the fit at the crossing."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.extraction import growth
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.growth import FITTED, fitted_crossing, follow_patch, rough_crossing
+from nucleation.model.friction.law import Friction
+from nucleation.model.heterogeneity import Heterogeneity
+from nucleation.model.linearised import interface_state
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.model.second_body import SecondBody
+from nucleation.simulation.recording import Recorder
+from nucleation.simulation.run import composed, run, simulate
+from nucleation.theory.creep.lengths import Patches, stability_point
+from nucleation.theory.critical import run_length
+from replication.configuration.runs import Run
+from replication.tables.stability import STABILITY, gather_stability
+
+pytestmark = pytest.mark.slow
+
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.02, length=1.8),
+    mesh=Mesh(n_x=120, n_y=6),
+    stepping=Stepping(end_time=11.0, tolerance=5e-2),
+)
+THEORY = 0.451  # m
+FIRST = "stability_length"
+
+
+@pytest.fixture(scope="module")
+def simulation():
+    return simulate(PARAMETERS)
+
+
+@pytest.fixture(scope="module")
+def followed(simulation):
+    return follow_patch(simulation, ExtractionSettings())
+
+
+def test_growth_begins_at_half_of_the_theory_in_a_mode_of_half_a_wave(followed):
+    length = float(followed["stability_length"])
+    assert 0.5 < length / THEORY < 0.62
+    assert followed["stability_length_low"] < length < followed["stability_length_high"]
+    assert 5.0 < followed["stability_frequency"] < 20.0
+    mode = np.hypot(followed["mode_real"].values, followed["mode_imaginary"].values)
+    assert mode.max() == pytest.approx(1.0)
+    assert 0.3 * length < followed["x"].values[mode.argmax()] < 0.9 * length
+    assert mode[0] == 0.0
+    assert (mode[followed["x"].values > length + 0.04] == 0.0).all()
+    changes = np.diff(mode[: int(length / 0.015)])
+    assert (np.diff(np.sign(changes)) != 0).sum() == 1  # one maximum
+
+
+def test_few_frames_equal_all_frames(simulation, followed, monkeypatch):
+    monkeypatch.setattr(growth, "SCANNED", 10**6)
+    monkeypatch.setattr(growth, "NEAR", 10**6)
+    every = follow_patch(simulation, ExtractionSettings())
+    assert followed.sizes["instant"] <= 100 < every.sizes["instant"]
+    for name in ("oscillation_growth", "growth_rate"):
+        known = dict(zip(every["instant_time"].values, every[name].values, strict=True))
+        again = [known[time] for time in followed["instant_time"].values]
+        np.testing.assert_array_equal(followed[name], again)
+    expected = float(every["stability_length"])
+    assert float(followed["stability_length"]) == pytest.approx(expected, rel=0.015)
+
+
+def test_rough_crossing_ignores_single_instants_and_gaps():
+    growth = np.array([-3.0, np.nan, 0.5, -1.0, -0.5, 0.1, 0.7, -5.0, 2.0, 3.0])
+    assert rough_crossing(np.arange(10.0), growth) == 5.0
+    assert np.isnan(rough_crossing(np.arange(7.0), -np.ones(7)))
+    assert np.isnan(rough_crossing(np.arange(7.0), np.ones(7)))
+    assert np.isnan(rough_crossing(np.arange(7.0), np.full(7, np.nan)))
+
+
+def test_a_narrow_window_of_oscillation_is_found(monkeypatch):
+    """Between two of the instants scanned the pair begins to grow, and stops to oscillate."""
+    growth_begins, length = 0.31, np.linspace(0.1, 0.6, 4001)
+
+    class Spectra:
+        grid = SimpleNamespace(dx=1e-3, n_x=600)
+
+        def __init__(self, record):
+            self.length = length
+
+        def rates(self, frames):
+            near = length[frames] - growth_begins
+            fastest = np.where(near > 0.0, 300.0 * near, -0.01) + 0j
+            return fastest, np.where(np.abs(near) < 0.004, 300.0 * near + 9j, np.nan + 0j)
+
+        def patch(self, frame):
+            mode = np.ones(0)
+            return SimpleNamespace(nodes=np.arange(0), mode=lambda rate: (mode, mode)), 0j
+
+        def dataset(self, fit, mode):
+            return xr.Dataset(fit)
+
+    monkeypatch.setattr(growth, "_Spectra", Spectra)
+    monkeypatch.setattr(growth, "Record", lambda simulation, settings: None)
+    found = follow_patch(xr.Dataset(), ExtractionSettings())
+    assert float(found["stability_length"]) == pytest.approx(growth_begins, rel=1e-6)
+
+
+def test_line_through_the_crossing():
+    length = np.linspace(0.17, 0.23, 601)
+    exact = 3.0 * (length - 0.2) + 1j * (12.0 - 20.0 * (length - 0.2))
+    fit = fitted_crossing(length, exact)
+    expected = (0.2, 0.2, 0.2, 0.0, 12.0)
+    np.testing.assert_allclose([fit[name] for name in FITTED], expected, atol=1e-12)
+    # growth that varies within each hop widens the range by its standard deviation over the slope
+    shaken = exact + 0.06 * np.sin(2 * np.pi * length / 0.002)
+    fit = fitted_crossing(length, shaken)
+    assert fit["stability_length"] == pytest.approx(0.2, abs=2e-3)
+    width = fit["stability_length_high"] - fit["stability_length"]
+    assert width == pytest.approx(0.06 / np.sqrt(2.0) / 3.0, rel=0.05)
+    assert fit["stability_length_error"] < 0.3 * width
+    for few in (length < 0.1702, length < 0.19):  # too few, and none beyond the crossing
+        assert np.isnan(fitted_crossing(length[few], exact[few])["stability_length"])
+    assert np.isnan(fitted_crossing(length, -exact)["stability_length"])
+
+
+def test_table_compares_with_the_reference_study():
+    """Of the same fault alone: neither of another height nor of another material."""
+    stiff = {"shear_modulus": 9e9}
+    declared = [("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5)]
+    declared += [("converged", stiff, 0.8), ("paper", stiff, 0.84)]
+    runs = [
+        Run(role, "mine", PARAMETERS.replaced(changes), 0.4, role=role).to_dict()
+        for role, changes, _ in declared
+    ]
+    patches = [
+        xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for _, _, length in declared
+    ]
+    table = gather_stability(runs, patches)
+    assert set(table.data_vars) == set(STABILITY)
+    np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25, 2.0, 2.1])
+    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan, 0.0, 0.05], atol=1e-12)
+
+
+LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
+WEAK = Heterogeneity(varies="friction", change=-0.8, width=0.25)
+TWO = SecondBody(kind="deformable")
+LOADED = {
+    "remote": Parameters(
+        loading=Loading(
+            kind="remote", stress_rate=1e5, initial_state=0.01, initial_stress="uniform_shear",
+            initial_shear_stress=7.5e4,
+        ),
+        geometry=Geometry(0.1, 1.2), mesh=Mesh(161, 6, 4.0), second_body=TWO,
+    ),
+    "top": Parameters(
+        loading=Loading(kind="top", initial_state=0.05), geometry=Geometry(0.1, 2.0),
+        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, far_side="clamped"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", LOADED)
+def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
+    """They begin where the fault is weakest: the numbers of docs/creeping_patch.md, coarser."""
+    parameters = dataclasses.replace(
+        LOADED[kind],
+        friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),
+        heterogeneity=WEAK,
+        stepping=Stepping(longest_step=0.4),
+    )
+    dynamics, velocity = composed(parameters), parameters.loading.velocity
+    recorder = Recorder(parameters, dynamics)
+    for instant in run(parameters, dynamics=dynamics):
+        recorder.record(instant.state, instant.report)
+        if instant.report.interface.slip_rate.max() > 30.0 * velocity:
+            break
+    found = follow_patch(recorder.dataset(), ExtractionSettings())
+    critical = run_length(parameters, interface_state(parameters))
+    theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
+    assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
+    assert found["stability_length_error"] < 0.03 * theory.length

@@ -1,0 +1,72 @@
+"""A record reads a run once, by one definition of everything."""
+
+import numpy as np
+import pytest
+from extraction.made_up_patch import VELOCITY, synthetic_simulation
+
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.extraction import extract
+from nucleation.extraction.record import Record
+from nucleation.model.parameters import Parameters
+from nucleation.simulation.patch import slipping_edge
+
+SETTINGS = ExtractionSettings(edge_threshold=0.1)
+
+
+def test_lengths_follow_every_frame():
+    record = Record(synthetic_simulation(), SETTINGS)
+    expected = 0.05 * np.sqrt(record.time) + 0.05 * np.log(10.0)
+    np.testing.assert_allclose(record.lengths, expected, atol=1e-3)
+    assert record.threshold == pytest.approx(0.1 * VELOCITY)
+    usual, high, low = record.lengths_at_drop
+    np.testing.assert_array_equal(usual, record.lengths[record.frames_at(record.drop_times)])
+    assert (high < usual).all() and (usual < low).all()
+
+
+def test_lengths_never_fall_and_are_those_of_a_run_that_is_going_on():
+    simulation = synthetic_simulation()
+    pause = 1.0 - 0.999 * np.exp(-(((simulation["time"] - 10.0) / 0.3) ** 2))
+    record = Record(simulation.assign(slip_rate=simulation["slip_rate"] * pause), SETTINGS)
+    assert (np.diff(record.lengths) >= 0.0).all() and (np.diff(record.lengths) == 0.0).any()
+    rates = record.simulation["slip_rate"].values
+    one_by_one = [slipping_edge(record.x, rate, record.threshold) for rate in rates]
+    np.testing.assert_array_equal(np.maximum.accumulate(one_by_one), record.lengths)
+
+
+def test_onset_creep_and_extraction_agree():
+    record = Record(synthetic_simulation(onset=10.0), SETTINGS)
+    assert record.drop_times[0] == pytest.approx(10.0, abs=0.011)
+    assert record.time[record.creep[-1]] <= record.drop_times[0] < record.time[record.creep[-1] + 1]
+    length = record.lengths[record.frames_at(record.drop_times)][0]
+    assert extract(record.simulation, SETTINGS)["length"] == length
+
+
+@pytest.mark.parametrize(("fall", "abrupt"), [(0.8, True), (1.6, False)])
+def test_an_abrupt_drop_takes_no_longer_than_the_memory_time(fall, abrupt):
+    """A fall by 2.5 % counts if 2 % of it are within D/V, which is 0.05 s."""
+    record = Record(synthetic_simulation(fall=fall * 0.05, size=0.025), SETTINGS)
+    assert (record.onset is not None) == abrupt
+
+
+def test_frames_of_creep_end_with_the_start_of_the_drop():
+    """Not with its steepest part or its end: the drop takes several frames."""
+    record = Record(synthetic_simulation(fall=0.04, size=0.2), SETTINGS)
+    start, _, end = record.drop_times
+    during = (record.time > start) & (record.time <= end)
+    assert during.sum() > 1
+    assert record.time[record.creep[-1]] <= start
+
+
+@pytest.mark.parametrize(("kind", "time"), [("edge", 9.0), ("top", 10.0)])
+def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(kind, time):
+    """The interface slips at 1e4 V from 9 s on, and the force falls at 10 s."""
+    simulation = synthetic_simulation()
+    steps = simulation["step_time"].values
+    rates = np.where(steps < 9.0, VELOCITY, 1e4 * VELOCITY)
+    force = simulation["driving_force"].values.copy()
+    force[(steps > 8.99) & (steps < 9.5)] *= 0.999  # a small fall, then the rupture raises it
+    parameters = Parameters().replaced({"loading": kind})
+    changed = simulation.assign(
+        maximal_slip_rate=("step", rates), driving_force=("step", force)
+    ).assign_attrs(parameters=parameters.to_json())
+    assert Record(changed, SETTINGS).drop_times[0] == pytest.approx(time, abs=0.02)

@@ -1,0 +1,136 @@
+"""Twin runs: does a small kick of the creeping patch grow as the frozen patch says?
+
+A run goes on twice from the same state, in the same steps: as it is, and with the log of the state
+variable kicked in the shape of the frozen patch's oscillating mode. The difference obeys the full
+equations, with inertia, a moving front and its hops from node to node. The mode's amplitude in it
+follows by the left eigenvector, which other modes do not enter.
+"""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.frozen import Freezer
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation.patch import slipping_edge
+from nucleation.simulation.run import composed, run
+from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
+from nucleation.theory.creep.front import advance, oscillating
+from nucleation.theory.creep.lengths import Patches
+
+pytestmark = pytest.mark.slow
+
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.1, length=3.2),
+    mesh=Mesh(n_x=400, n_y=8, grading=10.0),
+    stepping=Stepping(end_time=14.0, longest_step=0.04),
+)
+THEORY = 0.7949  # m
+SHARES = (0.45, 0.62)  # of it, at which a patch is kicked
+KICK = 1e-4  # of log(phi), largest over the patch
+PERIODS, SKIPPED, FROZEN = 3.0, 0.5, 8  # followed, left out at first; instants of freezing
+
+
+class Twin:
+    """A kicked run beside the run it started from, and what is seen of the two."""
+
+    def __init__(self, freezer, instant, length, kick=KICK):
+        self.freezer, self.dynamics = freezer, composed(PARAMETERS)
+        patch, self.rate = self.freeze(instant)
+        self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
+        shape = np.zeros(PARAMETERS.mesh.n_x + 1)
+        shape[patch.nodes] = patch.mode(self.rate)[1].real
+        past = instant.state.past_log_states + kick * shape / np.abs(shape).max()
+        self.state = dataclasses.replace(instant.state, past_log_states=past)
+        self.start, self.first_length = instant.state.time, length
+        self.end = self.start + 2.0 * np.pi * PERIODS / self.rate.imag
+        self.time, self.amplitude, self.frozen, self.lengths = [], [], [], []
+
+    def freeze(self, instant):
+        at = instant.report.interface
+        patch = self.freezer.frozen(at.slip_rate, np.exp(at.log_state), at.normal)
+        return patch, self.freezer.oscillating(patch, at.slip_rate)
+
+    def advance(self, instant, length):
+        """Take the step that the run has taken, whose patch is as long (m)."""
+        steps = instant.state.last_step, self.state.last_step
+        beta = self.dynamics.scheme.coefficient(*steps)
+        rung = round(RUNGS_PER_OCTAVE * np.log2(beta))
+        self.state, _ = self.dynamics.advance(self.state, rung)
+        self.time.append(instant.state.time - self.start)
+        self.amplitude.append(self.difference(instant.state) @ self.weights)
+        if self.time[-1] >= len(self.lengths) * (self.end - self.start) / FROZEN:
+            self.lengths.append(length)
+            self.frozen.append(self.freeze(instant)[1])
+
+    def difference(self, state):
+        """Displacement (m) and log state less those of the run, at the patch's nodes."""
+        own, nodes = self.state, self.nodes
+        apart = own.past_w[0] - state.past_w[0], own.past_log_states[0] - state.past_log_states[0]
+        return np.append(apart[0][nodes - 1], apart[1][nodes])
+
+    def measured(self):
+        """Growth rate and frequency (1/s), by least squares."""
+        time = np.array(self.time)
+        used = time >= 2.0 * np.pi * SKIPPED / self.rate.imag
+        amplitude = np.array(self.amplitude)[used]
+        logs = np.log(np.abs(amplitude)) + 1j * np.unwrap(np.angle(amplitude))
+        return complex(np.polyfit(time[used], logs, 1)[0])
+
+
+def twins(shares, kick=KICK):
+    """Twins of the run, each followed to its end."""
+    threshold = ExtractionSettings().edge_threshold * PARAMETERS.loading.velocity
+    freezer = Freezer(PARAMETERS, threshold)
+    length, waiting, active, found = 0.0, [*shares], [], []
+    for instant in run(PARAMETERS):
+        rate = instant.report.interface.slip_rate
+        length = max(length, float(slipping_edge(freezer.grid.x, rate, threshold)))
+        for twin in active:
+            twin.advance(instant, length)
+        active = [twin for twin in active if instant.state.time < twin.end]
+        if waiting and length >= waiting[0] * THEORY:
+            waiting.pop(0)
+            active.append(Twin(freezer, instant, length, kick))
+            found.append(active[-1])
+        if not (active or waiting):
+            return found, instant.state
+    raise AssertionError("the run ended before its twins")
+
+
+@pytest.fixture(scope="module")
+def followed():
+    return twins(SHARES)[0]
+
+
+def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
+    """They grow somewhat faster, by about what the patch itself does: docs/creeping_patch.md."""
+    measured = np.array([twin.measured() for twin in followed])
+    frozen = np.array([np.mean(twin.frozen) for twin in followed])
+    assert measured.real[0] < -0.5 and frozen.real[0] < -0.5
+    assert measured.real[1] > 0.5 and frozen.real[1] > 0.5
+    assert (measured.real - frozen.real > 0.0).all() and (measured.real - frozen.real < 0.3).all()
+    np.testing.assert_allclose(measured.imag, frozen.imag, rtol=0.02)
+
+
+def test_the_theory_has_the_time_and_the_growth_of_each_patch(followed):
+    patches, start = Patches.of(PARAMETERS), PARAMETERS.loading.initial_state
+    first = advance(patches, np.array([twin.first_length for twin in followed]), start)
+    assert first.time == pytest.approx([twin.start for twin in followed], rel=0.015)
+    mean = advance(patches, np.array([np.mean(twin.lengths) for twin in followed]), start)
+    rates = oscillating(mean) / PARAMETERS.memory_time
+    frozen = np.array([np.mean(twin.frozen) for twin in followed])
+    assert rates.real == pytest.approx(frozen.real, abs=0.35)
+    assert rates.imag == pytest.approx(frozen.imag, rel=0.025)
+
+
+def test_twin_without_a_kick_is_the_run(monkeypatch):
+    """It takes the very steps of the run, and the restarted state loses nothing."""
+    monkeypatch.setattr("test_twins.PERIODS", 0.1)
+    (twin,), state = twins((0.3,), kick=0.0)
+    assert twin.state.time == pytest.approx(state.time, rel=1e-12)
+    displacement, log_state = np.split(twin.difference(state), 2)
+    assert np.abs(displacement).max() < 1e-12 * PARAMETERS.geometry.length
+    assert np.abs(log_state).max() < 1e-7

@@ -1,0 +1,127 @@
+"""Tables of lengths: realisations of one fault."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from made_up_runs import ONSET, PARAMETERS, changed, record
+from made_up_runs import run as made_up_run
+
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.model.linearised import linearised
+from nucleation.model.parameters import Parameters
+from replication.tables.lengths import (
+    lengths_table,
+    of_studies,
+    over_realisations,
+    realisations,
+    row,
+    second_body,
+)
+
+
+def rows(**changes):
+    columns = {
+        "id": ["a-seed1", "b", "a-seed2", "c-seed1"],
+        "study": ["one", "one", "one", "two"],
+        "height": [0.1, 0.2, 0.1, 0.1],
+        "ensemble": ["e1", "e2", "e1", "e1"],
+        "seed": [1, 0, 2, 1],
+        "length": [0.50, 0.7, 0.54, 0.6],
+        "length_low": [0.48, 0.6, 0.46, 0.5],
+        "length_high": [0.55, 0.8, 0.56, 0.7],
+        "steps": [3000, 3, 3001, 3],
+    }
+    return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
+
+
+def test_realisations_differ_in_the_seed_alone():
+    assert realisations(rows()) == [[0, 2], [1], [3]]
+    assert realisations(rows(ensemble=["e1", "e2", "e3", "e1"])) == [[0], [1], [2], [3]]
+
+
+def test_mean_of_realisations_and_the_ends_of_their_ranges():
+    found = over_realisations(rows())
+    assert list(found["id"].values) == ["a-seed1", "b", "c-seed1"]
+    assert list(found["realisations"].values) == [2, 1, 1]
+    np.testing.assert_allclose(found["length"], [0.52, 0.7, 0.6])
+    np.testing.assert_allclose(found["length_low"], [0.46, 0.6, 0.5])
+    np.testing.assert_allclose(found["length_high"], [0.56, 0.8, 0.7])
+    quiet = over_realisations(rows(length=[0.5, 0.7, np.nan, 0.6]))  # none is passed over
+    np.testing.assert_allclose(quiet["length"], [np.nan, 0.7, 0.6])
+
+
+def test_rows_say_what_lies_below(table):
+    assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
+    assert np.isnan(table["second_height"].item())
+    pair = Parameters().replaced(
+        {"second_body": "deformable", "second_far_side": "clamped", "second_shear_modulus": 9e9,
+         "height": 0.02}
+    )  # fmt: skip
+    assert second_body(pair) == {
+        "far_side": "clamped",
+        "second_height": 0.02,
+        "second_shear_modulus": 9e9,
+        "second_poisson_ratio": pair.material.poisson_ratio,
+    }
+
+
+RUN = {"status": "completed: made up", "steps": 3, "wall_seconds": 1.0, "peak_megabytes": 1.0}
+PERTURBED = {"perturbation": "normal_load", "strength": 1e-3, "seed": 3}
+
+
+def made_up_table(parameters, simulation):
+    """The table of one run with this record, of slip rates alone."""
+    parameters = parameters.replaced({"record": "lengths"})
+    interface = linearised(parameters.friction, parameters.loading)
+    own = made_up_run("mine", parameters) | {"study": "made_up", "role": "own"}
+    own |= {"interface": {name: getattr(interface, name) for name in ("friction", "a", "zeta")}}
+    simulation = simulation.assign_attrs(RUN | {"parameters": parameters.to_json()})
+    return lengths_table([own], [simulation], ExtractionSettings())
+
+
+@pytest.mark.parametrize(("given", "strength"), [({}, 0.0), (PERTURBED, 1e-3)])
+def test_strength_is_that_of_the_declared_perturbation(given, strength):
+    table = made_up_table(changed(**given), record())
+    assert table["strength"].item() == strength
+    assert table["simulated_time"].item() == pytest.approx(ONSET + 2e-3)
+    assert table["reached_length"].item() == table["length"].item()
+
+
+def test_a_run_without_an_event_has_the_length_that_it_reached():
+    quiet = record()
+    rising = -np.linspace(1.0, 2.0, quiet.sizes["step"])
+    table = made_up_table(PARAMETERS, quiet.assign(driving_force=("step", rising)))
+    last = np.flatnonzero(quiet["slip_rate"].values[-1] > 0.01 * PARAMETERS.loading.velocity)[-1]
+    assert np.isnan(table["length"].item())
+    assert table["reached_length"].item() == pytest.approx(float(quiet["x"][last]), abs=0.011)
+
+
+@pytest.mark.parametrize(
+    ("given", "known"),
+    [
+        ({}, True),
+        ({"varies": "normal_stress", "change": -0.1, "width": 0.3}, True),
+        ({"loading": "top", "varies": "friction", "change": -0.1, "width": 0.3}, True),
+        ({"loading": "top", "varies": "normal_stress", "change": -0.1, "width": 0.3}, False),
+    ],
+)
+def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):
+    parameters = changed(**given)
+    simulation = record()
+    if given.get("loading") == "top":
+        simulation = simulation.assign(
+            fastest_position=("step", np.zeros(simulation.sizes["step"]))
+        )
+    table = made_up_table(parameters, simulation)
+    assert (table["stability_status"].item() != "unknown") == known
+
+
+def test_the_row_of_a_run_is_found_by_its_id():
+    assert row(rows(), "b")["height"].item() == 0.2
+
+
+def test_the_columns_file_names_each_column_once():
+    joined = xr.Dataset({"id": ("run", ["a"])})
+    head, *lines = of_studies([joined])[".columns.csv"].splitlines()
+    assert head == "column,units,meaning,symbol"
+    assert len(lines) == len({line.partition(",")[0] for line in lines}) > 40

@@ -1,0 +1,159 @@
+"""Simulated lengths of the literature: how they are read, and what the committed table says."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from lengths.test_in_use import crack_coefficients
+
+from nucleation.extraction import zones
+from nucleation.lengths.formulas import LOCALISED_LIMIT
+from nucleation.lengths.in_use import LENGTHS
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Parameters
+from replication.figures.beyond import figure_literature
+from replication.tables import literature
+
+FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
+
+
+@pytest.mark.parametrize(("name", "factor"), [("thin_layer", 2.0), ("state_evolution", 1.0)])
+def test_a_zone_of_known_width_is_read_at_the_slip_rate_asked_for(name, factor):
+    x = np.linspace(0.0, 1.0, 2002)
+    widths, fastest = np.array([0.1, 0.2]), np.array([1e-5, 1e-3])
+    shape = 0.5 ** ((x - 0.5) / (0.5 * widths[:, None])) ** 2  # half the maximum at width/2
+    rates = fastest[:, None] * shape
+    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), np.ones_like(rates))}
+    simulation = xr.Dataset(fields, {"x": x})
+    found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS[name])
+    assert found == pytest.approx(factor * 0.15, rel=1e-3)
+    assert np.isnan(zones.zone_length(simulation, 1e-2, zones.DEFINITIONS[name]))
+
+
+def test_the_fixed_length_is_read_from_the_part_of_it_that_its_solution_has_at_half_the_maximum():
+    """The edges of ``|x| < 1.3774 L_b`` are beyond what a slip rate shows."""
+    n, c = crack_coefficients(1.3774)
+    x = np.linspace(0.0, 0.999, 2000)
+    v = np.sin(np.outer(np.arccos(x), n)) @ c
+    part = zones.DEFINITIONS["rubin_ampuero_localised"].part
+    assert part == pytest.approx(np.interp(-0.5, -v / v[0], x), rel=1e-3)
+
+
+def test_a_crack_is_read_between_its_tips_though_slip_is_slow_within():
+    """The tips are at 0.3 and 0.7; the middle is slower than a tenth of them."""
+    x = np.linspace(0.0, 1.0, 2001)
+    tips = 0.5 ** ((x - 0.3) / 0.01) ** 2 + 0.999 * 0.5 ** ((x - 0.7) / 0.01) ** 2
+    shape = np.maximum(tips, np.where(abs(x - 0.5) < 0.2, 0.02, 0.0))
+    rates = np.array([1e-5, 1e-3])[:, None] * shape
+    states = np.ones_like(rates)
+    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
+    simulation = xr.Dataset(fields, {"x": x})
+    found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS["rubin_ampuero_crack"])
+    assert found == pytest.approx(0.4 + 2 * 0.01 * np.sqrt(np.log2(10.0)), abs=1e-3)
+
+
+def test_far_ahead_is_read_half_a_period_from_the_fastest_point():
+    x = np.linspace(0.0, 1.0, 101)
+    away = np.abs((x - 0.2 + 0.5) % 1.0 - 0.5)  # from x = 0.2; half a period away is x = 0.7
+    rates = np.array([1e-6, 1e-2])[:, None] * np.exp(-20.0 * away)
+    states = np.array([2.0, 4.0])[:, None] * (1.0 + away)
+    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
+    simulation = xr.Dataset(fields, {"x": x})
+    rate, state_ratio = zones.far_ahead(simulation, 1e-4, 5e-7)
+    mean = 0.5 * (1e-6 + 1e-2) * np.exp(-10.0)  # linear in log of the largest rate: half way
+    assert rate == pytest.approx(mean, rel=1e-6)
+    assert state_ratio == pytest.approx(mean * 3.0 * 1.5 / 5e-7, rel=1e-6)
+    assert np.isnan(zones.far_ahead(simulation, 1.0, 5e-7)).all()
+    stuck = simulation.assign(slip_rate=simulation["slip_rate"].where(away < 0.4, 0.0))
+    assert np.isnan(zones.far_ahead(stuck, 1e-4, 5e-7)).all()
+
+
+def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():
+    assert {length.key for length in LENGTHS} == set(FRAME["name"])
+    assert FRAME["definition"].notna().all()
+
+
+def test_asymptotes_are_met_where_their_source_claims_them():
+    """Within 3 %; the expanding length where a zone is long beside its tips, a/b = 0.7 and 0.9."""
+    late = FRAME[np.isclose(FRAME["read_at"], 1e3)]
+    fixed = late[(late["name"] == "rubin_ampuero_localised") & (late["a_over_b"] < LOCALISED_LIMIT)]
+    assert len(fixed) >= 10 and fixed["difference"].abs().max() < 0.03
+    thin = late[late["name"] == "thin_layer"]
+    assert len(thin) == 3 and thin["difference"].abs().max() < 0.03
+    expanding = late[(late["name"] == "rubin_ampuero_crack") & (late["a_over_b"] > 0.6)]
+    steady = expanding[expanding["far_state_ratio"] < 1.5]
+    assert len(steady) >= 6 and steady["difference"].abs().max() < 0.03
+
+
+def test_a_zone_that_expands_before_steady_state_is_nearer_to_the_length_of_its_slip_rate():
+    """v phi/D of 13 far ahead: the asymptote is far away."""
+    away = FRAME[(FRAME["name"] == "rubin_ampuero_crack") & (FRAME["far_state_ratio"] > 5.0)]
+    ratio = away["simulated_length"] / away["finite_speed_length"]
+    assert len(away) == len(literature.SLIP_RATES)
+    assert (abs(np.log(ratio)) < abs(np.log1p(away["difference"]))).all()
+
+
+def test_by_the_slip_law_a_zone_shrinks_as_the_logarithm_of_its_slip_rate_grows():
+    """``width log(v/v_far)/L_b`` does not depend on v where a zone has six elements or more."""
+    slip = FRAME[(FRAME["evolution"] == "slip") & np.isclose(FRAME["a_over_b"], 0.3)]
+    fine = slip[slip["n_x"] == slip["n_x"].max()]
+    product = (1.0 + fine["difference"]) * np.log(fine["read_at"] / fine["far_slip_rate"])
+    assert len(product) == 4 and product.max() / product.min() < 1.05
+
+
+def test_the_figure_draws_every_simulated_length():
+    table = xr.Dataset({name: ("run", FRAME[name]) for name in FRAME})
+    left, right = figure_literature.draw(table).axes
+    assert [line.get_label() for line in left.lines[:4]] == [
+        kind[0] for kind in figure_literature.KINDS.values()
+    ]
+    assert len(right.lines) > 8
+
+
+def test_a_row_says_where_the_formula_is_beyond_its_limit():
+    gap = FRAME[(FRAME["a_over_b"] > LOCALISED_LIMIT) & (FRAME["a_over_b"] < 0.5)]
+    assert set(gap["a_over_b"].round(6)) == {0.4, 0.45}
+    assert gap["definition"].str.contains("beyond its limit").all()
+    fixed = FRAME[(FRAME["name"] == "rubin_ampuero_localised") & (FRAME["a_over_b"] < 0.37)]
+    assert not fixed["definition"].str.contains("beyond").any()
+
+
+SETTINGS = {
+    "thin_layer": {"second_body": "rigid"},
+    "state_evolution": {"second_body": "deformable", "evolution": "slip"},
+    "rubin_ampuero_localised": {"second_body": "deformable", "zeta_over_a": 4.0},
+    "rubin_ampuero_crack": {"second_body": "deformable", "zeta_over_a": 0.5},
+    "between both": {"second_body": "deformable", "zeta_over_a": 1.2},
+}
+
+
+def test_a_run_is_read_as_the_length_whose_setting_it_is():
+    """Beside its formula; lengths without a run have their reason, and what is none has no row."""
+    x = np.linspace(0.0, 1.0, 401)
+    rate = np.array([1e-6, 2e3])[:, None] * 0.5 ** ((x - 0.5) / 0.05) ** 2
+    fields = {"slip_rate": (("time", "x"), rate), "state": (("time", "x"), np.ones_like(rate))}
+    simulation = xr.Dataset(fields, {"x": x})
+    runs = []
+    for name, changes in SETTINGS.items():
+        ratio = changes.get("zeta_over_a", 2.0)
+        friction = Friction().with_expansion(1e-5, 0.41, 0.0068, ratio * 0.0068)
+        own = {key: value for key, value in changes.items() if key != "zeta_over_a"}
+        parameters = Parameters(friction=friction).replaced(own)
+        runs.append({"id": name, "parameters": parameters.to_dict()})
+    table = literature.literature_table(runs, [simulation] * len(runs)).to_dataframe()
+    read = table[table["id"] != ""]
+    assert list(read["id"].unique()) == [*SETTINGS]
+    assert list(read["name"].unique()) == [*SETTINGS][:-1]
+    assert len(read) == len(SETTINGS) * len(literature.SLIP_RATES)
+    gap = read[read["id"] == "between both"]  # beside the fixed length, which does not hold there
+    assert set(gap["name"]) == {"rubin_ampuero_localised"} and (gap["formula_length"] > 0.0).all()
+    assert gap["definition"].str.contains("beyond its limit").all()
+    difference = read["simulated_length"] / read["formula_length"] - 1.0
+    np.testing.assert_allclose(read["difference"], difference)
+    thin = read[read["name"] == "thin_layer"]  # twice the width at half of the maximum, 0.1 m
+    np.testing.assert_allclose(thin["simulated_length"], 0.2, rtol=1e-2)
+    others = table[table["id"] == ""]
+    assert {*others["name"]} == {length.key for length in LENGTHS} - {*SETTINGS}
+    assert others["definition"].ne("").all() and others["simulated_length"].isna().all()

@@ -1,0 +1,119 @@
+"""Simulated drops beside L_s, L_run and the law: the table, and the figure that is drawn of it."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.datasets.variables import table
+from nucleation.drop.expected_drop import expected_drop
+from nucleation.model.identity import fault
+from nucleation.model.parameters import Parameters
+from nucleation.model.perturbation import Perturbation
+from nucleation.theory.creep.thin import thin_limit
+from replication.figures.beyond import figure_weakening
+from replication.tables.lengths import COLUMNS as LENGTHS
+from replication.tables.weakening import (
+    CURVES,
+    MEASURED,
+    expected,
+    gather_weakening,
+    weakening_curves,
+)
+
+STRONG = Parameters(perturbation=Perturbation(kind="normal_load", strength=1e-4))
+QUIET = Parameters()
+
+
+def lengths(parameters, seeds):
+    """A table of lengths: the force of each run drops at 0.6 m, plus a tenth for each seed."""
+    columns = {**MEASURED, **{name: LENGTHS[name] for name in REST}}
+    rows = []
+    for seed in seeds:
+        row = dict.fromkeys(columns, 0.0)
+        row |= {"study": "own", "id": f"run-{seed}", "evolution": "aging", "below": "rigid"}
+        row |= {"kind": "normal_load", "seed": seed, "fault": fault(parameters)}
+        row |= {"length": 0.6 + 0.1 * seed, "critical_length": 1.0, "height": 0.02}
+        rows.append(row | {"zeta": 0.014, "a": 0.007})
+    return table(rows, columns)
+
+
+REST = ("fault", "zeta", "a")
+
+
+def test_a_row_has_the_answer_of_the_law():
+    known = expected_drop(STRONG)
+    row = expected(STRONG)
+    assert row["stability_length"] == known.stability_length
+    assert row["law_length"] == row["expected_length"] == known.drop.length
+    assert row["expected_low"] < row["expected_length"] < row["expected_high"]
+    assert np.isnan(row["runaway_length"])
+
+
+def test_a_fault_without_an_answer_has_its_reason():
+    row = expected(QUIET)
+    assert np.isnan(row["expected_length"])
+    assert "nothing is perturbed" in row["doubt"]
+
+
+def test_every_run_is_beside_the_theory_of_its_fault():
+    found = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    assert found["length"].values.tolist() == pytest.approx([0.7, 0.8])
+    assert np.unique(found["law_length"]).size == 1
+    np.testing.assert_allclose(found["zeta_over_a"], 2.0)
+
+
+def drawn_rows():
+    """Two realisations for each of three weakenings."""
+    one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    return [one.assign(zeta_over_a=("run", np.full(2, value))) for value in (0.5, 1.0, 3.0)]
+
+
+def with_curves(rows):
+    """A table with the same curve for all lengths."""
+    x = np.geomspace(0.2, 6.0, 9)
+    lines = ("curve_stability", "curve_runaway", "curve_law")
+    curves = {name: (("system", "curve"), [1.0 / np.sqrt(x)]) for name in lines}
+    curves |= {"curve_study": ("system", ["own"]), "curve_below": ("system", ["rigid"])}
+    curves |= {"curve_height": ("system", [0.02]), "curve_half_spaces": ("system", [False])}
+    curves["curve_ratio"] = ("curve", x)
+    return xr.concat(rows, dim="run").merge(xr.Dataset(curves))
+
+
+def test_the_figure_has_a_panel_for_each_base_with_curves():
+    rows = drawn_rows()
+    alone = rows[0].assign(height=("run", np.full(2, 1.0)))  # of one weakening: no curve
+    (axes,) = figure_weakening.draw(with_curves([*rows, alone])).axes
+    points = [container.lines[0] for container in axes.containers]
+    assert [float(point.get_xdata()[0]) for point in points] == [0.5, 1.0, 3.0]
+    assert points[0].get_ydata() == pytest.approx(0.75)
+
+
+@pytest.mark.slow
+def test_curves_of_a_thin_layer_and_of_half_spaces():
+    """L_s of a thin layer is that of the thin limit; high blocks have the curves of half-spaces."""
+    law = {"friction_law": "dieterich_ruina", "strength": 1e-4, "perturbation": "normal_load"}
+    thin = Parameters().replaced(law | {"height": 0.002})
+    high = Parameters().replaced(law | {"height": 3.0, "second_body": "deformable"})
+    runs = []
+    for parameters in (thin, high):
+        one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
+        runs.append(one)
+    found = weakening_curves(runs, [2.5, 6.0])
+    assert set(found) == set(CURVES)
+    assert found["curve_half_spaces"].values.tolist() == [False, True]
+    limits = [thin_limit(ratio).length_ratio for ratio in (2.5, 6.0)]
+    np.testing.assert_allclose(found["curve_stability"][0], limits, rtol=0.05)
+    higher = high.replaced({"height": 600.0, "second_height": 600.0})
+    runs[1] = runs[1] | {"parameters": higher.to_dict()}
+    again = weakening_curves(runs[1:], [2.5, 6.0])
+    np.testing.assert_allclose(again["curve_law"][0], found["curve_law"][1], rtol=1e-2)
+    assert np.isnan(found["curve_runaway"]).all()
+
+
+def test_the_figure_draws_the_curves_that_are_given():
+    table = with_curves(drawn_rows())
+    x = table["curve_ratio"].values
+    (axes,) = figure_weakening.draw(table).axes
+    for line in axes.lines[:3]:
+        np.testing.assert_array_equal(line.get_xdata(), x)
+        np.testing.assert_array_equal(line.get_ydata(), 1.0 / np.sqrt(x))
