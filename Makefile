@@ -1,23 +1,22 @@
 # make paper: every figure and table of the paper.   make test: the tests.   make help: the rest.
 # What users may give. Empty: CONFIG is the default configuration, TARGETS all of it, PYTHON the newest
-# Python that works here of those the project runs on, RESULTS the directory that CONFIG names.
+# Python that works here of those the project runs on.
 CORES ?= 2
 CONFIG ?=
 TARGETS ?=
 PYTHON ?=
-FILE ?=
-RELEASE ?= release
-RESULTS ?=
 PRUNE ?=
 PARTS ?= solver
 FAULTS ?= 200
 SEED ?= 1
 PYTHON_IS := $(origin PYTHON)
 
-# Recipes read these from the environment, "$$CONFIG". Neither make nor a shell runs what a name holds.
-GIVEN := CORES CONFIG TARGETS PYTHON FILE RELEASE RESULTS PRUNE PARTS FAULTS SEED
-$(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
-export $(GIVEN)
+# Recipes read these from the environment, "$$CONFIG". Neither make nor a shell runs what they hold, nor
+# what any other variable of the command line holds.
+GIVEN := CORES CONFIG TARGETS PYTHON PRUNE PARTS FAULTS SEED
+ASKED := $(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name)))
+$(foreach name,$(GIVEN) $(ASKED),$(eval override $(name) := $$(value $(name))))
+export $(GIVEN) $(ASKED)
 
 VENV ?= .venv
 ifneq ($(words $(VENV)),1)
@@ -28,8 +27,6 @@ BIN := $(ENVIRONMENT)/bin
 # What `make paper` needs is installed, and what development needs too.
 STAMP := $(VENV)/environment.stamp
 DEV_STAMP := $(VENV)/environment-dev.stamp
-STEM = $(shell $(BIN)/python -c 'import tomllib; \
-	p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(p["name"], p["version"], sep="-")')
 
 PYTEST = $(BIN)/python -m pytest --dist loadfile --no-loadscope-reorder
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.
@@ -39,7 +36,7 @@ OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
 .PHONY: help install paper report replication quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
-	targets check prune bundle restore release released torture
+	targets check prune torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -115,32 +112,6 @@ check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
 	$(LAUNCH) prune $(OPTIONS)
 
-bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
-	@$(BIN)/python -m replication.pipeline.bundle write "$${FILE:-results.tar}" "$$CONFIG"
-
-release: $(DEV_STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
-	$(LAUNCH) paper replication report $(OPTIONS)
-	@$(MAKE) --no-print-directory released
-
-RESULTS_OF = import sys; from replication.configuration.load import load; \
-	print(load(*filter(None, sys.argv[1:]), lazy=True).results)
-
-# Results that are there; source and wheel are those of the commit.
-released:
-	mkdir -- "$$RELEASE"
-	$(BIN)/python -m replication.pipeline.bundle write "$$RELEASE/$(STEM)-results.tar" "$$CONFIG"
-	results=$${RESULTS:-$$($(BIN)/python -c '$(RESULTS_OF)' "$$CONFIG")} && \
-		cp -- "$$results/replication.pdf" "$$results/replication.tex" "$$results/report.html" "$$RELEASE"
-	git archive --prefix=$(STEM)/ --output="$$RELEASE/$(STEM)-source.tar.gz" HEAD
-	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation -w "$$RELEASE" \
-		"$$RELEASE/$(STEM)-source.tar.gz"
-	cd -- "$$RELEASE" && sums=$$(sha256sum -- *) && echo "$$sums" > SHA256SUMS
-	@git diff --quiet HEAD || echo "Files differ from the commit, and are not in the release" >&2
-	@echo "Before uploading: see CONTRIBUTING.md, A release"
-
-restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
-	@$(BIN)/python -m replication.pipeline.bundle restore "$$FILE" "$$CONFIG"
-
 schema: $(STAMP) ## Make config/schema.json, with which a text editor checks configurations (docs/studies.md)
 	$(BIN)/python -m replication.configuration.schema > config/schema.json
 
@@ -173,7 +144,7 @@ $(STAMP): environment.txt
 	$(BIN)/python -c 'import pathlib, sysconfig; \
 		path = pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth"); \
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
-	printf '#!/bin/sh\nexec "%s/python" -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
+	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
 	@touch $(ENVIRONMENT)/environment.stamp
 

@@ -65,7 +65,6 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from replication.pipeline.job_lines import shorten
 from replication.pipeline.launch import options
 from replication.pipeline.messages import LOGGER
 from replication.pipeline.planning import Plan
@@ -74,8 +73,6 @@ from replication.pipeline.store import others
 gc.freeze()  # searching all loaded objects takes a third of a second in all
 
 PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
-if PLANS and Path(workflow.main_snakefile).parent == BASE:  # no module of another workflow
-    shorten(logger, workflow.output_settings.quiet)
 
 try:
     provenance.moment()

@@ -101,13 +101,10 @@ def snakemake(*arguments: str) -> list[str]:
     ]
 
 
-BUNDLE = ["-m", "replication.pipeline.bundle"]
 COMMANDS = {
     "report": snakemake("report"),
     "nothing_to_do": snakemake("report"),
     "check": snakemake("check"),
-    "bundle": [*BUNDLE, "write", "results.tar", "config.yaml"],
-    "restore": [*BUNDLE, "restore", "results.tar", "config.yaml"],
 }
 """The commands that are measured once all runs of a study and its table are made."""
 
@@ -195,8 +192,6 @@ def _study_costs(
         if per_job == 1:
             return costs
         for command, arguments in COMMANDS.items():
-            if command == "restore":
-                (directory / "results").rename(directory / "moved")
             costs[command] = _cost(arguments, directory)._asdict()
         return costs
 

@@ -23,9 +23,6 @@ for name in (
     "CORES",
     "TARGETS",
     "CONFIG",
-    "FILE",
-    "RELEASE",
-    "RESULTS",
     "PRUNE",
 ):
     os.environ.pop(name, None)

@@ -14,6 +14,8 @@ PROGRAM = """#!{python}
 import json, os, sys
 with open("called", "a") as file:
     print(json.dumps(sys.argv[1:]), file=file)
+with open("environment", "w") as file:
+    json.dump(dict(os.environ), file)
 """
 
 NAMES = [
@@ -47,11 +49,11 @@ def make(tmp_path):
         assert not (tmp_path / "PWN").exists()
         return [json.loads(line) for line in (tmp_path / "called").read_text().splitlines()]
 
+    run.environment = lambda: json.loads((tmp_path / "environment").read_text())
     return run
 
 
 LAUNCH = ["-m", "replication.pipeline.launch"]
-BUNDLE = ["-m", "replication.pipeline.bundle"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -59,8 +61,6 @@ def test_no_name_of_a_file_is_run(make, name):
     cores = ["--cores", "2"]
     assert make("paper", CONFIG=name) == [[*LAUNCH, *cores, "--configfile", name]]
     assert make("report", CONFIG=name) == [[*LAUNCH, "report", *cores, "--configfile", name]]
-    assert make("bundle", CONFIG=name, FILE=name) == [[*BUNDLE, "write", name, name]]
-    assert make("restore", FILE=name) == [[*BUNDLE, "restore", name, ""]]
     assert make("paper", CORES=name) == [[*LAUNCH, "--cores", name]]
 
 
@@ -68,6 +68,13 @@ def test_no_name_of_a_file_is_run(make, name):
 def test_no_name_from_the_environment_is_run(make, name, monkeypatch):
     monkeypatch.setenv("CONFIG", name)
     assert make("paper") == [[*LAUNCH, "--cores", "2", "--configfile", name]]
+
+
+@pytest.mark.parametrize("variable", ["NUCLEATION_STORES", "NUMBA_CACHE_DIR", "OTHER"])
+def test_no_other_variable_is_run_and_all_reach_the_jobs(make, variable):
+    for value in ("$(shell touch PWN)", "$HOME/store", "`touch PWN`"):
+        make("check", **{variable: value})
+        assert make.environment()[variable] == value
 
 
 def test_targets_are_words(make):
@@ -78,7 +85,7 @@ def test_targets_are_words(make):
 
 def test_an_environment_with_a_quote_in_its_name(make, tmp_path):
     (tmp_path / "venv").rename(tmp_path / "v'e$n`v")
-    assert make("paper", VENV="v'e$$n`v") == [[*LAUNCH, "--cores", "2"]]
+    assert make("paper", VENV="v'e$n`v") == [[*LAUNCH, "--cores", "2"]]
 
 
 def test_an_environment_with_a_blank_in_its_name_is_refused(tmp_path):

@@ -1,7 +1,6 @@
 """The whole workflow on coarse grids: what it leaves behind, and what it does not do again."""
 
 import json
-import re
 from pathlib import Path
 
 import numpy as np
@@ -37,19 +36,6 @@ def test_every_file_is_there(results):
     assert "5/18" in (results / "tables" / "table_s1.md").read_text()
     assert len((results / "tables" / "table_s1.csv").read_text().splitlines()) == 8
     assert {path.name for path in results.rglob(".*")} <= set()
-
-
-def test_a_job_is_one_line(quick):
-    """The time, the number of jobs before it, what it makes and its rule; the targets come last."""
-    lines = (quick.directory / "output.txt").read_text().splitlines()
-    start = next(i for i, line in enumerate(lines) if "[0/" in line)
-    end = lines.index(next(line for line in lines if "steps (100%) done" in line))
-    jobs = [line for line in lines[start:end] if not line.startswith("Warning: study")]
-    assert f"{len(jobs)} of {len(jobs)} steps" in lines[end]
-    assert all(re.fullmatch(r"\d\d:\d\d:\d\d \[\d+/\d+\] .+ \(\w+\)", job) for job in jobs[:-1])
-    assert jobs[-1].endswith(" paper")
-    assert any("Simulations of the batch paper-slip-H0.02-phi1 (simulate)" in job for job in jobs)
-    assert start < 40
 
 
 def test_simulations_carry_their_origin_and_units(quick, results):
