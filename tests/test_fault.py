@@ -129,7 +129,7 @@ def test_a_file_is_read_as_by_the_commands(tmp_path):
         ({"Dc": 1e-6}, "did you mean slip_distance"),
         ({"a": None}, "a is missing: every fault needs it"),
         ({"height": [0.1, 0.2]}, "height has 2 values"),
-        ({"far_side": "clamped"}, "far_side = 'clamped' is not allowed with loading = edge"),
+        ({"far_side": "clamped"}, "far_side = 'clamped' is not allowed: the far side of a sim"),
     ],
 )
 def test_what_is_refused(changes, match):

@@ -68,7 +68,7 @@ def random_fault(number):
         fault["second_shear_modulus"] = fault["shear_modulus"] * log_uniform(random, 0.03, 30.0)
         fault["second_poisson_ratio"] = random.uniform(0.0, 0.49)
         fault["second_height"] = fault["height"] * log_uniform(random, 0.1, 10.0)
-    return fault, str(random.choice(["edge", "top", "remote"]))
+    return fault, str(random.choice(["edge", "remote"]))
 
 
 def in_time(question):

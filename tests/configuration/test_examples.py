@@ -49,10 +49,10 @@ def test_shortest_run_of_the_map_nucleates():
 
 @pytest.mark.slow
 def test_rock_nucleates_under_a_load_far_from_the_fault():
-    """The lowest blocks that a top moves, on elements twice as large as the example's."""
+    """The lowest blocks, on elements twice as large as the example's."""
     config = load(CONFIG / "examples" / "rock.yaml")
-    lowest = (x for x in config.runs if "H0.25" in x.id and "loadingtop" in x.id)
+    lowest = (x for x in config.runs if "H0.25" in x.id and "loadingremote" in x.id)
     run = next(lowest)
-    parameters = dataclasses.replace(run.parameters, mesh=Mesh(120, 8, 6.0))
+    parameters = dataclasses.replace(run.parameters, mesh=Mesh(121, 8, 6.0))
     length = extract(simulate(parameters), config.extraction)["length"]
-    assert length == pytest.approx(0.837, rel=0.05)
+    assert length == pytest.approx(0.567, rel=0.05)

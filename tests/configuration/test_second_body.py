@@ -7,7 +7,6 @@ from nucleation.model.parameters import Parameters
 from nucleation.theory.arrays import critical_length
 from nucleation.theory.estimates import growth_time, process_zone, stiffness_of
 from replication.configuration.load import configure
-from replication.configuration.settings import estimated_megabytes
 
 RUN = "studies.s.runs[0]"
 RIGID = "is not allowed with second_body.kind = rigid"
@@ -67,12 +66,6 @@ def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
     )  # fmt: skip
     assert run.critical_length == pytest.approx(float(expected), rel=1e-9)
     assert run.parameters.geometry.length == pytest.approx(6 * run.critical_length, rel=1e-3)
-
-
-def test_memory_counts_dense_factors_under_a_moved_top():
-    pair = {"second_body": "deformable", "second_far_side": "clamped", "n_x": 1200, "n_y": 16}
-    measured = 798.0  # MB, the first 0.3 s for H = 0.02 m
-    assert measured < estimated_megabytes(Parameters().replaced(pair | {"loading": "top"})) < 1000.0
 
 
 def test_estimates_go_with_the_softer_body():

@@ -136,7 +136,11 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     [
         ({"friction.aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
         ({"perturbation.strength": 0.0}, NoLength, "nothing is perturbed"),
-        ({"loading.kind": "top"}, ParameterError, "measure = stability gives L_s of other"),
+        (
+            {"loading.kind": "remote", "loading.stress_rate": 1e5},
+            ParameterError,
+            "measure = stability gives L_s of other",
+        ),
     ],
 )
 def test_what_the_law_does_not_know(change, error, said):

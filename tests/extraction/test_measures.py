@@ -102,7 +102,10 @@ def test_run_without_event_has_no_numbers_but_those_of_its_steps():
     assert {name for name, value in found.items() if np.isfinite(value)} == set(ALWAYS)
 
 
-@pytest.mark.parametrize("given", [{"record": "lengths"}, {"loading": "top"}])
+REMOTE = {"loading": "remote", "stress_rate": 1.0}
+
+
+@pytest.mark.parametrize("given", [{"record": "lengths"}, REMOTE])
 def test_nothing_is_read_of_runs_of_other_kinds(given):
     """Their interface is not recorded, or the patch does not begin at x = 0."""
     run = made_up()

@@ -57,7 +57,7 @@ def test_frames_of_creep_end_with_the_start_of_the_drop():
     assert record.time[record.creep[-1]] <= start
 
 
-@pytest.mark.parametrize(("kind", "time"), [("edge", 9.0), ("top", 10.0)])
+@pytest.mark.parametrize(("kind", "time"), [("edge", 9.0), ("remote", 10.0)])
 def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(kind, time):
     """The interface slips at 1e4 V from 9 s on, and the force falls at 10 s."""
     simulation = synthetic_simulation()
@@ -65,7 +65,8 @@ def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(ki
     rates = np.where(steps < 9.0, VELOCITY, 1e4 * VELOCITY)
     force = simulation["driving_force"].values.copy()
     force[(steps > 8.99) & (steps < 9.5)] *= 0.999  # a small fall, then the rupture raises it
-    parameters = Parameters().replaced({"loading": kind})
+    rate = 1.0 if kind == "remote" else 0.0
+    parameters = Parameters().replaced({"loading": kind, "stress_rate": rate})
     changed = simulation.assign(
         maximal_slip_rate=("step", rates), driving_force=("step", force)
     ).assign_attrs(parameters=parameters.to_json())

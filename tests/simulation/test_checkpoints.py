@@ -40,7 +40,6 @@ RUNS = {
     "antiplane": {"plane": "antiplane"},
     **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
     **{side: {**PAIR, "second_far_side": side} for side in ("free", "clamped", "roller")},
-    "top": {"loading.kind": "top", **PAIR, "second_far_side": "clamped"},
     "remote": {"loading.kind": "remote", "stress_rate": 2e5, "height": 0.5, "length": 3.0,
                "n_x": 61, "n_y": 6, "varies": "normal_stress", "change": -0.1, "width": 0.3,
                "perturbation": "drive_velocity", "strength": 1e-3},

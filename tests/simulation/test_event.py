@@ -131,7 +131,6 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
         ("edge", 1.0, 0.1, True),
         ("edge", 0.04, 0.1, False),  # before D/V
         ("edge", 1.0, 0.9, False),  # at the far end
-        ("top", 0.04, 0.9, True),
         ("remote", 0.04, 0.9, True),
     ],
 )

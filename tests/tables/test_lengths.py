@@ -96,19 +96,22 @@ def test_a_run_without_an_event_has_the_length_that_it_reached():
     assert table["reached_length"].item() == pytest.approx(float(quiet["x"][last]), abs=0.011)
 
 
+REMOTE = {"loading": "remote", "stress_rate": 1e5}
+
+
 @pytest.mark.parametrize(
     ("given", "known"),
     [
         ({}, True),
         ({"varies": "normal_stress", "change": -0.1, "width": 0.3}, True),
-        ({"loading": "top", "varies": "friction", "change": -0.1, "width": 0.3}, True),
-        ({"loading": "top", "varies": "normal_stress", "change": -0.1, "width": 0.3}, False),
+        (REMOTE | {"varies": "friction", "change": -0.1, "width": 0.3}, True),
+        (REMOTE | {"varies": "normal_stress", "change": -0.1, "width": 0.3}, False),
     ],
 )
 def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):
     parameters = changed(**given)
     simulation = record()
-    if given.get("loading") == "top":
+    if given.get("loading") == "remote":
         simulation = simulation.assign(
             fastest_position=("step", np.zeros(simulation.sizes["step"]))
         )

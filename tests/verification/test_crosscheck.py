@@ -164,27 +164,18 @@ def test_what_the_other_solver_lacks_is_refused(parameters, changes, words):
         freefem.arguments(parameters.replaced(changes), CrosscheckSettings(), ExtractionSettings())
 
 
-@pytest.mark.parametrize(
-    ("loading", "bottom", "rms"),
-    [("edge", "free", 0.05), ("edge", "clamped", 5e-3), ("edge", "roller", 5e-3),
-     ("top", "clamped", 5e-3)],
-)  # fmt: skip
-def test_both_solvers_agree_on_a_pair(tmp_path, loading, bottom, rms):
+@pytest.mark.parametrize(("bottom", "rms"), [("free", 0.05), ("clamped", 5e-3), ("roller", 5e-3)])
+def test_both_solvers_agree_on_a_pair(tmp_path, bottom, rms):
     """Two blocks that differ in everything, under a load that fluctuates, with each far side.
 
-    A pair that nothing holds bends, for which so few rows of triangles are 3 % too stiff. One that
-    is moved at the top is stopped before a corner lifts off, when nothing slips yet.
+    A pair that nothing holds bends, for which so few rows of triangles are 3 % too stiff.
     """
-    end = {"edge": 1.0, "top": 0.5}[loading]
-    parameters = PAIR.replaced(
-        {"second_body.far_side": bottom, "loading.kind": loading, "end_time": end}
-    )
+    parameters = PAIR.replaced({"second_body.far_side": bottom, "end_time": 1.0})
     own, theirs = simulate(parameters), solved_by_freefem(tmp_path, parameters)
-    assert rms_of(difference_of_forces((own, theirs), np.linspace(0.2, end, 100))) < rms
+    assert rms_of(difference_of_forces((own, theirs), np.linspace(0.2, 1.0, 100))) < rms
     for name, tolerance in {"slip_rate": 0.1, "slip": 0.1, "sigma_yy": 0.04}.items():
-        if loading == "edge" or name == "sigma_yy":
-            first, second = at_end(own, name)[4:10], at_end(theirs, name)[4:10]
-            np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
+        first, second = at_end(own, name)[4:10], at_end(theirs, name)[4:10]
+        np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
     assert has_friction_of(theirs, parameters.friction)
 
 
@@ -237,7 +228,7 @@ QUANTITIES = {
 }
 
 
-COLUMNS = ["H0.005", "H0.05", "pair", "top"]
+COLUMNS = ["H0.005", "H0.05", "pair"]
 
 
 def test_page_states_the_reference():
@@ -246,7 +237,7 @@ def test_page_states_the_reference():
     shown = REFERENCE.loc[COLUMNS]
     for label, (name, form, scale) in QUANTITIES.items():
         values = shown[name]
-        cells = ["–" if np.isnan(value) else form.format(scale * value) for value in values]
+        cells = [form.format(scale * value) for value in values]
         assert f"| {label} | {' | '.join(cells)} |" in page
     for name, words in {"onset_time": "onset", "length": "$L$"}.items():
         apart = (shown[f"{name}_freefem"] / shown[name] - 1.0).abs()

@@ -235,11 +235,9 @@ class Fault(FaultParameters):
                 raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
             found[name] = value if isinstance(value, str | Friction) else float(value)
         far_side = found.pop("far_side")
-        needed = "velocity" if self.loading == "top" else "free"
-        if FAR_SIDES[far_side] is not FAR_SIDES[needed]:
+        if FAR_SIDES[far_side] is not FAR_SIDES["free"]:
             raise ParameterError(
-                f"far_side = {far_side!r} is not allowed with loading = {self.loading}: the far "
-                f"side of a simulated block is {needed}"
+                f"far_side = {far_side!r} is not allowed: the far side of a simulated block is free"
             )
         found["second_body"] = "deformable"
         if math.isinf(found.get("second_shear_modulus", 0.0)):

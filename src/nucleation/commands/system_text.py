@@ -18,7 +18,6 @@ from .unit_text import in_unit
 
 BEGINS = {
     "edge": "pushed at its edge",
-    "top": "begun at a free side",
     "remote": "begun in the interior",
 }
 """Where the creeping patch begins, by ``--loading``."""
@@ -228,7 +227,7 @@ def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
         elif "second_height" not in given:
             assumed.append("the second body is as high as the first")
     if math.isfinite(number(fault, "height")):
-        if "far_side" not in given and fault.loading != "top":
+        if "far_side" not in given:
             assumed.append("far sides free of changes of stress")
     elif "height" not in given:
         assumed.append("half-spaces")

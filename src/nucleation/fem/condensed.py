@@ -8,10 +8,8 @@ follow its displacement ``w`` (m), the slip less that of the driven edge:
 
 with the nodal tangential force p (N/m) at the free nodes and the nodal normal force R at the nodes
 0..n_x, both on the (upper) body, R > 0 in compression. The free nodes are 1..n_x. Node 0 belongs to
-the driven edge; in a periodic body it repeats node n_x. If no edge is driven
-(:mod:`.free_block`), node 0 is free as well, and the free nodes are counted from one like the
-others. For one block on a rigid base w is its displacement at the interface, for two bodies the
-difference of their displacements.
+the driven edge; in a periodic body it repeats node n_x. For one block on a rigid base w is its
+displacement at the interface, for two bodies the difference of their displacements.
 """
 
 from __future__ import annotations
@@ -56,8 +54,6 @@ class Response:
         Displacement (m) of a pair's interface under the load at w = 0.
     edge : ndarray, optional
         Values of a free right edge (m).
-    halves : tuple of Response
-        The odd and the even part of a body with two free edges.
     """
 
     w: Array
@@ -67,7 +63,6 @@ class Response:
     swept: Array | None = None
     start: Array | None = None
     edge: Array | None = None
-    halves: tuple[Response, ...] = ()
 
 
 class Expectation(NamedTuple):

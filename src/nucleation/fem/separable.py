@@ -72,16 +72,7 @@ class SeparableBody(ElasticBody):
         self.mode_scale = 2.0 / grid.n_x
         self.mass, self.stiffness, self.derivative = matrices.element_matrices(grid.y)
         self.row_sums = self.mass.sum(axis=0)
-        self._set_modes(theta, x_integral, edge_weights)
-
-    def _set_modes(
-        self,
-        theta: Array,
-        x_integral: Array,
-        edge_weights: Array,
-    ) -> None:
-        """Set the modes; parameters as of the class."""
-        dx = self.grid.dx
+        dx = grid.dx
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / dx
         self.x_mass = dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
         self.sine = np.sin(theta)

@@ -11,7 +11,7 @@ import dataclasses
 from .checked import Checked
 from .quantities import ParameterError, quantity
 
-LOADINGS = ("edge", "top", "remote")
+LOADINGS = ("edge", "remote")
 """Kinds of loading: docs/loadings.md."""
 
 
@@ -35,8 +35,8 @@ class Loading(Checked):
         "applied compressive normal stress", "(0.0, 1e10) Pa", symbol="sigma0", default=1.0e6
     )
     velocity: float = quantity(
-        "imposed velocity of the edge or the top that moves; with kind remote, where neither "
-        "moves, the unit of slip rates",
+        "imposed velocity of the edge; with kind remote, where no edge moves, the unit of slip "
+        "rates",
         "(0.0, 1.0) m/s",
         symbol="V",
         default=1.0e-5,
@@ -57,8 +57,8 @@ class Loading(Checked):
         default=0.0,
     )
     kind: str = quantity(
-        "kind of loading: edge, the left edge moves; top, the top moves and the side edges "
-        "are free; remote, a far shear stress rises on a fault that is periodic along x",
+        "kind of loading: edge, the left edge moves; remote, a far shear stress rises on a fault "
+        "that is periodic along x",
         choices=LOADINGS,
         default="edge",
     )

@@ -61,27 +61,17 @@ class Parameters:
         Raises
         ------
         ParameterError
-            If the mesh or the second body does not fit the loading, or a heterogeneity is outside
-            the block or narrower than an element.
+            If the mesh does not fit the loading, or a heterogeneity is outside the block or
+            narrower than an element.
         """
         self._require_parity()
         self._require_place_of_heterogeneity()
-        below = self.below
-        if self.loading.kind == "top" and below is not None and below.far_side != "clamped":
-            raise ParameterError(
-                f"second_body.far_side = {below.far_side} is not allowed with loading.kind = top, "
-                "where nothing else holds the second block: it must be clamped"
-            )
 
     def _require_parity(self) -> None:
-        kind = self.loading.kind
         n_x = self.mesh.n_x
-        if kind == "edge":
-            return
-        parity = "odd" if kind == "remote" else "even"
-        if (n_x % 2 == 1) != (parity == "odd"):
+        if self.loading.kind == "remote" and n_x % 2 == 0:
             raise ParameterError(
-                f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
+                f"mesh.n_x = {n_x} is not allowed with loading.kind = remote: it must be odd"
             )
 
     def _require_place_of_heterogeneity(self) -> None:

@@ -41,7 +41,7 @@ class Drive(Protocol):
 
     @property
     def moves(self) -> bool:
-        """Whether an edge or a side is moved; the driving force is then the force on it."""
+        """Whether an edge is moved; the driving force is then the force on it."""
 
     def at(self, time: float) -> Imposed:
         """Boundary conditions at a time (s)."""
@@ -199,7 +199,7 @@ class _LoadedBody(Protocol):
 
 
 def drive_of(parameters: Parameters, body: _LoadedBody) -> Drive:
-    """The drive of a run: a moving edge or top, or a far load that rises.
+    """The drive of a run: a moving edge, or a far load that rises.
 
     Parameters
     ----------

@@ -160,7 +160,6 @@ class Interface:
         v, w = guess, response.w
         p = response.tangential
         normal = response.normal + self.extra_normal
-        first = normal.size - v.size  # node 0 is free only where no edge is driven
         rates = body.on_all_nodes(v, velocity)
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
@@ -190,9 +189,9 @@ class Interface:
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = body.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
-            change = _newton_direction(operator, friction[first:], residual, damping, elastic, beta)
+            change = _newton_direction(operator, friction[1:], residual, damping, elastic, beta)
             if law.asinh_of_rate:
-                v = _updated_by_asinh(v, change, damping, elastic, least[first:])
+                v = _updated_by_asinh(v, change, damping, elastic, least[1:])
             else:
                 v = passes.updated(v, change, law.regularisation_slip_rate)
             before = rates

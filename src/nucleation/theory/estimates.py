@@ -159,7 +159,7 @@ def growth_time(
 
 
 def _time_to_strength(parameters: Parameters) -> float:
-    """Time (s) until a load without an edge has brought the whole interface to its peak strength.
+    """Time (s) until a remote load has brought the whole interface to its peak strength.
 
     The peak is the strength of sliding at V, plus that of the interface's greater age at the start.
     """
@@ -168,15 +168,4 @@ def _time_to_strength(parameters: Parameters) -> float:
     omega = loading.initial_state * loading.velocity / sliding.slip_length
     peak = sliding.friction + (sliding.a + sliding.zeta) * np.log1p(omega)
     missing = peak * loading.normal_stress - loading.initial_shear_stress
-    return max(missing, 0.0) / loading_rate(parameters)
-
-
-def loading_rate(parameters: Parameters) -> float:
-    """Rate (Pa/s) of the shear stress on an interface under a moved top or a remote stress."""
-    loading, below = parameters.loading, parameters.below
-    if loading.kind == "remote":
-        return loading.stress_rate
-    compliance = parameters.geometry.height / parameters.material.shear_modulus
-    if below is not None:
-        compliance += below.geometry.height / below.material.shear_modulus
-    return loading.velocity / compliance
+    return max(missing, 0.0) / loading.stress_rate

@@ -79,10 +79,9 @@ class FaultParameters:
     plane : {"strain", "stress", "antiplane"}
         Plane strain, or plane stress of thin plates, with ``nu/(1 + nu)`` in place of nu, or
         antiplane shear (mode III), in which nu and f do not matter.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch begins: at an edge that is pushed, at a free side under a top that
-        moves, or in the interior under a load from afar, which may be a top that moves. The bodies'
-        `far_side` sets the boundary condition there: a top that moves has ``velocity``.
+    loading : {"edge", "remote"}
+        Where the creeping patch begins: at an edge that is pushed, or in the interior under a load
+        from afar. The bodies' `far_side` sets the boundary condition there.
     evolution : str
         Evolution of the state, that of `friction_law` by default, else ``aging``.
     friction_law : Friction, optional

@@ -20,11 +20,10 @@ Case = tuple[Parameters, InterfaceState]
 def far_sides(parameters: Parameters) -> tuple[str, str]:
     """Boundary conditions on the far sides of the first and the second body of a run.
 
-    The far side of the first body follows from the loading. A rigid second body is ``rigid``.
+    That of the first body bears a given stress. A rigid second body is ``rigid``.
     """
-    first = "velocity" if parameters.loading.kind == "top" else "free"
     below = parameters.below
-    return first, "rigid" if below is None else below.far_side
+    return "free", "rigid" if below is None else below.far_side
 
 
 def fault_of_run(parameters: Parameters) -> dict[str, Any]:

@@ -90,8 +90,8 @@ def _declared() -> dict[str, Quantity]:
         "plane": material["plane"],
         "loading": replace(
             declarations(Loading)["kind"],
-            description="start of the creeping patch: an edge that is pushed, a free side under a "
-            "top that moves, or the interior under a remote load",
+            description="start of the creeping patch: an edge that is pushed, or the interior "
+            "under a remote load",
         ),
         "evolution": friction["evolution"],
     }
@@ -104,7 +104,7 @@ ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
 """Parameters of a zone beside the fault."""
 
 OF_THEORY = ("far_side", *ZONE)
-"""Parameters that no simulation has: its loading sets the first far side, and it has no zone."""
+"""Parameters that no simulation has: its first far side is free, and it has no zone."""
 
 
 def labelled(value: Any) -> bool:

@@ -111,13 +111,11 @@ def estimated_megabytes(parameters: Parameters) -> float:
     """Memory (MB) that a simulation needs, rounded up from measured runs.
 
     The memory consists of the libraries, some hundred vectors of the bodies (mostly the stored
-    factors for step sizes in use) and some dense matrices of the interface: two in each factor if
-    the top is moved.
+    factors for step sizes in use) and some dense matrices of the interface.
     """
     mesh = parameters.mesh
     below = parameters.below
     rows = mesh.n_y + (below.mesh.n_y if below else 0)
     vector = 8e-6 * 2 * mesh.n_x * rows
     matrix = 8e-6 * mesh.n_x**2
-    matrices = 32.0 if parameters.loading.kind == "top" else 8.0
-    return 250.0 + 400.0 * vector + matrices * matrix
+    return 250.0 + 400.0 * vector + 8.0 * matrix

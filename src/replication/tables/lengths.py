@@ -81,7 +81,7 @@ COLUMNS = {
     "far_side": SHARED["far_side"],
     **some(SHARED, "second_height", "second_shear_modulus", "second_poisson_ratio"),
     "plane": SHARED["plane"],
-    "loading": Variable("", "what loads the fault: edge, top or remote"),
+    "loading": Variable("", "what loads the fault: edge or remote"),
     "fault": Variable("", "digest of all that the fault's physics depends on"),
     "ensemble": Variable("", "digest of all that the run is given but its seed"),
 }

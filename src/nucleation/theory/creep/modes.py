@@ -2,15 +2,15 @@
 
 With ``x = L cos(theta)`` and U the displacement of an edge that is pushed, slip is expanded as
 
-    edge      u(x) = U phi_0 + sum_n c_n sin(2 n theta),    phi_0 = 2 theta/pi,    u - U odd in x,
-    top       u(x) = sum_n c_n sin((2 n - 1) theta),                               u even in x,
+    odd       u(x) = U phi_0 + sum_n c_n sin(2 n theta),    phi_0 = 2 theta/pi,    u - U odd in x,
+    even      u(x) = sum_n c_n sin((2 n - 1) theta),                               u even in x,
 
-n = 1 ... N. Under a remote load it is the sum of both without U, with L half the patch. Each mode
-vanishes at the front (theta = 0) as a square root. At x = 0 is the edge that is pushed and has no
-shear stress, or a side that is free; beyond it fields continue as their mirror image, and beyond
-the front ``u = 0``. The Fourier transform of ``sin(m theta)'`` is then a sum of
-``-pi m (-i)^m J_m(k L)`` (DLMF 10.9), that of ``phi_0'`` has ``2/pi`` for m and J_0. With the
-transfer functions of :mod:`nucleation.theory.stiffness` and ``kappa = k L > 0``
+n = 1 ... N. Odd slip is that of an edge that is pushed. Under a remote load it is the sum of both
+without U, with L half the patch. Each mode vanishes at the front (theta = 0) as a square root. At x
+= 0 is the edge, which has no shear stress, or the middle of the patch; beyond it fields continue as
+their mirror image, and beyond the front ``u = 0``. The Fourier transform of ``sin(m theta)'`` is
+then a sum of ``-pi m (-i)^m J_m(k L)`` (DLMF 10.9), that of ``phi_0'`` has ``2/pi`` for m and J_0.
+With the transfer functions of :mod:`nucleation.theory.stiffness` and ``kappa = k L > 0``
 
     shear stress lost:     mu int G1 s_m m J_m(kappa) sin(kappa x/L) dkappa/L ,    m even,
     compression gained:    mu int G2 s_m m J_m(kappa) cos(kappa x/L) dkappa/L ,

@@ -10,7 +10,6 @@ import numpy as np
 from ...model.friction.law import Friction
 from ...model.linearised import interface_state
 from ...model.parameters import Parameters
-from ..estimates import loading_rate
 from ..of_runs import systems_of
 from ..spectrum import Systems
 from ..status import NoLength
@@ -23,9 +22,9 @@ from .steady import Creep, creep
 class Patches:
     """The creeping patches of one fault, of any length.
 
-    A patch begins at an ``edge`` that is pushed, at a free side under a moved ``top``, or in the
-    interior under a ``remote`` load. Without an edge `load_rate` is the rate of the shear stress
-    that loads it, over ``sigma0 V/D``; with constant a and b it has no effect.
+    A patch begins at an ``edge`` that is pushed, or in the interior under a ``remote`` load. Then
+    `load_rate` is the rate of the shear stress that loads it, over ``sigma0 V/D``; with constant a
+    and b it has no effect.
     """
 
     one: Systems  # a single fault, all fields of shape (1,)
@@ -37,26 +36,15 @@ class Patches:
 
     @classmethod
     def of(cls, parameters: Parameters) -> Patches:
-        """The patches of a run, with its own friction law.
-
-        Without an edge that is pushed a patch begins where the declared heterogeneity is. It begins
-        at a free side if that is nearer than the block's height. Else it begins in the interior,
-        since friction has no shear stress to support at the side itself.
-        """
+        """The patches of a run, with its own friction law."""
         one = systems_of([(parameters, interface_state(parameters))])
-        loading, block = parameters.loading, parameters.geometry
+        loading = parameters.loading
         law = parameters.friction
         pushed = cls(one, law, loading.velocity, evolution=law.evolution)
         if loading.kind == "edge":
             return pushed
-        from_side = 0.5 * block.length
-        centre = parameters.heterogeneity.centre
-        if centre is not None:
-            from_side = min(centre, block.length - centre)
-        at_side = loading.kind == "top" and from_side < block.height
-        rate = loading_rate(parameters) * parameters.memory_time / loading.normal_stress
-        begins = "top" if at_side else "remote"
-        return dataclasses.replace(pushed, loading=begins, load_rate=rate)
+        rate = loading.stress_rate * parameters.memory_time / loading.normal_stress
+        return dataclasses.replace(pushed, loading="remote", load_rate=rate)
 
     @cached_property
     def number(self) -> int:

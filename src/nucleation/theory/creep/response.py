@@ -60,21 +60,17 @@ def response(
         Patch length L (m), from end to end.
     number : int
         Number of modes; under a remote load there are as many of either symmetry.
-    loading : {"edge", "top", "remote"}
+    loading : {"edge", "remote"}
         Kind of loading.
 
     Returns
     -------
     PatchResponse
-        Column 0 is for the imposed quantity: the edge's displacement, or under the other loadings a
+        Column 0 is for the imposed quantity: the edge's displacement, or under a remote load a
         shear stress of sigma0 on all of the interface.
     """
     if loading == "edge":
         return _mirror_response(one, length, number, even=False)
-    if loading == "top":
-        found = _mirror_response(one, length, number, even=True)
-        found.shear[:, 0] = -1.0
-        return found
     odd = _mirror_response(one, 0.5 * length, number, even=False)
     even = _mirror_response(one, 0.5 * length, number, even=True)
     one_side = odd.modes.theta

@@ -101,8 +101,7 @@ def _draw_column(
     title, below = _described(records[0].parameters)
     length.set_title(title, loc="center", pad=3.0)
     if below:
-        place = "center" if "top" in below else "lower right"
-        look: style.Options = {"title_fontsize": style.SMALL, "loc": place}
+        look: style.Options = {"title_fontsize": style.SMALL, "loc": "lower right"}
         length.legend([], [], title=below, **look)
 
 
@@ -114,8 +113,6 @@ def _described(parameters: Parameters) -> tuple[str, str]:
         return f"$H={height:g}$ m", ""
     second = below.geometry.height
     heights = f"{height:g}$ m" if second == height else f"{height:g}$ on {second:g} m"
-    if parameters.loading.kind == "top":
-        return f"$H={heights}", "two blocks,\nmoved at\nthe top"
     ratio = below.material.shear_modulus / parameters.material.shear_modulus
     return (f"$H={heights}", f"two blocks,\nlower {below.far_side},\n$\\mu_2={ratio:.3g}\\,\\mu$")
 

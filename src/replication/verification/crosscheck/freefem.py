@@ -24,7 +24,7 @@ from nucleation.simulation.event import FAST
 from nucleation.simulation.realisation import Series, Sheet
 from nucleation.simulation.recorded import RECORDED
 
-from .plan import FIXED, KINDS, LOADINGS, CrosscheckSettings
+from .plan import FIXED, KINDS, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # Debian's directory; by default the program searches another one
@@ -110,7 +110,6 @@ def arguments(
         "drop": extraction.drop,
         "fast": FAST,
         "most_steps": MOST_STEPS,
-        "loading": parameters.loading.kind,
     }
     below = parameters.below
     lower = below or parameters  # of a rigid base the script uses only that it is fixed
@@ -128,7 +127,7 @@ def arguments(
 def _require_supported(parameters: Parameters) -> None:
     """Raise a FreeFemError if the script does not support a value of a parameter."""
     supported: dict[str, tuple[object, ...]] = {name: (value,) for name, value in FIXED.items()}
-    supported |= {"perturbation.kind": KINDS, "loading.kind": LOADINGS}
+    supported |= {"perturbation.kind": KINDS}
     named = parameters.named()
     if parameters.below is not None:
         supported["second_body.grading"] = (1.0,)

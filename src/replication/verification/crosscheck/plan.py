@@ -15,6 +15,7 @@ FIXED = {
     "friction.law": "product",
     "friction.evolution": "aging",
     "mesh.grading": 1.0,
+    "loading.kind": "edge",
     "loading.initial_stress": "no_slip",
     "heterogeneity.varies": "none",
 }
@@ -23,34 +24,13 @@ FIXED = {
 KINDS = ("none", *IN_TIME)
 """Perturbations that the script has."""
 
-LOADINGS = ("edge", "top")
-"""Loadings that the script has."""
-
-PUSHED_PAIR = {
+PAIR = {
     "geometry.height": 0.02,
     "mesh.n_x": 300,
     "mesh.n_y": 6,
 }
-MOVED_AT_TOP = {
-    "geometry.height": 0.1,
-    "geometry.length": 1.5,
-    "mesh.n_x": 240,
-    "mesh.n_y": 12,
-    "loading.kind": "top",
-    "stepping.longest_step": 0.02,
-    "stepping.time_after_event": 0.0,  # after the event a corner lifts off
-}
-TWO_BLOCKS: dict[str, tuple[dict[str, Any], SecondBody]] = {
-    "pair": (
-        PUSHED_PAIR,
-        SecondBody(kind="deformable", far_side="clamped", shear_modulus=6.2e9),
-    ),
-    "top": (
-        MOVED_AT_TOP,
-        SecondBody(kind="deformable", far_side="clamped"),
-    ),
-}
-"""Runs of two blocks of the same height: parameters that only they have, and the lower block."""
+LOWER_BLOCK = SecondBody(kind="deformable", far_side="clamped", shear_modulus=6.2e9)
+"""The run of two blocks of the same height."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,13 +104,8 @@ def runs(
         }
         block = common.replaced(changes)
         found[f"H{height:g}"] = _long(block, settings, interface)
-    for name, (changes, below) in TWO_BLOCKS.items():
-        both = dataclasses.replace(common, second_body=below)
-        both = both.replaced(changes)
-        if "geometry.length" not in changes:
-            both = _long(both, settings, interface)
-        found[name] = both
-    return found
+    both = dataclasses.replace(common, second_body=LOWER_BLOCK).replaced(PAIR)
+    return found | {"pair": _long(both, settings, interface)}
 
 
 def _common(settings: CrosscheckSettings) -> dict[str, Any]:
@@ -140,7 +115,6 @@ def _common(settings: CrosscheckSettings) -> dict[str, Any]:
         "perturbation.strength": settings.strength,
         "perturbation.seed": settings.seed,
         "stepping.time_after_event": settings.time_after_event,
-        "loading.kind": "edge",
     }
 
 
