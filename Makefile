@@ -122,11 +122,13 @@ LOCK = uv pip compile --universal --python-version 3.11 --fork-strategy fewest -
 lock: ## Pin the newest versions of what pyproject.toml names in environment*.txt (needs uv)
 	$(LOCK) --upgrade --all-extras -o environment-dev.txt
 	$(LOCK) --upgrade --extra workflow --constraint environment-dev.txt -o environment.txt
+	echo uv | uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
+		--no-annotate --no-emit-index-url --no-header - -o workflow/uv.txt
 
 clean-venv: ## Remove the installed environment
 	rm -rf -- $(ENVIRONMENT)
 
-INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r
+INSTALL = $(BIN)/python -P workflow/install.py
 
 # Everything installed is pinned and hashed. The package itself is not installed but pointed to, so
 # that the code of the checkout is what runs. An environment that works keeps its Python.
