@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs programs from Debian's archive that the optional parts of the workflow call.
 #
-#   workflow/install-debian.sh GROUP...        groups: browser cluster crosscheck
+#   workflow/install-debian.sh GROUP...        groups: browser cluster
 #
 # Needs root or sudo. Everything else the project needs is installed by make, in .venv.
 set -eu
@@ -12,8 +12,7 @@ for group in "$@"; do
     case $group in
     browser) packages=chromium ;;
     cluster) packages="slurm-wlm munge" ;; # a batch system on one machine, for the tests
-    crosscheck) packages="freefem++ libfreefem++" ;; # MUMPS is in the library's package
-    *) echo "$0: no group $group; there are: browser cluster crosscheck" >&2 && exit 2 ;;
+    *) echo "$0: no group $group; there are: browser cluster" >&2 && exit 2 ;;
     esac
     for package in $packages; do
         state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)

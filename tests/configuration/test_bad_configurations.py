@@ -184,10 +184,6 @@ BAD = {
         [f"{RUN}: interface = main_text is not allowed", "slip_length = 5e-07 m is no rounding",
          "own value, 1e-06 m", "it must be friction_law"],
     ),
-    "crosscheck beyond the memory": (
-        changed("crosscheck.n_x", 100000),
-        ["crosscheck: n_x = 100000, n_y = 8", "MB, more than limits.memory = 2000 MB"],
-    ),
     "constants without a law": (
         study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],
     ),

@@ -20,7 +20,6 @@ from replication.pipeline import code
 from replication.tables import lengths
 
 RECORDED = "nucleation.simulation.recorded"
-CROSSCHECK = "replication.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
     "id",
@@ -33,7 +32,6 @@ TEXTS = {
     "kind",
     "initial_stress",
     "status",
-    "problem",
     "refinement",
     "varied",
     "variation",
@@ -73,7 +71,6 @@ def test_a_name_means_the_same_wherever_it_is_declared():
     [
         ("nucleation.simulation.run", {RECORDED}),
         ("nucleation.extraction.growth", {RECORDED, "nucleation.extraction.growth"}),
-        (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.freefem"}),
     ],
 )
 def test_no_column_of_a_table_is_in_the_key_of_a_costly_dataset(root, known):

@@ -7,7 +7,6 @@ said in one place, :data:`RULES`; a command without a rule fails.
 
 import contextlib
 import io
-import os
 import re
 import shlex
 import subprocess
@@ -18,8 +17,6 @@ from collections import defaultdict
 import pytest
 from docs.samples import PAGES, ROOT, commands, printed, samples
 from snakemake.cli import parse_args
-
-from replication.verification.crosscheck import freefem
 
 SHOWN_FILES = {"my.yaml"} | {sample.file for page in PAGES for sample in samples(page)}
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
@@ -34,15 +31,12 @@ def run(arguments, **options):
     return done.stdout
 
 
-def install_debian(arguments, directory):
-    """The script, on a machine that has every package."""
-    has_all = directory / "dpkg-query"
-    has_all.write_text("#!/bin/sh\nprintf installed\n")
-    has_all.chmod(0o755)
-    run(
-        [ROOT / "workflow" / "install-debian.sh", *arguments],
-        env={**os.environ, "PATH": f"{directory}:{os.environ['PATH']}"},
-    )
+def module(arguments, directory):
+    """A benchmark is a module that can be run."""
+    option, name = arguments
+    path = ROOT / name.replace(".", "/")
+    script = path / "__main__.py" if path.is_dir() else path.with_suffix(".py")
+    assert option == "-m" and "__main__" in script.read_text()
 
 
 def command_line(arguments, directory):
@@ -78,7 +72,7 @@ RULES = {
     "uvx": packages,
     "docker": container,
     "nucleation": command_line,
-    "workflow/install-debian.sh": install_debian,
+    ".venv/bin/python": module,
 }
 
 
@@ -132,8 +126,6 @@ def targets_by_configuration():
 def test_targets(tmp_path):
     """One dry run for all targets that are named anywhere, and one per configuration shown."""
     for mine, targets in targets_by_configuration().items():
-        if not freefem.installed() and "CI" not in os.environ:
-            targets -= {"crosscheck"}
         config = tmp_path / "my.yaml"
         config.write_text(mine or (ROOT / "config" / "quick.yaml").read_text())
         run([sys.executable, "-m", "snakemake", *targets, "--dry-run", "--quiet", "rules",

@@ -1,25 +1,14 @@
 """The figures of checks and of sensitivity: every number is drawn, nothing is cut or overlaps."""
 
 import drawn_layout
-import made_up_checks
 import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.parameters import Parameters
 from replication.figures.beyond import figure_sensitivity
-from replication.figures.checks import (
-    figure_convergence,
-    figure_crosscheck,
-    figure_dispersion,
-    figure_verification,
-)
-from replication.verification.orders import ERRORS, REFINEMENTS
+from replication.figures.checks import figure_convergence
 
 HEIGHTS = (0.005, 0.02, 0.1)
-ONSETS = (10.0, 9.5)  # s
-PAIR = {"second_body": "deformable", "second_shear_modulus": 6.2e9, "second_far_side": "clamped"}
 
 
 def dataset(rows):
@@ -84,43 +73,8 @@ def sensitivity(changes):
     return figure_sensitivity.draw(changes)
 
 
-def record(height, factor, **second):
-    """A patch that grows like the root of time, with a force that follows it."""
-    time, x = np.linspace(0.0, 11.0, 300), np.linspace(0.0, 1.0, 401)
-    root = factor * np.sqrt(time / 10.0)
-    rate = 1e-5 * np.where(x < 0.1 * root[:, None], 1.0, 1e-9)
-    steps = {"step_time": ("step", time), "driving_force": ("step", -7e4 * root)}
-    return xr.Dataset(
-        {"slip_rate": (("time", "x"), rate), **steps},
-        coords={"time": time, "x": x},
-        attrs={"parameters": Parameters().replaced({"height": height, **second}).to_json()},
-    )
-
-
-@pytest.fixture
-def crosscheck():
-    values = {"onset_time": ONSETS[0], "onset_time_freefem": ONSETS[1], "length": 0.1,
-              "length_freefem": 0.098}  # fmt: skip
-    own, freefem = ([record(h, factor) for h in (0.005, 0.05)] for factor in (1.0, 1.02))
-    own.append(record(0.02, 1.0, **PAIR))
-    freefem.append(record(0.02, 1.03, **PAIR))
-    return figure_crosscheck.draw(own, freefem, dataset([values] * 3), ExtractionSettings())
-
-
-@pytest.fixture
-def verification():
-    return figure_verification.draw(made_up_checks.convergence())
-
-
-@pytest.fixture
-def dispersion():
-    return figure_dispersion.draw(made_up_checks.dispersion())
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "name", ["convergence", "sensitivity", "crosscheck", "verification", "dispersion"]
-)
+@pytest.mark.parametrize("name", ["convergence", "sensitivity"])
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(name, request):
     drawn_layout.require_legible(request.getfixturevalue(name))
 
@@ -186,60 +140,3 @@ def test_labels_of_variations(sensitivity):
     labels = [text.get_text() for text in sensitivity.axes[0].get_yticklabels()]
     assert {r"$\rho\times0.5$", r"$\rho=0$", r"$\tau_0=0.05$ MPa", "edge at 0.5 $V$"} < set(labels)
     assert labels[-1] == "end of the drop"
-
-
-def test_both_solvers_curves_onsets_and_difference(crosscheck):
-    top, force, difference = crosscheck.axes[::3]
-    assert [line.get_label() for line in force.lines] == ["this project", "FreeFem++"]
-    np.testing.assert_allclose(force.lines[1].get_ydata(), 1.02 * force.lines[0].get_ydata())
-    assert difference.lines[1].get_label() == "$f_d(t)$"
-    np.testing.assert_allclose(difference.lines[1].get_ydata(), 2.0, atol=1e-6)
-    assert difference.lines[1].get_xdata()[-1] == ONSETS[1]
-    marks = {tuple(line.get_xydata()[0]) for line in top.lines if len(line.get_xdata()) == 1}
-    assert marks == {(ONSETS[0], 0.1), (ONSETS[1], 0.098)}
-
-
-def test_two_blocks_have_a_column_and_a_legend_of_their_own(crosscheck):
-    top, _, difference = crosscheck.axes[2::3]
-    titles = [axes.get_title() for axes in crosscheck.axes[:3]]
-    assert titles == ["$H=0.005$ m", "$H=0.05$ m", "$H=0.02$ m"]
-    said = top.get_legend().get_title().get_text()
-    assert "lower clamped" in said and r"\mu_2=2\,\mu" in said
-    np.testing.assert_allclose(difference.lines[1].get_ydata(), 3.0, atol=1e-6)
-
-
-@pytest.mark.parametrize("name", ["verification", "dispersion"])
-def test_nothing_is_cut(name, request):
-    """Within the abscissa's limits every line and marker lies well inside the axes."""
-    for axes in request.getfixturevalue(name).axes:
-        left, right = axes.get_xlim()
-        to_axes = axes.transData + axes.transAxes.inverted()
-        for line in axes.get_lines():
-            if line.get_transform() == axes.transData:
-                x, y = np.asarray(line.get_xydata()).T
-                shown = (x >= left) & (x <= right)
-                height = to_axes.transform(np.column_stack([x, y])[shown])[:, 1]
-                assert height.min() > 0.02 and height.max() < 0.98
-
-
-def test_every_mode_is_a_marker(dispersion):
-    for axes, name in zip(dispersion.axes, ("growth", "frequency"), strict=True):
-        markers = [line for line in axes.get_lines() if line.get_marker() in "os"]
-        drawn = np.sort(np.concatenate([line.get_ydata() for line in markers]))
-        expected = made_up_checks.dispersion()[f"measured_{name}"].values
-        np.testing.assert_array_equal(drawn, np.sort(expected.ravel()))
-
-
-def test_errors_and_slopes(verification):
-    for axes, refinement, order in zip(verification.axes, REFINEMENTS, (2, 2, 3), strict=True):
-        errors = made_up_checks.convergence().sel(refinement=refinement)
-        by_label = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
-        for problem in ("aging", "slip"):
-            for quantity, name in zip(("slip rate", "state"), list(ERRORS)[1:], strict=True):
-                np.testing.assert_array_equal(
-                    by_label[f"{problem} law, {quantity}"], errors[name].sel(problem=problem)
-                )
-        assert ("elastodynamics, displacement" in by_label) == (order == 2)
-        (guide,) = (line for line in axes.get_lines() if line.get_linestyle() == ":")
-        (x0, y0), (x1, y1) = guide.get_xydata()
-        assert np.log(y1 / y0) / np.log(x1 / x0) == pytest.approx(order)

@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from two_bodies import RIGID, transfer_functions
 from two_bodies import Body as Layer
 
+from benchmarks.manufactured.orders import orders
 from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock
@@ -22,9 +23,8 @@ from nucleation.model.parameters import Parameters
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.of_runs import systems_of
 from replication.claims.independent import printed
-from replication.verification import dispersion, pair_modes, single_mode
-from replication.verification.orders import orders
-from replication.verification.single_mode import sliding_period, sliding_state
+from replication.tables import dispersion, pair_modes, sliding_modes
+from replication.tables.sliding_modes import sliding_period, sliding_state
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 MATERIAL = Material(poisson_ratio=0.29)
@@ -147,7 +147,7 @@ SETTINGS = {
 def test_modes_grow_as_the_theory_says(setting, ratio):
     parameters = SETTINGS[setting]
     k, expected = theory(parameters, ratio)
-    found = single_mode.measured_rates(parameters, parameters.geometry.height, k)
+    found = sliding_modes.measured_rates(parameters, parameters.geometry.height, k)
     found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
     assert (found.real.max() > 0.0) == (ratio < 1.0)
@@ -155,11 +155,10 @@ def test_modes_grow_as_the_theory_says(setting, ratio):
 
 @pytest.mark.parametrize("ratios", [dispersion.MODES, pair_modes.RATIOS])
 def test_modes_bracket_the_critical_wavenumber(ratios):
-    """Growth and decay are tried within 3 % of it, and all modes are on the theory's curve."""
+    """Growth and decay are tried within 3 % of it."""
     assert list(ratios) == sorted(set(ratios))
     assert max(ratio for ratio in ratios if ratio < 1.0) == pytest.approx(1.0, abs=0.031)
     assert min(ratio for ratio in ratios if ratio > 1.0) == pytest.approx(1.0, abs=0.031)
-    assert dispersion.CURVE.min() < ratios[0] and ratios[-1] < dispersion.CURVE.max()
 
 
 @pytest.mark.parametrize(
@@ -172,9 +171,7 @@ def test_modes_bracket_the_critical_wavenumber(ratios):
 )
 def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
     dataset = dispersion.dispersion_dataset(PARAMETERS, heights=[height], modes=[ratio])
-    assert dict(dataset.sizes) == {"height": 1, "mode": 1, "branch": 2, "curve": 171}
-    curves = dataset["curve_frequency"].values
-    assert np.abs(np.diff(curves, axis=1)).max() < 0.1 * np.ptp(curves)  # continuous
+    assert dict(dataset.sizes) == {"height": 1, "mode": 1, "branch": 2}
     k, expected = theory(PARAMETERS.replaced({"height": height}), ratio)
     now = pd.read_csv(io.StringIO(dispersion.dispersion_csv(dataset)))
     np.testing.assert_allclose(now["mode_wavenumber"], k, rtol=1e-6)
@@ -195,11 +192,11 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
     """Second order in h; the step is small enough not to be seen."""
     fine = {"ROWS": (1, 100), "GRADING": 1.0, "STEP": 0.002, "DURATION": 1.0, "SKIPPED": 120}
     for name, value in (fine | {"INTERVAL": 30}).items():
-        monkeypatch.setattr(single_mode, name, value)
+        monkeypatch.setattr(sliding_modes, name, value)
     height, errors, sizes = 0.5, [], (17, 33, 65)
     k, expected = theory(PARAMETERS.replaced({"height": height}), 0.9)
     for nodes in sizes:
-        found = single_mode.measured_rates(PARAMETERS, height, k, nodes)
+        found = sliding_modes.measured_rates(PARAMETERS, height, k, nodes)
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
     ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
     order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
@@ -238,7 +235,7 @@ SLIDING = {
 @pytest.mark.parametrize("parameters", SLIDING.values(), ids=SLIDING)
 def test_homogeneous_sliding_persists(parameters):
     """With sigma0 on the interface, also where nothing holds the mean."""
-    parameters = single_mode.one_wavelength(parameters, 0.2, 20.0, nodes=17)
+    parameters = sliding_modes.one_wavelength(parameters, 0.2, 20.0, nodes=17)
     dynamics = sliding_period(parameters)
     state = sliding_state(dynamics, np.zeros(17))
     for _ in range(40):

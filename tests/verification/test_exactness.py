@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from fem.assembled_problem import AssembledBlock
 
+from benchmarks.manufactured.orders import MATERIAL
 from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.run import composed
 from nucleation.simulation.start import at_rest
-from replication.verification.orders import MATERIAL
 
 VELOCITY = 1e-3  # m/s; a patch forms within some steps
 # growing steps, then many of 3e-5 s, some of them shorter, while the first nodes break loose

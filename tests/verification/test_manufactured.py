@@ -2,14 +2,14 @@
 
 With the displacement of the interface prescribed (elastodynamics: the body, its inertia, its loads
 and the time stepping), and with friction of either law, its state variable and the computed normal
-stress solved together by the solver's own steps (replication.verification.orders has the fields).
+stress solved together by the solver's own steps (benchmarks.manufactured.orders has the fields).
 """
 
 import numpy as np
 import pytest
 
-from replication.verification import orders as measured
-from replication.verification.orders import ERRORS, SCALE, manufactured, orders
+from benchmarks.manufactured import orders as measured
+from benchmarks.manufactured.orders import ERRORS, SCALE, manufactured, orders
 
 pytestmark = pytest.mark.slow
 
@@ -30,8 +30,9 @@ ORDER = {"mesh": 2.0, "step": 2.0, "quasi_static_step": 3.0}
 
 @pytest.mark.parametrize(("problem", "refinement"), BOUNDS)
 def test_order(convergence, problem, refinement):
+    own = convergence[convergence.problem.eq(problem) & convergence.refinement.eq(refinement)]
     for name, bound in zip(ERRORS, BOUNDS[problem, refinement], strict=False):
-        found = convergence[name].sel(problem=problem, refinement=refinement).values
+        found = own[name].to_numpy()
         np.testing.assert_allclose(orders(found)[1:], ORDER[refinement], rtol=0.05)
         assert found[-1] < bound
 

@@ -5,13 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
+from benchmarks.manufactured.dynamics import Manufactured, block_field
+from benchmarks.manufactured.fields import Displacement, Loads, Term, power, sine
+from benchmarks.manufactured.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
 from nucleation.fem.bodies import body_of
 from nucleation.fem.grid import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from replication.verification.manufactured.dynamics import Manufactured, block_field
-from replication.verification.manufactured.fields import Displacement, Loads, Term, power, sine
-from replication.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
 
 pytestmark = pytest.mark.slow
 

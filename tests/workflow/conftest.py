@@ -15,8 +15,6 @@ import yaml
 from once import once
 from warm_snakemake import warm
 
-from replication.verification.crosscheck import freefem
-
 ROOT = Path(__file__).parents[2]
 
 
@@ -127,15 +125,6 @@ def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
     made, own = once(tmp_path_factory, "quick-workflow", make), tmp_path_factory.mktemp("quick")
     shutil.copytree(made, own, symlinks=True, dirs_exist_ok=True)
     return Workflow(own)
-
-
-@pytest.fixture
-def freefem_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A program of FreeFem++'s name: planning needs one, and does not run it."""
-    program = tmp_path / freefem.PROGRAM
-    program.write_text("#!/bin/sh\nexit 1\n")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
 
 
 @pytest.fixture

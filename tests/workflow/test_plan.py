@@ -2,7 +2,6 @@
 
 import dataclasses
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from replication.configuration.load import load, read_yaml
-from replication.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 
@@ -51,11 +49,9 @@ def test_default_target_is_the_whole_paper(paper):
                     "claims": 1}),
         ("results/quick/figures/study_drop.png",
          {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
-        ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
-                        "figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],
 )  # fmt: skip
-def test_targets(workflow, target, expected, freefem_program):
+def test_targets(workflow, target, expected):
     assert workflow.planned(*target.split()) == expected
 
 
@@ -230,16 +226,3 @@ def test_article_on_paper_has_the_figures_beyond(workflow):
     planned = workflow.planned("replication")
     made = {"write_article", "figure_3", "figure_drop", "figure_map"}
     assert planned["print_article"] == 1 and made <= planned.keys()
-
-
-def test_without_freefem_one_sentence_says_how_to_get_it(workflow, monkeypatch, tmp_path_factory):
-    programs = tmp_path_factory.mktemp("programs")
-    for name in ("bash", "sh", "which"):  # what Snakemake itself wants to find
-        (programs / name).symlink_to(shutil.which(name))
-    monkeypatch.setenv("PATH", str(programs))
-    done = workflow("crosscheck")
-    assert done.returncode != 0 and freefem.MISSING in done.stdout
-    assert "workflow/install-debian.sh crosscheck" in freefem.MISSING
-    results = workflow.directory / "results"
-    made = [path.relative_to(results) for path in results.rglob("*") if path.is_file()]
-    assert [path for path in made if path.parts[1:3] != ("store", "recipes")] == []

@@ -287,52 +287,6 @@ rule figure_patch_theory:
         JOB
 
 
-rule figure_dispersion:
-    """Growth of single modes: simulation and theory"""
-    input:
-        dispersion=f"{RESULTS}/dispersion.nc",
-        recipe=recipe("figure_dispersion"),
-    output:
-        report(
-            f"{RESULTS}/figures/figure_dispersion.png",
-            caption="../report/figure_dispersion.rst",
-            category="Why to believe it",
-        ),
-        f"{RESULTS}/figures/figure_dispersion.pdf",
-    log:
-        f"{RESULTS}/logs/figures/figure_dispersion.log",
-    localrule: True
-    params:
-        call="replication.figures.checks.figure_dispersion:draw",
-    message:
-        "Growth of single modes: simulation and theory"
-    shell:
-        JOB
-
-
-rule figure_verification:
-    """Orders of convergence on manufactured solutions"""
-    input:
-        convergence=f"{RESULTS}/verification.nc",
-        recipe=recipe("figure_verification"),
-    output:
-        report(
-            f"{RESULTS}/figures/figure_verification.png",
-            caption="../report/figure_verification.rst",
-            category="Why to believe it",
-        ),
-        f"{RESULTS}/figures/figure_verification.pdf",
-    log:
-        f"{RESULTS}/logs/figures/figure_verification.log",
-    localrule: True
-    params:
-        call="replication.figures.checks.figure_verification:draw",
-    message:
-        "Orders of convergence on manufactured solutions"
-    shell:
-        JOB
-
-
 rule figure_convergence:
     """Length at the drop against mesh and steps"""
     input:

@@ -55,13 +55,6 @@ rule patch_convergence:
         f"{RESULTS}/patch_convergence.csv",
 
 
-rule crosscheck:
-    """The same runs by an independent solver, and the figure of both"""
-    input:
-        rules.figure_crosscheck.output,
-        rules.compare_crosscheck.output,
-
-
 # Checks of the results; they make no result.
 rule check:
     """List results that are stale, incomplete, damaged or foreign"""

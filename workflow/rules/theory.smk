@@ -1,4 +1,4 @@
-# The linear theory, and the verification of the solver against mathematics (docs/verification.md).
+# The linear theory, and single modes of homogeneous sliding integrated in time.
 rule theory:
     """Theory: critical lengths and friction curves"""
     input:
@@ -32,7 +32,7 @@ rule dispersion:
         f"{RESULTS}/logs/dispersion.log",
     priority: 3  # the verdicts wait for it
     params:
-        call="replication.verification.dispersion:files",
+        call="replication.tables.dispersion:files",
         loads=plugins(settings.base),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
@@ -53,31 +53,13 @@ rule pair_modes:
     log:
         f"{RESULTS}/logs/pair_modes.log",
     params:
-        call="replication.verification.pair_modes:files",
+        call="replication.tables.pair_modes:files",
         loads=plugins(settings.base),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
     message:
         "Growth of single modes between two layers, time integration and theory"
-    shell:
-        JOB
-
-
-# Orders of convergence on manufactured solutions; they depend on no configuration.
-rule verification:
-    """Errors of manufactured solutions against element size and time step"""
-    input:
-        recipe=recipe("verification"),
-    output:
-        multiext(f"{RESULTS}/verification", ".nc", ".csv"),
-    log:
-        f"{RESULTS}/logs/verification.log",
-    params:
-        call="replication.verification.orders:files",
-        loads=EVOLUTIONS,
-    message:
-        "Convergence: errors of manufactured solutions against element size and time step"
     shell:
         JOB
 

@@ -244,12 +244,6 @@ _KINDS = (
     _Kind(
         "dispersion relation",
         marks=("measured_growth",),
-        figure="checks.figure_dispersion.draw",
-    ),
-    _Kind(
-        "orders of convergence",
-        marks=("displacement_error",),
-        figure="checks.figure_verification.draw",
     ),
     _Kind(
         "theory",

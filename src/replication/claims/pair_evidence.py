@@ -25,7 +25,7 @@ _HEIGHT_TOLERANCE = 0.10
 Tables = Mapping[str, xr.Dataset]
 """The tables that the claims on two bodies are judged by: ``pairs``, of
 :func:`replication.tables.pairs.gather_pairs`, and ``modes``, of
-:func:`replication.verification.pair_modes.pair_modes`."""
+:func:`replication.tables.pair_modes.pair_modes`."""
 
 
 class _Senses(NamedTuple):

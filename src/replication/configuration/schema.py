@@ -16,7 +16,6 @@ from nucleation.model.linearised import InterfaceState
 from nucleation.model.quantities import Quantity, declarations
 from nucleation.theory.settings import Curves
 
-from ..verification.crosscheck.plan import CrosscheckSettings
 from .roles import ROLES
 from .settings import FigureSettings, Limits, StudySettings
 from .study_names import RANGE, other_names, study_parameters
@@ -35,7 +34,6 @@ GROUPS: dict[str, type] = {
     "extraction": ExtractionSettings,
     "figures": FigureSettings,
     "limits": Limits,
-    "crosscheck": CrosscheckSettings,
 }
 """The sections of the configuration that are one dataclass each."""
 

@@ -3,13 +3,10 @@
 from collections.abc import Iterator
 
 from nucleation.model.linearised import linearised, not_rounded_from
-from nucleation.model.quantities import ParameterError
 from nucleation.theory.critical import modes_on_rigid_base
 from nucleation.theory.status import NoLength
 
-from ..verification.crosscheck.plan import runs as crosscheck_runs
 from .configuration import Configuration
-from .contradictions import memory_problems
 from .roles import OWN
 
 
@@ -30,14 +27,6 @@ def setting_problems(settings: Configuration) -> Iterator[str]:
             f"main_text_interface: zeta = {interface.zeta:g} with a = {interface.a:g} is not "
             f"allowed: the theory's curve needs an instability at H = {height:g} m; {error}"
         )
-        return
-    try:
-        runs = crosscheck_runs(base, settings.crosscheck, interface)
-    except (ParameterError, NoLength) as error:
-        yield f"crosscheck: {error}"
-        return
-    for run in runs.values():
-        yield from memory_problems("crosscheck", run, settings.limits)
 
 
 def _threshold_problems(settings: Configuration) -> Iterator[str]:

@@ -11,7 +11,6 @@ from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import quantity
 from nucleation.theory.settings import Curves
 
-from ..verification.crosscheck.plan import CrosscheckSettings
 from .roles import OWN, ROLES
 
 
@@ -98,7 +97,6 @@ class Settings:
     extraction: ExtractionSettings
     figures: FigureSettings
     limits: Limits
-    crosscheck: CrosscheckSettings
     studies: dict[str, StudySettings]
     sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
     """The section of each study in the configuration."""

@@ -121,26 +121,6 @@ FIGURES: dict[str, Entry] = {
         roles=("convergence", "convergence_quiet"),
         data=(Data("convergence"),),
     ),
-    "figure_dispersion": Entry(
-        "Growth of single modes: simulation and theory",
-        CHECKS,
-        data=(
-            Data(
-                "dispersion",
-                (
-                    "mode_wavenumber",
-                    "measured_growth",
-                    "measured_frequency",
-                    "theory_growth",
-                    "theory_frequency",
-                ),
-            ),
-            Data("dispersion", ("curve_wavenumber", "curve_growth", "curve_frequency")),
-        ),
-    ),
-    "figure_verification": Entry(
-        "Orders of convergence on manufactured solutions", CHECKS, data=(Data("verification"),)
-    ),
 }
 
 

@@ -3,7 +3,7 @@
 The paper has these as theory alone. Lengths come from the table of pairs
 (:func:`replication.tables.pairs.gather_pairs`), at the declared strength in its columns. Eqs.
 (7) and (8) are also compared with the elastic response that simulated modes between two sliding
-layers have (:mod:`replication.verification.pair_modes`). The verdicts have their own table, so that
+layers have (:mod:`replication.tables.pair_modes`). The verdicts have their own table, so that
 the paper's own claims need not wait for these simulations. A length is the mean of a fault's
 realisations, with their range.
 """
@@ -13,7 +13,7 @@ import xarray as xr
 
 from nucleation.types import Array
 
-from ...verification.pair_modes import DEEP, measured_response
+from ...tables.pair_modes import DEEP, measured_response
 from ..claim import Computation, Result
 from ..expected import Estimate, Missing
 from ..independent import printed

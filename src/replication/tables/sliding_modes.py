@@ -33,18 +33,10 @@ INTERVAL = 5  # steps between samples
 
 
 def sliding_period(parameters: Parameters) -> Dynamics:
-    """Compose a period of a long block or pair that slides homogeneously at V.
+    """A period of a long block or pair that slides homogeneously at V.
 
-    It is driven by traction, or by its top. The driving force of its reports has no meaning.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        ``geometry.length`` is the period, ``mesh.n_x`` must be odd.
-
-    Returns
-    -------
-    Dynamics
+    It is `geometry.length` long and driven by traction, or by its top; `mesh.n_x` must be odd. The
+    driving force of its reports has no meaning.
     """
     body = period_of(parameters)
     law = parameters.friction
@@ -57,19 +49,7 @@ def sliding_period(parameters: Parameters) -> Dynamics:
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
-    """Make homogeneous steady sliding with a perturbed state variable.
-
-    Parameters
-    ----------
-    dynamics : Dynamics
-        The period, as of :func:`sliding_period`.
-    perturbation : ndarray
-        Added to log(phi) at the period's nodes, shape (n_x,).
-
-    Returns
-    -------
-    State
-    """
+    """Homogeneous steady sliding; the perturbation is added to log(phi) at the nodes, (n_x,)."""
     body = dynamics.body
     friction = dynamics.interface.friction
     n = dynamics.grid.n_x
@@ -102,24 +82,7 @@ def one_wavelength(
     wavenumber: float,
     nodes: int = NODES,
 ) -> Parameters:
-    """Replace the block by one wavelength ``2 pi / k``, with a mesh that resolves it.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        Material, friction and loading.
-    height : float
-        H (m).
-    wavenumber : float
-        k (1/m).
-    nodes : int
-        Nodes per wavelength; elements are about as high as long, their number along y is within
-        :data:`ROWS`.
-
-    Returns
-    -------
-    Parameters
-    """
+    """The block one wavelength ``2 pi / k`` long and H (m) high; elements about as high as long."""
     length = 2.0 * math.pi / wavenumber
     geometry = Geometry(height, length)
     mesh = _mesh(geometry, nodes)
@@ -187,18 +150,7 @@ def measured_rates(
     wavenumber: float,
     nodes: int = NODES,
 ) -> ComplexArray:
-    """Measure both growth rates of a wavenumber in the time integration.
-
-    Parameters
-    ----------
-    parameters, height, wavenumber, nodes
-        As in :func:`one_wavelength`.
-
-    Returns
-    -------
-    ndarray
-        The rates (1/s), the faster growing one first, shape (2,).
-    """
+    """Both growth rates (1/s) of a wavenumber (1/m) at H (m), the faster growing one first."""
     period = one_wavelength(parameters, height, wavenumber, nodes)
     interval, amplitude = _follow_mode(period)
     return _fitted_rates(interval, amplitude)

@@ -25,7 +25,7 @@ from nucleation.theory.of_runs import systems_of
 from nucleation.types import Array
 
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
-from .single_mode import measured_rates
+from .sliding_modes import measured_rates
 
 RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one
 DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
@@ -35,21 +35,10 @@ SECOND_DENSITY = 2400.0  # kg/m^3
 LOWER_HEIGHT = 0.6  # of a thin lower layer over the upper one's
 
 
-class _LayerPair(NamedTuple):
-    """Two materials, their heights and the far side of the lower layer.
+class LayerPair(NamedTuple):
+    """Shear moduli (Pa) and Poisson ratios of two layers, far side of the lower one, and heights.
 
-    Parameters
-    ----------
-    name : str
-        Identifier in tables.
-    modulus, second_modulus : float
-        Shear moduli of the upper and the lower layer (Pa).
-    poisson_ratio, second_poisson_ratio : float
-        Their Poisson ratios.
-    far_side : str
-        Far side of the lower layer.
-    height : float or None
-        Height of the upper layer (m); None for half-spaces.
+    Without a height (m) of the upper layer both are half-spaces.
     """
 
     name: str
@@ -60,22 +49,8 @@ class _LayerPair(NamedTuple):
     far_side: str = "free"
     height: float | None = None
 
-    def bodies(
-        self,
-        height: float,
-        second_height: float,
-    ) -> dict[str, float]:
-        """Return heights and materials by the names of parameters and of columns.
-
-        Parameters
-        ----------
-        height, second_height : float
-            Heights of the layers (m).
-
-        Returns
-        -------
-        dict
-        """
+    def bodies(self, height: float, second_height: float) -> dict[str, float]:
+        """Heights (m) and materials by the names of parameters and of columns."""
         return {
             "height": height,
             "second_height": second_height,
@@ -85,25 +60,8 @@ class _LayerPair(NamedTuple):
             "second_poisson_ratio": self.second_poisson_ratio,
         }
 
-    def parameters(
-        self,
-        base: Parameters,
-        height: float,
-        second_height: float,
-    ) -> Parameters:
-        """Return the parameters of the pair.
-
-        Parameters
-        ----------
-        base : Parameters
-            Friction and loading.
-        height, second_height : float
-            Heights of the layers (m).
-
-        Returns
-        -------
-        Parameters
-        """
+    def parameters(self, base: Parameters, height: float, second_height: float) -> Parameters:
+        """Parameters of layers of these heights (m), with friction and loading of `base`."""
         further = {
             "plane": "strain",
             "second_body": "deformable",
@@ -113,42 +71,27 @@ class _LayerPair(NamedTuple):
         return base.replaced(self.bodies(height, second_height) | further)
 
 
-def _thin_layers() -> tuple[_LayerPair, ...]:
-    """Thin layers with each far side; the upper or the lower one is the stiffer one."""
-    found = []
-    for far_side, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
-        above = _LayerPair(
-            f"stiff above, {far_side}",
-            STIFF,
-            SOFT,
-            far_side=far_side,
-            height=height,
-        )
-        below = _LayerPair(
-            f"stiff below, {far_side}",
-            SOFT,
-            STIFF,
-            far_side=far_side,
-            height=height,
-        )
-        found += [above, below]
-    return tuple(found)
-
-
-THIN_LAYERS = _thin_layers()
+THIN_LAYERS = (
+    LayerPair("stiff above, free", STIFF, SOFT, far_side="free", height=0.2),
+    LayerPair("stiff below, free", SOFT, STIFF, far_side="free", height=0.2),
+    LayerPair("stiff above, clamped", STIFF, SOFT, far_side="clamped", height=0.05),
+    LayerPair("stiff below, clamped", SOFT, STIFF, far_side="clamped", height=0.05),
+    LayerPair("stiff above, roller", STIFF, SOFT, far_side="roller", height=0.05),
+    LayerPair("stiff below, roller", SOFT, STIFF, far_side="roller", height=0.05),
+)
 """Layers of finite height. Free ones are higher: they bend, and bending needs finer elements."""
 
 HALF_SPACES = (
-    _LayerPair("half-spaces, stiff below", SOFT, STIFF),
-    _LayerPair("half-spaces, stiff above", STIFF, SOFT),
-    _LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
-    _LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
+    LayerPair("half-spaces, stiff below", SOFT, STIFF),
+    LayerPair("half-spaces, stiff above", STIFF, SOFT),
+    LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
+    LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
 )
 """Layers of a height at which their far sides do not matter."""
 
 
 def _sized(
-    layers: _LayerPair,
+    layers: LayerPair,
     base: Parameters,
     ratio: float,
 ) -> tuple[Parameters, float]:
@@ -172,18 +115,7 @@ def _critical(parameters: Parameters) -> float:
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
-    """Return the elastic response of the bodies to the simulated modes.
-
-    Parameters
-    ----------
-    modes : Dataset
-        As of :func:`pair_modes`.
-
-    Returns
-    -------
-    g1, g2 : ndarray
-        G1 and G2, shape (run, branch).
-    """
+    """G1 and G2 of the bodies by the measured rates of simulated modes, (run, branch)."""
 
     def column(name: str) -> Array:
         return modes[name].values[:, None]
@@ -204,27 +136,11 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
 
 
 def mode_row(
-    layers: _LayerPair,
+    layers: LayerPair,
     base: Parameters,
     ratio: float,
 ) -> dict[str, Any]:
-    """Measure one mode between two layers.
-
-    Parameters
-    ----------
-    layers : _LayerPair
-        The layers.
-    base : Parameters
-        Friction and loading.
-    ratio : float
-        Wavenumber over the critical one.
-
-    Returns
-    -------
-    dict
-        Values of the columns of :func:`pair_modes`, and its complex rates (1/s) as ``measured`` and
-        ``theory``.
-    """
+    """Columns of :func:`pair_modes` of one mode, at a wavenumber over the critical one."""
     parameters, critical = _sized(layers, base, ratio)
     interface = interface_state(parameters)
     below = parameters.below
@@ -254,25 +170,12 @@ def mode_row(
 
 def pair_modes(
     base: Parameters,
-    pairs: tuple[_LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
+    pairs: tuple[LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
     ratios: tuple[float, ...] = RATIOS,
 ) -> xr.Dataset:
-    """Measure the rates of modes between two layers, and compute them by Eq. (5).
+    """Rates of modes between two layers on (run, branch), measured and by Eq. (5).
 
-    Parameters
-    ----------
-    base : Parameters
-        Friction, density and loading.
-    pairs : tuple of _LayerPair
-        The layers.
-    ratios : tuple of float
-        Wavenumbers over the critical one of each pair.
-
-    Returns
-    -------
-    Dataset
-        The two bodies and friction at V on ``run``, the rates (1/s) on (run, branch). The branch
-        with the larger frequency travels along +x and comes first.
+    The branch with the larger frequency travels along +x and comes first.
     """
     rows = [mode_row(layers, base, ratio) for layers in pairs for ratio in ratios]
     rates: dict[str, Any] = {}
@@ -285,7 +188,7 @@ def pair_modes(
 
 
 def _csv(dataset: xr.Dataset) -> str:
-    """Return a line for each mode and direction, with the disagreement of the complex rates."""
+    """A line for each mode and direction, with the disagreement of the complex rates."""
     ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
     table = dataset.assign(wavenumber_over_critical=ratio, disagreement=disagreement(dataset))
     frame = table.to_dataframe(["run", "branch"]).reset_index()
@@ -297,18 +200,7 @@ def files(
     friction: Friction,
     loading: Loading,
 ) -> dict[str, xr.Dataset | str]:
-    """Make the files of the step ``pair_modes``.
-
-    Parameters
-    ----------
-    material, friction, loading : Material, Friction, Loading
-        Those of the upper layer; each pair replaces the moduli.
-
-    Returns
-    -------
-    dict
-        :func:`pair_modes` and its CSV, by suffix.
-    """
+    """The files of the step ``pair_modes``; each pair replaces the moduli of the material."""
     base = Parameters(material=material, friction=friction, loading=loading)
     found = pair_modes(base)
     return {".nc": found, ".csv": _csv(found)}

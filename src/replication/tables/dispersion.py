@@ -1,7 +1,7 @@
 """The bridge between simulation and theory: growth of single modes on homogeneous sliding.
 
-The time integration (:mod:`.single_mode`) gives both growth rates of a wavenumber; they have to be
-the two roots of Eq. (5).
+The time integration (:mod:`.sliding_modes`) gives both growth rates of a wavenumber; they have to
+be the two roots of Eq. (5).
 """
 
 import math
@@ -19,13 +19,12 @@ from nucleation.model.parameters import Loading, Parameters
 from nucleation.theory.critical import modes_on_rigid_base, unstable_modes
 from nucleation.theory.curves import CURVES
 from nucleation.theory.of_runs import blocks_on_rigid_base
-from nucleation.types import Array, ComplexArray
+from nucleation.types import ComplexArray
 
-from .single_mode import measured_rates
+from .sliding_modes import measured_rates
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
 MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c
-CURVE = np.linspace(0.4, 2.1, 171)  # k / k_c of the theory's curves
 
 MODES_OF_SLIDING = {
     "height": SHARED["height"],
@@ -37,16 +36,12 @@ MODES_OF_SLIDING = {
         "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
     ),
     "disagreement": Variable("1", "difference of the complex rates over the theory's"),
-    "curve_wavenumber": Variable("1/m", "wavenumber of the theory's curve", "k"),
-    "curve_growth": Variable("1/s", "growth rate, Eq. (5)", "Re Lambda"),
-    "curve_frequency": Variable("1/s", "angular frequency, Eq. (5)", "Im Lambda"),
     "critical_wavenumber": CURVES["critical_wavenumber"],
-    "memory_time": Variable("s", "time over which friction forgets at V", "D/V"),
 }
 
 
 def by_direction(rates: ArrayLike) -> ComplexArray:
-    """Order rates along the last axis by falling frequency."""
+    """Rates in the order of falling frequency along the last axis."""
     values = np.asarray(rates, dtype=complex)
     order = np.argsort(-values.imag, axis=-1)
     return np.take_along_axis(values, order, axis=-1)
@@ -67,23 +62,10 @@ def dispersion_dataset(
     heights: ArrayLike = HEIGHTS,
     modes: ArrayLike = MODES,
 ) -> xr.Dataset:
-    """Compute growth rates and frequencies by Eq. (5) and by the time integration.
+    """Rates by Eq. (5) and by the time integration on (height, mode, branch).
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Material, friction and loading of the block.
-    heights : array_like
-        Block heights (m), shape (height,).
-    modes : array_like
-        Wavenumbers over the critical one of each height, shape (mode,).
-
-    Returns
-    -------
-    Dataset
-        :data:`MODES_OF_SLIDING` on (height, mode, branch), the theory's curves on (height, curve,
-        branch). The branch with the larger frequency travels along +x, the direction of sliding,
-        and comes first.
+    Heights are in m, modes are wavenumbers over the critical one. The branch with the larger
+    frequency travels along +x, the direction of sliding, and comes first.
     """
     heights = np.asarray(heights, dtype=float)
     modes = np.asarray(modes, dtype=float)
@@ -91,7 +73,6 @@ def dispersion_dataset(
     critical = []
     measured = []
     theory = []
-    curves = []
     for height in heights:
         block = blocks_on_rigid_base(parameters.material, np.array([height]), interface)
         k_c = float(unstable_modes(block).wavenumber[0])
@@ -99,58 +80,33 @@ def dispersion_dataset(
         critical.append(k_c)
         measured.append([measured_rates(parameters, height, k) for k in seeded])
         theory.append(block.growth_rates(seeded).T)
-        curves.append(block.growth_rates(k_c * CURVE).T)
-    critical_k = np.array(critical)
-    found = xr.Dataset(
-        {
-            "mode_wavenumber": (("height", "mode"), np.outer(critical_k, modes)),
-            "curve_wavenumber": (("height", "curve"), np.outer(critical_k, CURVE)),
-            "critical_wavenumber": ("height", critical_k),
-            "memory_time": parameters.memory_time,
-            **_columns("measured", by_direction(measured), "mode"),
-            **_columns("theory", by_direction(theory), "mode"),
-            **_columns("curve", by_direction(curves), "curve"),
-        },
-        {"height": heights},
-    )
+    on = ("height", "mode", "branch")
+    columns: dict[str, object] = {
+        "mode_wavenumber": (on[:2], np.outer(critical, modes)),
+        "critical_wavenumber": ("height", critical),
+    }
+    for name, values in (("measured", measured), ("theory", theory)):
+        rates = by_direction(values)
+        columns[f"{name}_growth"] = (on, rates.real)
+        columns[f"{name}_frequency"] = (on, rates.imag)
+    found = xr.Dataset(columns, {"height": heights})
     found = found.assign(disagreement=disagreement(found))
     return annotate(found, MODES_OF_SLIDING)
 
 
-Values = tuple[tuple[str, ...], Array]
-"""Dimensions of a variable and its values."""
-
-
-def _columns(
-    name: str,
-    rates: ComplexArray,
-    along: str,
-) -> dict[str, Values]:
-    """Growth and frequency of complex rates on (height, along, branch)."""
-    dimensions = ("height", along, "branch")
-    return {
-        f"{name}_growth": (dimensions, rates.real),
-        f"{name}_frequency": (dimensions, rates.imag),
-    }
-
-
 def disagreement(dataset: xr.Dataset) -> xr.DataArray:
-    """Return ``|Lambda - Lambda_theory| / |Lambda_theory|`` of each mode and branch."""
+    """``|Lambda - Lambda_theory| / |Lambda_theory|`` of each mode and branch."""
     growth = dataset["theory_growth"]
     frequency = dataset["theory_frequency"]
     error = dataset["measured_growth"] - growth
     error_of_frequency = dataset["measured_frequency"] - frequency
-    difference: xr.DataArray = xr.apply_ufunc(
-        np.hypot,
-        error,
-        error_of_frequency,
-    )
+    difference: xr.DataArray = xr.apply_ufunc(np.hypot, error, error_of_frequency)
     size: xr.DataArray = xr.apply_ufunc(np.hypot, growth, frequency)
     return difference / size
 
 
 def dispersion_csv(dataset: xr.Dataset) -> str:
-    """Return measured and theoretical rates of every mode as comma-separated text."""
+    """Measured and theoretical rates of every mode as comma-separated text."""
     columns = [
         "mode_wavenumber",
         "measured_growth",
@@ -171,18 +127,7 @@ def files(
     friction: Friction,
     loading: Loading,
 ) -> dict[str, xr.Dataset | str]:
-    """Make the files of the step ``dispersion``.
-
-    Parameters
-    ----------
-    material, friction, loading : Material, Friction, Loading
-        Those of the block.
-
-    Returns
-    -------
-    dict
-        :func:`dispersion_dataset` and its CSV, by suffix.
-    """
+    """The files of the step ``dispersion``."""
     parameters = Parameters(material=material, friction=friction, loading=loading)
     found = dispersion_dataset(parameters, _heights_for(parameters))
     return {".nc": found, ".csv": dispersion_csv(found)}

@@ -22,19 +22,7 @@ POINTS = 4  # Gauss points per element and direction
 
 
 def sine(rate: float, phase: float = 0.0) -> Factor:
-    """The factor ``sin(rate x + phase)``.
-
-    Parameters
-    ----------
-    rate : float
-        Wavenumber (1/m), or angular frequency (1/s) of a factor in time.
-    phase : float
-        In radians.
-
-    Returns
-    -------
-    callable
-    """
+    """The factor ``sin(rate x + phase)``."""
 
     def at(x: Array, order: int = 0) -> Array:
         shift = order * np.pi / 2
@@ -71,7 +59,7 @@ class Term:
         by_y: int = 0,
         by_t: int = 0,
     ) -> Array:
-        """Return the derivative of the given orders at x, y (m) and t (s)."""
+        """The derivative of the given orders at x, y (m) and t (s)."""
         along_x = self.x(x, by_x)
         along_y = self.y(y, by_y)
         in_time = self.t(np.asarray(t, float), by_t)
@@ -84,15 +72,7 @@ Terms = tuple[Term, ...]
 
 @dataclasses.dataclass(frozen=True)
 class Displacement:
-    """A displacement of a block: ``w_x``, zero at x = 0, and ``u_y``, zero at y = 0.
-
-    Parameters
-    ----------
-    terms : pair of tuples of Term
-        The terms of w_x and those of u_y (m).
-    material : Material
-        Elastic moduli and density.
-    """
+    """A displacement of a block: ``w_x``, zero at x = 0, and ``u_y``, zero at y = 0."""
 
     terms: tuple[Terms, Terms]
     material: Material
@@ -105,24 +85,7 @@ class Displacement:
         t: float,
         **orders: int,
     ) -> Array:
-        """Return a component or a derivative of it.
-
-        Parameters
-        ----------
-        component : int
-            0 for w_x and 1 for u_y.
-        x, y : ndarray
-            Positions (m).
-        t : float
-            Time (s).
-        **orders : int
-            Orders of the derivative ``by_x``, ``by_y`` and ``by_t``, zero by default.
-
-        Returns
-        -------
-        ndarray
-            The displacement (m), or its derivative.
-        """
+        """A component or a derivative of it."""
         terms = (term(x, y, t, **orders) for term in self.terms[component])
         return sum(terms, np.zeros(()))
 
@@ -134,22 +97,7 @@ class Displacement:
         by_x: int = 0,
         by_y: int = 0,
     ) -> tuple[Array, Array, Array]:
-        """Return the stress or a derivative of it.
-
-        Parameters
-        ----------
-        x, y : ndarray
-            Positions (m).
-        t : float
-            Time (s).
-        by_x, by_y : int
-            Orders of the derivative.
-
-        Returns
-        -------
-        sigma_xx, sigma_xy, sigma_yy : ndarray
-            In Pa, or its derivative.
-        """
+        """The stress or a derivative of it."""
         lame = self.material.lame_modulus
         shear = self.material.shear_modulus
         along_x = {"by_x": by_x + 1, "by_y": by_y}
@@ -171,20 +119,7 @@ class Displacement:
         y: Array,
         t: float,
     ) -> tuple[Array, Array]:
-        """Return ``rho u_tt - div sigma``.
-
-        Parameters
-        ----------
-        x, y : ndarray
-            Positions (m).
-        t : float
-            Time (s).
-
-        Returns
-        -------
-        along_x, along_y : ndarray
-            The force (N/m^3).
-        """
+        """``rho u_tt - div sigma``."""
         density = self.material.density
         xx_by_x, xy_by_x, _ = self.stress(x, y, t, by_x=1)
         _, xy_by_y, yy_by_y = self.stress(x, y, t, by_y=1)
@@ -211,22 +146,7 @@ def _quadrature(nodes: Array) -> tuple[Array, Array]:
 
 
 class Loads:
-    """Nodal forces of a manufactured displacement on a grid.
-
-    Parameters
-    ----------
-    grid : Grid
-        The mesh of the block.
-    exact : Displacement
-        The displacement.
-
-    Attributes
-    ----------
-    x, y : ndarray
-        Gauss points (m) along x and y.
-    along_x, along_y : ndarray
-        ``along_x @ g`` integrates values at the Gauss points against the nodes' hat functions.
-    """
+    """Nodal forces of a manufactured displacement on a grid."""
 
     def __init__(self, grid: Grid, exact: Displacement) -> None:
         self.grid = grid
@@ -235,7 +155,7 @@ class Loads:
         self.y, self.along_y = _quadrature(grid.y)
 
     def nodal(self, t: float) -> Array:
-        """Return the forces (N/m) along x and y at t (s), (2, n_y + 1, n_x + 1).
+        """The forces (N/m) along x and y at t (s), (2, n_y + 1, n_x + 1).
 
         They do not contain the traction on the interface.
         """
@@ -258,7 +178,7 @@ class Loads:
         return out
 
     def interface_stress(self, t: float) -> tuple[Array, Array]:
-        """Return sigma_xy and sigma_yy (Pa) at the Gauss points of the interface at t (s)."""
+        """Sigma_xy and sigma_yy (Pa) at the Gauss points of the interface at t (s)."""
         _, shear, normal = self.exact.stress(
             self.x,
             np.zeros_like(self.x),
@@ -267,7 +187,7 @@ class Loads:
         return shear, normal
 
     def mean_over_area(self, error: Array) -> float:
-        """Return the root mean square of nodal errors (2, n_y + 1, n_x + 1) over the area."""
+        """The root mean square of nodal errors (2, n_y + 1, n_x + 1) over the area."""
         rows = self.along_y.sum(axis=1)
         columns = self.along_x.sum(axis=1)
         area = np.outer(rows, columns)
@@ -276,7 +196,7 @@ class Loads:
         return float(np.sqrt(total / area.sum()))
 
     def field(self, forces: Array) -> Field:
-        """Return nodal forces (2, n_y + 1, n_x + 1) as a load: ``2/n sum_i F_i sin`` per mode."""
+        """Nodal forces (2, n_y + 1, n_x + 1) as a load: ``2/n sum_i F_i sin`` per mode."""
         n = self.grid.n_x
         mode = np.arange(n)
         node = np.arange(1, n + 1)

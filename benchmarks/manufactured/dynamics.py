@@ -49,13 +49,7 @@ class _GivenDisplacement(Interface):
         imposed: Imposed,
         guess: Array,
     ) -> InterfaceSolution:
-        """Find the forces that hold the interface.
-
-        Parameters
-        ----------
-        operator, response, past, imposed, guess
-            As in :meth:`.Interface.solve`.
-        """
+        """Find the forces that hold the interface."""
         w = self.exact_w(imposed.time)
         change, change_normal = operator.apply(w - response.w)
         tangential = response.tangential + change
@@ -72,19 +66,12 @@ class _GivenDisplacement(Interface):
 
 
 class Manufactured(Drive):
-    """The solver's own step under the loads of a displacement; it is the drive of its `dynamics`.
+    """The solver's own step under the loads of a displacement; it is its `dynamics`' drive.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Those of the block.
-    exact : Displacement
-        Its displacement; with friction, sigma_yy at y = 0 is compressive.
-    log_state : tuple of Term
-        psi = log(phi) as a sum of terms at y = 0. Without any, the displacement of the interface is
-        prescribed.
-    lumped : bool
-        Whether the applied traction counts friction node by node, as the solver does. Then the
+    exact : displacement of the block; with friction, sigma_yy at y = 0 is compressive.
+    log_state : psi = log(phi) as a sum of terms at y = 0; without any, the displacement of the
+        interface is prescribed.
+    lumped : whether the applied traction counts friction node by node, as the solver does. Then the
         nodal values of fields bilinear in space solve the solver's equations exactly. Otherwise
         friction is integrated along x, and the lumping of the solver is an error of order h^2.
     """
@@ -120,7 +107,7 @@ class Manufactured(Drive):
         return Block(grid, parameters.material)
 
     def at(self, time: float) -> Imposed:
-        """Return the motion of the driven edge and the source of the state at a time (s)."""
+        """The motion of the driven edge and the source of the state at a time (s)."""
         source = self.source(time) if self.log_state else None
         return Imposed(
             time,
@@ -130,7 +117,7 @@ class Manufactured(Drive):
         )
 
     def load(self, time: float) -> Field:
-        """Return the load (N/m) of displacement and applied traction at a time (s)."""
+        """The load (N/m) of displacement and applied traction at a time (s)."""
         forces = self.loads.nodal(time)
         if self.log_state:
             forces[0, 0] += self.applied_force(time)
@@ -145,7 +132,7 @@ class Manufactured(Drive):
         return state, report
 
     def nodal_exact(self, time: float, **orders: int) -> Array:
-        """Return exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
+        """Exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
         x = self.grid.x[None]
         y = self.grid.y[:, None]
         w_x = self.exact.value(0, x, y, time, **orders)
@@ -153,7 +140,7 @@ class Manufactured(Drive):
         return np.array([w_x, u_y])
 
     def exact_w(self, time: float) -> Array:
-        """Return the exact w_x (m) at the interface's nodes 1..n_x at a time (s)."""
+        """The exact w_x (m) at the interface's nodes 1..n_x at a time (s)."""
         return self.exact.value(
             0,
             self.grid.x[1:],
@@ -167,22 +154,7 @@ class Manufactured(Drive):
         time: float,
         by_t: int = 0,
     ) -> Array:
-        """Return the exact slip rate or a derivative in time.
-
-        Parameters
-        ----------
-        x : ndarray
-            Positions (m).
-        time : float
-            In s.
-        by_t : int
-            Order of the derivative.
-
-        Returns
-        -------
-        ndarray
-            The slip rate (m/s), or its derivative.
-        """
+        """The exact slip rate or a derivative in time."""
         own = self.exact.value(
             0,
             x,
@@ -198,30 +170,19 @@ class Manufactured(Drive):
         time: float,
         by_t: int = 0,
     ) -> Array:
-        """Return the exact psi = log(phi) or a derivative in time.
-
-        Parameters
-        ----------
-        x, time, by_t
-            As in :meth:`exact_slip_rate`.
-
-        Returns
-        -------
-        ndarray
-            psi, or its derivative.
-        """
+        """The exact psi = log(phi) or a derivative in time."""
         y = np.zeros_like(x)
         terms = (term(x, y, time, by_t=by_t) for term in self.log_state)
         return sum(terms, np.zeros_like(x))
 
     def exact_motion(self, time: float) -> Motion:
-        """Return the body's motion at a time (s)."""
+        """The body's motion at a time (s)."""
         displacement = block_field(self.body, self.nodal_exact(time))
         rate = block_field(self.body, self.nodal_exact(time, by_t=1))
         return Motion(displacement, rate, self.body.momentum_x(rate))
 
     def exact_state(self, step: float) -> State:
-        """Return the state at t = 0, with exact values at 0, -step and -2 step (s)."""
+        """The state at t = 0, with exact values at 0, -step and -2 step (s)."""
         times = np.array([0.0, -step, -2 * step])
         x = self.grid.x
         rates = np.array([self.exact_slip_rate(x, t) for t in times])
@@ -238,17 +199,17 @@ class Manufactured(Drive):
         )
 
     def displacement_error(self, state: State) -> float:
-        """Return the root mean square over the area of the nodal error (m)."""
+        """The root mean square over the area of the nodal error (m)."""
         values = np.array(self.body.nodal_values(state.displacement))
         return self.loads.mean_over_area(values - self.nodal_exact(state.time))
 
     def slip_rate_error(self, state: State) -> float:
-        """Return the root mean square over the interface of the nodal error (m/s)."""
+        """The root mean square over the interface of the nodal error (m/s)."""
         exact = self.exact_slip_rate(self.grid.x, state.time)
         return self._mean(state.past_slip_rates[0] - exact)
 
     def log_state_error(self, state: State) -> float:
-        """Return the root mean square over the interface of the nodal error of psi."""
+        """The root mean square over the interface of the nodal error of psi."""
         exact = self.exact_log_state(self.grid.x, state.time)
         return self._mean(state.past_log_states[0] - exact)
 
@@ -257,25 +218,13 @@ class Manufactured(Drive):
         return float(np.sqrt(square))
 
     def friction_coefficient(self, x: Array, time: float) -> Array:
-        """Return f(v, phi) of the exact slip rate and state.
-
-        Parameters
-        ----------
-        x : ndarray
-            Positions (m).
-        time : float
-            In s.
-
-        Returns
-        -------
-        ndarray
-        """
+        """F(v, phi) of the exact slip rate and state."""
         state = np.exp(self.exact_log_state(x, time))
         slip_rate = self.exact_slip_rate(x, time)
         return self.friction.coefficient(slip_rate, state)
 
     def applied_force(self, time: float) -> Array:
-        """Return the nodal force (N/m) of the applied traction along x, at the nodes 0..n_x."""
+        """The nodal force (N/m) of the applied traction along x, at the nodes 0..n_x."""
         loads = self.loads
         shear, normal = loads.interface_stress(time)
         if self.lumped:
@@ -287,7 +236,7 @@ class Manufactured(Drive):
         return -loads.along_x @ shear - friction
 
     def source(self, time: float) -> Array:
-        """Return the source (1/s) of the state equation in psi, at the nodes 0..n_x."""
+        """The source (1/s) of the state equation in psi, at the nodes 0..n_x."""
         x = self.grid.x
         state = np.exp(self.exact_log_state(x, time))
         slip_rate = self.exact_slip_rate(x, time)
@@ -296,19 +245,7 @@ class Manufactured(Drive):
 
 
 def block_field(block: Block, values: Array) -> Field:
-    """Convert nodal values into a field.
-
-    Parameters
-    ----------
-    block : Block
-        The block.
-    values : ndarray
-        Nodal w_x and u_y, shape (2, n_y + 1, n_x + 1).
-
-    Returns
-    -------
-    Field
-    """
+    """Convert nodal values into a field."""
     grid = block.grid
     x, y = values
     modes = np.empty((grid.n_y + 1, 2, grid.n_x))

@@ -1,5 +1,8 @@
 """Orders of convergence in h and in dt, measured on manufactured solutions.
 
+``python -m benchmarks.manufactured.orders`` writes ``results/verification.csv``, of which
+``results/reference/verification.csv`` is a copy.
+
 The errors in space and in time are separate. For the order in h the fields are smooth in space and
 quadratic in time, for which BDF2 is exact; for the order in dt they oscillate in time and are
 bilinear in space, for which the elements are exact. There are three problems: elastodynamics with a
@@ -11,40 +14,26 @@ three.
 
 import itertools
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from numpy.typing import ArrayLike
 
-from nucleation.datasets.variables import Variable, annotate
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array
 
-from .manufactured.dynamics import Manufactured
-from .manufactured.fields import Displacement, Factor, Term, power, sine
+from .dynamics import Manufactured
+from .fields import Displacement, Factor, Term, power, sine
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
 REFINEMENTS = ("mesh", "step", "quasi_static_step")
-SPACINGS = {
-    "element_size": Variable("m", "length of the elements along x", "h"),
-    "step_size": RECORDED["step_size"],
-    "quasi_static_step_size": Variable("s", "time step of quasi-static fields", "dt"),
-}
-ERRORS = {
-    "displacement_error": Variable("1", "error of the displacement over its scale"),
-    "slip_rate_error": Variable("1", "error of the slip rate over V"),
-    "log_state_error": Variable("1", "error of the log of the state variable"),
-}
-COORDINATES = {
-    "problem": Variable("", "elastodynamics alone, or with friction by an evolution law"),
-    "refinement": Variable("", "quantity that is refined from level to level"),
-}
+ERRORS = ("displacement_error", "slip_rate_error", "log_state_error")
+"""Of the displacement over its scale, of the slip rate over V, of the log of the state."""
 
 MATERIAL = Material()
 GEOMETRY = Geometry(height=0.3, length=1.0)
@@ -126,19 +115,7 @@ FIELDS = {
 
 
 def log_state(fields: _Fields, parameters: Parameters) -> tuple[Term, Term]:
-    """Return the terms of psi = log(phi).
-
-    Parameters
-    ----------
-    fields : _Fields
-        One of :data:`FIELDS`.
-    parameters : Parameters
-        D and V.
-
-    Returns
-    -------
-    steady, varying : Term
-    """
+    """The terms of psi = log(phi): steady sliding, and what varies."""
     constant = power(1.0)
     steady = Term(
         np.log(parameters.memory_time),
@@ -156,23 +133,7 @@ def manufactured(
     rows: int,
     grading: float = GRADING,
 ) -> Manufactured:
-    """Make the solver with the loads of a problem.
-
-    Parameters
-    ----------
-    problem : str
-        One of :data:`PROBLEMS`.
-    name : str
-        Name of its :data:`FIELDS`.
-    rows : int
-        Number of elements along y, half of those along x.
-    grading : float
-        Height of the top row of elements over that of the bottom row.
-
-    Returns
-    -------
-    Manufactured
-    """
+    """The solver with the loads of a problem and of named fields, on 2 rows x rows elements."""
     fields = FIELDS[name]
     alone = problem == "elastodynamics"
     evolution = "aging" if alone else problem
@@ -199,7 +160,7 @@ def _errors(problem: Manufactured, rungs: Iterable[int]) -> tuple[float, float, 
 
 
 def _mesh_errors(problem: str) -> Array:
-    """Return the errors of a problem on the meshes of :data:`ROWS`, (level, 3)."""
+    """Errors of a problem on the meshes of :data:`ROWS`, (level, 3)."""
     rungs = [MESH_RUNG] * MESH_STEPS
     found = []
     for rows in ROWS:
@@ -213,21 +174,9 @@ def step_errors(
     name: str = "step",
     pattern: ArrayLike = (0,),
 ) -> Array:
-    """Return the errors of a problem with the steps of :data:`STEP_RUNGS`.
+    """Errors of a problem with the steps of :data:`STEP_RUNGS`, (level, 3).
 
-    Parameters
-    ----------
-    problem : str
-        One of :data:`PROBLEMS`.
-    name : str
-        Name of the fields and rungs.
-    pattern : sequence of int
-        Numbers that are added to the rungs of successive steps, repeated.
-
-    Returns
-    -------
-    ndarray
-        Errors in the order of :data:`ERRORS`, shape (level, 3).
+    The numbers of `pattern` are added to the rungs of successive steps, repeated.
     """
     solved = manufactured(problem, name, STEP_ROWS)
     found = []
@@ -239,70 +188,36 @@ def step_errors(
 
 
 def orders(errors: ArrayLike) -> Array:
-    """Return the orders between successive errors (first axis), each of half the spacing."""
+    """The orders between successive errors (first axis), each of half the spacing."""
     values = np.asarray(errors, dtype=float)
     return np.log2(values[:-1] / values[1:])
 
 
-def convergence_dataset() -> xr.Dataset:
-    """Measure the errors of all problems on all meshes and with all steps.
+def convergence() -> pd.DataFrame:
+    """Errors of all problems on all meshes and with all steps, with their orders.
 
-    Returns
-    -------
-    Dataset
-        :data:`ERRORS` on (problem, refinement, level), and :data:`SPACINGS` of the levels.
-        Elastodynamics has only the error of the displacement, and none in the quasi-static limit.
+    Elastodynamics has only the error of the displacement, and none in the quasi-static limit.
     """
-    found = np.full(
-        (len(PROBLEMS), len(REFINEMENTS), len(ROWS), len(ERRORS)),
-        np.nan,
-    )
-    for i, problem in enumerate(PROBLEMS):
-        found[i, 0] = _mesh_errors(problem)
-        found[i, 1] = step_errors(problem, "step")
-        if problem == "elastodynamics":
-            found[i, :, :, 1:] = np.nan
-        else:
-            found[i, 2] = step_errors(problem, "quasi_static_step")
-    on = ("problem", "refinement", "level")
-    errors = {name: (on, found[..., i]) for i, name in enumerate(ERRORS)}
-    coordinates = {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)}
-    dataset = xr.Dataset(errors | _spacings(), coordinates)
-    return annotate(dataset, COORDINATES | SPACINGS | ERRORS)
-
-
-def _spacings() -> dict[str, tuple[str, Array]]:
-    """The element size (m) and the step sizes (s) on ``level``."""
-    scheme = BDF()
-    elements = 2.0 * np.array(ROWS)
-    sizes = [GEOMETRY.length / elements]
-    for name in REFINEMENTS[1:]:
-        steps = [scheme.steady_step(rung) for rung in STEP_RUNGS[name]]
-        sizes.append(np.array(steps))
-    return {name: ("level", size) for name, size in zip(SPACINGS, sizes, strict=True)}
-
-
-def convergence_csv(dataset: xr.Dataset) -> str:
-    """Return the errors and their orders as comma-separated text, a line per problem and level."""
-    spacings = dict(zip(REFINEMENTS, SPACINGS, strict=True))
     tables = []
     for problem, refinement in itertools.product(PROBLEMS, REFINEMENTS):
-        own = dataset.sel(problem=problem, refinement=refinement)
-        columns = {
-            "problem": problem,
-            "refinement": refinement,
-            "spacing": own[spacings[refinement]].values,
-        }
-        for name in ERRORS:
-            errors = own[name].values
-            columns[name] = errors
-            columns[f"{name}_order"] = np.append(np.nan, orders(errors))
-        table = pd.DataFrame(columns)
-        tables.append(table.dropna(subset="displacement_error"))
-    return pd.concat(tables).to_csv(index=False, float_format="%.6g")
+        alone = problem == "elastodynamics"
+        if refinement == "mesh":
+            errors, spacing = _mesh_errors(problem), GEOMETRY.length / (2.0 * np.array(ROWS))
+        elif alone and refinement == "quasi_static_step":
+            continue
+        else:
+            errors = step_errors(problem, refinement)
+            spacing = np.array([BDF().steady_step(rung) for rung in STEP_RUNGS[refinement]])
+        columns = {"problem": problem, "refinement": refinement, "spacing": spacing}
+        for i, name in enumerate(ERRORS):
+            own = np.full_like(spacing, np.nan) if alone and i else errors[:, i]
+            columns[name] = own
+            columns[f"{name}_order"] = np.append(np.nan, orders(own))
+        tables.append(pd.DataFrame(columns))
+    return pd.concat(tables, ignore_index=True)
 
 
-def files() -> dict[str, xr.Dataset | str]:
-    """Make the files of the step ``verification``: :func:`convergence_dataset` and its CSV."""
-    found = convergence_dataset()
-    return {".nc": found, ".csv": convergence_csv(found)}
+if __name__ == "__main__":
+    path = Path("results", "verification.csv")
+    path.parent.mkdir(exist_ok=True)
+    convergence().to_csv(path, index=False, float_format="%.6g")

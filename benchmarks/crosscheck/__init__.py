@@ -1,0 +1,1 @@
+"""The same runs by an independent solver, FreeFem++: see README.md."""

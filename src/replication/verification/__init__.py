@@ -1,1 +1,0 @@
-"""Evidence for the solver: manufactured solutions, dispersion, and an independent solver."""

@@ -1,1 +1,0 @@
-"""The same runs by an independent solver, FreeFem++: their plan, its runs, the comparison."""
