@@ -88,13 +88,13 @@ bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by it
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
 	literature.csv weakening.csv other_faults.csv weakening_patches.csv patch_tables.json \
-	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
+	figures/*.png tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
 
 reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_drop \
-		patch_tables animation figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
+		patch_tables figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
 		figure_weakening_patches other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference

@@ -109,7 +109,7 @@ def test_texts_have_units_as_on_the_command_line():
 def test_parameters_are_shown_for_completion():
     """By name, with what may be left out; a law shows its own."""
     for name in ("critical_length", "spectrum", "stability_length", "specimen_fit",
-                 "lengths_in_use", "length_quantiles", "plot_length"):  # fmt: skip
+                 "lengths_in_use", "length_quantiles"):  # fmt: skip
         shown = inspect.signature(getattr(api, name)).parameters
         assert set(inspect.signature(api.Fault).parameters) <= shown.keys()
         assert shown["height"].default == math.inf and "fault" not in shown
@@ -203,7 +203,6 @@ def test_everything_announced_is_there_and_documented():
 
 TAKE_A_WHILE = (
     "expected_drop",
-    "film",
     "length_quantiles",
     "runaway_length",
     "specimen_quantiles",
@@ -261,24 +260,3 @@ def test_an_interrupted_run_keeps_its_record(capsys):
     assert_allclose(record["driving_force"], whole["driving_force"][:5], rtol=0.0)
     with pytest.raises(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)
-
-
-@pytest.mark.slow
-def test_pictures_in_one_call(tmp_path):
-    heights = [0.1, 1.0, 10.0]
-    figure = api.plot_length("height", **FAULT, height=heights)
-    theory, patch = figure.axes[0].get_lines()
-    assert_allclose(theory.get_ydata(), arrays.critical_length(**FAULT, height=heights))
-    assert_allclose(patch.get_ydata(), api.stability_length(**FAULT, height=heights))
-    assert figure.axes[0].get_xlabel() == "Height (m)"
-    with pytest.raises(ParameterError, match="height needs several values"):
-        api.plot_length("height", **FAULT, height=1.0)
-    growth, frequency = api.plot_spectrum(**FAULT, velocity="1um/s").axes
-    k = growth.get_lines()[0].get_xdata()
-    rates = arrays.spectrum(k, **FAULT, velocity=1e-6)
-    assert_allclose(growth.get_lines()[0].get_ydata(), rates[0].real)
-    assert_allclose(frequency.get_lines()[1].get_ydata(), rates[1].imag)
-    record = api.simulate(api.Parameters().replaced(SHORT))
-    assert len(api.plot_run(record).axes) == 5
-    api.film(record, tmp_path / "film.gif")
-    assert (tmp_path / "film.gif").read_bytes().startswith(b"GIF")

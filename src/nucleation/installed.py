@@ -12,7 +12,7 @@ DISTRIBUTION = "nucleation-length"
 
 EXTRAS = {
     "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
-    "figures": ("matplotlib", "PIL"),
+    "figures": ("matplotlib",),
     "report": ("jinja2", "markupsafe", "docutils"),
     "article": ("pypandoc", "typst"),
 }

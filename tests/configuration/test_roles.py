@@ -31,7 +31,7 @@ BAD = {
     ),
     "less than the interface": (
         study(TALL | {"record": "lengths"}, role="converged"),
-        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "interface or every"],
+        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "must be interface"],
     ),
     "perturbed": (
         study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="convergence_quiet"),

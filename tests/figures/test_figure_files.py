@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from nucleation.pictures import style
-from replication.figures.paper import figure_1, figure_2, figure_3, figure_s1, figure_s2
+from nucleation.pictures import run, style
+from replication.figures.paper import figure_1, figure_2, figure_3, figure_s1
 
 pytestmark = pytest.mark.slow
 
@@ -28,7 +28,7 @@ def draw(theory, lengths, thin, thin_row, thick, thick_row):
         "figure_2": lambda: figure_2.draw(theory),
         "figure_3": lambda: figure_3.draw(theory, lengths, thick, thick_row),
         "figure_s1": lambda: figure_s1.draw(theory),
-        "figure_s2": lambda: figure_s2.draw(thin, thin_row),
+        "figure_s2": lambda: run.draw(thin, thin_row),
     }
     return lambda name: calls[name]()
 
@@ -73,7 +73,7 @@ def test_legends_cover_no_data(draw, name):
 
 def test_bytes_depend_on_no_hash_seed(tmp_path):
     code = (
-        "import sys; from replication.figures import style;"
+        "import sys; from nucleation.pictures import style;"
         "from replication.figures.paper import figure_1;"
         "style.save(figure_1.draw(), sys.argv[1])"
     )
@@ -106,7 +106,18 @@ def test_stems_with_dots_keep_them(tmp_path):
     assert (pdf.name, png.name) == ("height-0.005.pdf", "height-0.005.png")
 
 
-def test_drawing_leaves_the_settings_of_matplotlib_alone(theory):
-    before = dict(mpl.rcParams)
-    figure_2.draw(theory)
-    assert dict(mpl.rcParams) == before
+BLACK = {
+    "figure.facecolor": "black", "axes.facecolor": "black", "savefig.facecolor": "black",
+    "text.color": "white", "axes.grid": True, "font.size": 20, "savefig.bbox": "tight",
+    "pdf.fonttype": 3, "axes.prop_cycle": mpl.cycler(color=["white"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_settings_of_matplotlib_change_no_byte_and_stay(draw, name, tmp_path):
+    usual = [path.read_bytes() for path in style.save(draw(name), tmp_path / "usual")]
+    with mpl.rc_context(BLACK):
+        before = dict(mpl.rcParams)
+        black = [path.read_bytes() for path in style.save(draw(name), tmp_path / "black")]
+        assert dict(mpl.rcParams) == before
+    assert black == usual

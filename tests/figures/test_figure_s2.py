@@ -6,12 +6,12 @@ import xarray as xr
 from matplotlib.collections import QuadMesh
 
 from nucleation.model.parameters import Parameters
-from replication.figures.paper import figure_s2
+from nucleation.pictures import run
 
 
 @pytest.fixture
 def panels(thin, thin_row):
-    return figure_s2.draw(thin, thin_row).axes[:4]
+    return run.draw(thin, thin_row).axes[:4]
 
 
 def mesh_of(axes):
@@ -68,7 +68,7 @@ def test_panels_share_their_axes_and_mark_onset_and_length(panels, thin, thin_ro
 
 def test_an_event_is_a_step_at_its_time_though_output_is_sparse_before():
     time = np.concatenate([[0.0, 6.0, 12.0], 13.0 + 1e-4 * np.arange(500), [14.0, 16.0]])
-    kept = figure_s2.thin(time, 0.0, 16.0, 400)
+    kept = run.thin(time, 0.0, 16.0, 400)
     assert np.isclose(time[kept], 13.0).any() and kept.size < 10
     assert kept[0] == 0 and (np.diff(kept) > 0).all()
     assert np.diff(time[kept[:-1]]).min() >= 0.5 * 16.0 / 400
@@ -79,9 +79,9 @@ def test_only_what_slipped_is_shown(thin):
     slip = np.where(x < 0.3 * x[-1], 1e-4, 0.0)
     slip[-3:] = 1e-4  # the corner of the free edge slips at the start
     quiet = thin.assign(slip=thin["slip"].copy(data=np.tile(slip, (thin.sizes["time"], 1))))
-    assert 0.35 * x[-1] < figure_s2.slipped_extent(quiet) < 0.45 * x[-1]
+    assert 0.35 * x[-1] < run.slipped_extent(quiet) < 0.45 * x[-1]
     all_slipped = quiet.assign(slip=quiet["slip"] * 0.0 + 1e-4)
-    assert figure_s2.slipped_extent(all_slipped) == x[-1]
+    assert run.slipped_extent(all_slipped) == x[-1]
 
 
 def test_the_zoom_takes_the_first_event_only():
@@ -89,11 +89,11 @@ def test_the_zoom_takes_the_first_event_only():
     rate = 1e-5 + 0.1 * (np.abs(time - 5.002) < 2.1e-3) + 0.1 * (np.abs(time - 8.0) < 2.1e-3)
     record = xr.Dataset({"step_time": ("step", time), "maximal_slip_rate": ("step", rate)})
     record.attrs["parameters"] = Parameters().to_json()
-    start, peak, end = figure_s2.event_window(record, 5.0)
+    start, peak, end = run.event_window(record, 5.0)
     assert 4.99 < start < 5.0 <= peak <= 5.004 < end < 5.01
 
 
 def test_a_record_without_an_onset_is_drawn(thin):
     row = xr.Dataset(dict.fromkeys(("onset_time", "length", "length_low", "length_high"), np.nan))
-    figure = figure_s2.draw(thin, row)
+    figure = run.draw(thin, row)
     assert len(figure.axes) == 5

@@ -157,9 +157,9 @@ def test_no_text_can_end_the_script_that_holds_the_data():
 
 def test_catalogue_names_figures_that_exist_and_what_they_stand_on():
     drawn = {path.stem for path in (ROOT / "src/replication/figures").rglob("figure_*.py")}
-    assert set(catalogue.FIGURES) - {"animation"} == drawn - {"figure_studies"}
+    assert set(catalogue.FIGURES) == drawn - {"figure_studies"}
     assert "figure_3" not in catalogue.drawable(["mine"])
-    assert {"figure_2", "figure_3", "animation"} <= set(catalogue.drawable(["paper"]))
+    assert {"figure_2", "figure_3"} <= set(catalogue.drawable(["paper"]))
 
 
 EVIL = """'"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>{{ 7 }}"""

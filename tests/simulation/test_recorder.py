@@ -1,4 +1,4 @@
-"""When a recorder takes frames and snapshots, on made-up states."""
+"""When a recorder takes frames, on made-up states."""
 
 import dataclasses
 
@@ -53,10 +53,3 @@ def test_a_frame_when_a_slip_rate_has_changed_by_half_its_logarithm(start):
     times = 1e-6 * MEMORY * np.arange(21)
     record = recorded(start, times, rates)
     np.testing.assert_array_equal(record["time"], times[[0, 5, 10, 15, 20]])
-
-
-def test_a_snapshot_when_slip_first_exceeds_three_times_a_power_of_ten(start):
-    factors = np.array([1.0, 2.9, 3.1, 29.0, 31.0, 2.0, 31.0, 310.0, 2.9e3, 3.1e3, 1e6])
-    times = 1e-6 * MEMORY * np.arange(factors.size)
-    record = recorded(start, times, factors * V)
-    np.testing.assert_array_equal(record["snapshot_time"], times[[0, 2, 4, 7, 9]])

@@ -3,11 +3,8 @@
 import json
 import shutil
 
-import numpy as np
 import pytest
-from PIL import Image
 
-from nucleation.datasets import netcdf
 from replication.configuration.load import load, read_yaml
 from replication.figures import catalogue
 
@@ -51,15 +48,3 @@ def test_report_has_every_figure_of_the_configuration(reported, results):
     assert html.count('<tr role="row" data-kind=') == len(claims) > 30
     assert "http://" not in html.split("<script", 1)[0].replace("http://www.w3.org", "")
     assert reported.planned("report") == {}
-
-
-def test_animation_goes_through_creep_and_event(results):
-    film = netcdf.read(results / "film.nc")
-    lengths = netcdf.read(results / "lengths.nc")
-    run = lengths.isel(run=int(np.flatnonzero(lengths["id"] == "paper-aging-H0.1-phi1")[0]))
-    onset = float(run["onset_time"])
-    assert film["time"][0] == 0.0
-    assert 20 < int((film["time"] > onset - 0.05).sum()) < film.sizes["time"]
-    with Image.open(results / "figures" / "animation.gif") as animation:
-        assert animation.n_frames == film.sizes["time"] + 1  # the onset comes first
-    assert (results / "figures" / "animation.gif").stat().st_size < 4e6

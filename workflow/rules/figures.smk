@@ -112,7 +112,7 @@ rule figure_s2:
         f"{RESULTS}/logs/figures/figure_s2.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_s2:draw_run",
+        call="replication.figures.paper.figure_s2:draw",
         reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
         id=lambda wildcards: space_time_run().id,
     message:
@@ -443,49 +443,5 @@ rule draw_study:
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),
     message:
         "Figure of the study {wildcards.study}: simulations and theory"
-    shell:
-        JOB
-
-
-rule film:
-    """One run again, for the stress in its block"""
-    input:
-        lengths=f"{RESULTS}/lengths.nc",
-        after=lambda wildcards: batches([inset_run()]),
-        recipe=recipe("film"),
-    output:
-        f"{RESULTS}/film.nc",
-    log:
-        f"{RESULTS}/logs/film.log",
-    params:
-        call="replication.figures.film:of_run",
-        reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
-        id=lambda wildcards: inset_run().id,
-    message:
-        "One run again, for the stress in its block"
-    shell:
-        JOB
-
-
-rule animation:
-    """Creep, nucleation and rupture"""
-    input:
-        film=f"{RESULTS}/film.nc",
-        lengths=f"{RESULTS}/lengths.nc",
-        recipe=recipe("animation"),
-    output:
-        report(
-            f"{RESULTS}/figures/animation.gif",
-            caption="../report/animation.rst",
-            category="Beyond the paper",
-        ),
-    log:
-        f"{RESULTS}/logs/figures/animation.log",
-    localrule: True
-    params:
-        call="replication.figures.beyond.animation:of_run",
-        id=lambda wildcards: inset_run().id,
-    message:
-        "Creep, nucleation and rupture"
     shell:
         JOB

@@ -33,7 +33,7 @@ def first_fault():
     }
 
 
-SHOWN_RUNS = {"figure_3": inset_run, "figure_s2": space_time_run, "animation": inset_run}
+SHOWN_RUNS = {"figure_3": inset_run, "figure_s2": space_time_run}
 """Figures of a single simulation, and the functions that select it."""
 
 
@@ -45,8 +45,7 @@ def caption_values(wildcards):
 
 def pictures(wildcards):
     """The files of the shown figures."""
-    suffixes = {name: "gif" if name == "animation" else "png" for name in ENTRIES}
-    return [f"{RESULTS}/figures/{name}.{suffix}" for name, suffix in suffixes.items()]
+    return [f"{RESULTS}/figures/{name}.png" for name in ENTRIES]
 
 
 def own_warnings(wildcards):

@@ -191,7 +191,7 @@ def one_of_each_fault(runs):
 
 
 def inset_run():
-    """The run in the inset of Figure 3 and in the animation."""
+    """The run in the inset of Figure 3."""
     return or_refused(settings.shown, settings.figures.inset_height)
 
 

@@ -19,8 +19,7 @@ quantities, with quantities as results. A text is read as on the command line,
 ``slip_distance="0.5um"``, in simulations as in the theory.
 
 Simulations, extraction and datasets are imported when first used, since that takes a while. They
-need the extra ``solver``, pictures and films (``plot_...``, ``film``) also the extra ``figures``:
-without it a call raises an ImportError that names the extra.
+need the extra ``solver``: without it a call raises an ImportError that names the extra.
 """
 
 from __future__ import annotations
@@ -56,7 +55,6 @@ if TYPE_CHECKING:
     from ..lengths.specimen_quantiles import specimen_quantiles
     from ..lengths.status import length_statuses
     from ..lengths.uncertainty import length_quantiles
-    from ..pictures.overview import film, plot_length, plot_run, plot_spectrum
     from ..simulation.progress import simulate
     from ..simulation.run import run
     from ..theory.creep.lengths import stability_length
@@ -85,13 +83,9 @@ __all__ = [
     "drop_quantiles",
     "expected_drop",
     "extract",
-    "film",
     "length_quantiles",
     "length_statuses",
     "lengths_in_use",
-    "plot_length",
-    "plot_run",
-    "plot_spectrum",
     "read",
     "read_samples",
     "run",
@@ -115,7 +109,6 @@ _LATER = {
     "nucleation.simulation.progress": ("simulate",),
     "replication.configuration.samples": ("read_samples",),
     "nucleation.datasets.netcdf": ("read", "write"),
-    "nucleation.pictures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
     "nucleation.drop.drop_quantiles": ("drop_quantiles",),
     "nucleation.drop.expected_drop": ("expected_drop",),
     "nucleation.simulation.run": ("run",),
@@ -131,7 +124,6 @@ _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
 _EXTRAS = {
     **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
-    **dict.fromkeys(("film", "plot_length", "plot_run", "plot_spectrum"), ("solver", "figures")),
 }
 """The extras of functions that need one."""
 

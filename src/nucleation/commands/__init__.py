@@ -44,7 +44,6 @@ COMMANDS = {
     "specimen": "Normal stress, slip distance or modulus at which a nucleation length fits into a "
     "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
-    "plot": "Draw L_c, L_s and the length at the drop over one or two parameters of a fault.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "show": "Summarise a dataset of the project: its kind, origin and variables.",
 }

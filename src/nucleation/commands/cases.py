@@ -1,4 +1,4 @@
-"""The runs of ``drop`` and ``plot``: with one value of each parameter, or one for each draw."""
+"""The runs of ``drop``: with one value of each parameter, or one for each draw."""
 
 import math
 from collections.abc import Mapping

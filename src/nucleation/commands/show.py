@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 from collections.abc import Callable
@@ -25,7 +24,6 @@ from ..theory.critical import run_length
 from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
 from .options import json_option
-from .pictures import require_picture, save
 from .unit_text import engineering_unit
 
 _SHOWN_ROWS = 60
@@ -37,7 +35,7 @@ _SHOWN_ROWS = 60
     "--plot",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="OUT.png",
-    help="draw it; PNG or PDF by the name, or GIF: a film of a simulation, which is run once more",
+    help="draw it, if it is a simulation; PNG or PDF by the name",
 )
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
 @json_option
@@ -52,14 +50,16 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     dataset = netcdf.read(file)
     kind = _kind_of(dataset)
     if plot:
-        _check_plot(plot, kind, force)
+        _require_picture(plot, kind, force)
     if as_json:
         click.echo(text.to_json({"file": str(file), **_described(dataset, kind)}))
     else:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
         click.echo("\n".join(text.wrapped(*lines)))
     if plot:
-        _save(dataset, kind, plot)
+        from ..pictures import run, style
+
+        style.write(run.draw(dataset, xr.Dataset(extract(dataset))), plot)
         click.echo(f"plot: {plot}", err=as_json)
     return DONE
 
@@ -85,28 +85,14 @@ def _described(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
     return found
 
 
-def _check_plot(plot: Path, kind: _Kind, force: bool) -> None:
-    """Refuse a plot that can't be drawn or written."""
+def _require_picture(plot: Path, kind: _Kind, force: bool) -> None:
+    """Refuse a picture that can't be drawn or written."""
     require("figures")
-    if not kind.figure:
-        known = ", ".join(kind.name for kind in _KINDS if kind.figure)
-        raise ParameterError(
-            f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
-        )
-    allowed = (".png", ".pdf", ".gif") if kind.name == _SIMULATION else (".png", ".pdf")
-    require_picture("--plot", plot, force, allowed)
-
-
-def _save(dataset: xr.Dataset, kind: _Kind, plot: Path) -> None:
-    """Write the figure in the style of the project, or a film, in the format of the name."""
-    if plot.suffix == ".gif":
-        from ..pictures import overview
-
-        overview.film(dataset, plot)
-        return
-    module, _, function = kind.figure.rpartition(".")
-    figures = importlib.import_module(f"replication.figures.{module}")
-    save(getattr(figures, function)(dataset), plot)
+    if kind.name != _SIMULATION:
+        raise ParameterError(f"there is a plot of simulations alone, and this is a {kind.name}")
+    if plot.suffix not in (".png", ".pdf"):
+        raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
+    text.require_writable(plot, force)
 
 
 def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:
@@ -152,8 +138,7 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
         f"status: {attributes['status']}",
         f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, "
         f"{attributes['wall_seconds']:.4g} s of wall time, {attributes['peak_megabytes']:.0f} MB",
-        f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points, "
-        f"{sizes.get('snapshot', 0)} snapshots of the block",
+        f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points",
         f"theory: {theory_text}",
         *text.event_lines(extract(dataset), theory),
     ]
@@ -206,8 +191,6 @@ class _Kind(NamedTuple):
     name: str
     marks: tuple[str, ...]
     """Variables that other kinds lack."""
-    figure: str = ""
-    """Module and function of its figure; empty without one."""
     summary: Callable[[xr.Dataset], list[str]] = _variable_lines
     """The lines of its summary."""
 
@@ -218,13 +201,11 @@ _KINDS = (
     _Kind(
         _SIMULATION,
         marks=("slip_rate", "driving_force", "step_time"),
-        figure="overview.plot_run",
         summary=_simulation_lines,
     ),
     _Kind(
         "sensitivity table",
         marks=("varied", "length"),
-        figure="beyond.figure_sensitivity.draw",
         summary=_length_rows,
     ),
     _Kind(
@@ -248,7 +229,6 @@ _KINDS = (
     _Kind(
         "theory",
         marks=("critical_length", "thin_limit_length"),
-        figure="paper.figure_2.draw",
     ),
     _Kind("dataset", marks=()),
 )

@@ -68,7 +68,7 @@ def measure(record: Record) -> dict[str, float]:
     its edge, or if its interface is not recorded.
     """
     given = record.parameters
-    if given.loading.kind != "edge" or not given.recording.covers("interface"):
+    if given.loading.kind != "edge" or given.recording.record == "lengths":
         return {}
     sizes = record.simulation["step_size"].values[1:]
     normal = record.simulation["sigma_yy"].values

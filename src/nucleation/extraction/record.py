@@ -55,7 +55,7 @@ class Record:
         if missing:
             raise DatasetError(
                 f"{', '.join(missing)}: not recorded, as the run's recording.record is "
-                f"{self.parameters.recording.record}; simulate with interface or everything"
+                f"{self.parameters.recording.record}; simulate with interface"
             )
 
     @property

@@ -164,7 +164,7 @@ class Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value.
 
         Older records lack some groups: their runs are unperturbed, uniform and on a rigid base,
-        and record everything.
+        and record all fields.
         """
         added_later = ("perturbation", "heterogeneity", "second_body", "recording")
         values = {name: {} for name in added_later} | values

@@ -2,7 +2,8 @@
 
 import functools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, ParamSpec
 
@@ -13,7 +14,6 @@ from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.transforms import ScaledTranslation, Transform
 
 from ..datasets.files import replacing
 
@@ -39,14 +39,12 @@ PURPLE = "#CC79A7"
 
 # Colours by meaning. If colours could be confused, shapes or dashes differ as well.
 THEORY = BLUE
-THIN_LIMIT = BLUE
+STABILITY = GREEN  # L_s, the length at which the creeping patch turns unstable
 AGING = VERMILLION
 SLIP = BLACK
 OLD_AGE = "#6B3E12"  # the paper's brown, dark enough to differ from AGING in grey
 FULL_LAW = "#8E4585"  # the palette's purple, darkened for thin lines
-LOGARITHMIC_LAW = BLUE
 GUIDE = "#595959"  # lines that mark a value
-DRIVE = BLUE
 UPPER_BODY = SKY_BLUE
 LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
@@ -104,66 +102,47 @@ BOXED: Options = {
 
 OPEN: Options = {"markerfacecolor": "white"}
 
-KEY = "Key"
-"""Entry of a PNG with the key of its recipe."""
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Within this context :data:`STYLE` holds over matplotlib's defaults.
+
+    A user's own settings, of a ``matplotlibrc`` for one, have no effect, and hold again afterwards.
+    """
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(STYLE)
+        yield
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Decorator: call `draw` with :data:`STYLE`; matplotlib's own settings stay unchanged."""
+    """Decorator: call `draw` in the style of the project."""
 
     @functools.wraps(draw)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        with mpl.rc_context(STYLE):
+        with applied():
             return draw(*args, **kwargs)
 
     return wrapper
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """An empty figure on the Agg canvas, unknown to pyplot.
-
-    Parameters
-    ----------
-    width, height : float
-        Size in inches.
-
-    Returns
-    -------
-    Figure
-        Without panels.
-    """
-    figure = Figure(figsize=(width, height), layout="constrained")
+def new_figure(height: float, width: float = DOUBLE_COLUMN) -> Figure:
+    """A figure without panels, unknown to pyplot; `height` in centimetres, `width` in inches."""
+    figure = Figure(figsize=(width, height * CENTIMETRE), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 
 
-def column(height: float) -> tuple[Figure, Axes]:
-    """A figure of one column's width with one panel; `height` in centimetres."""
-    figure = new_figure(SINGLE_COLUMN, height * CENTIMETRE)
-    return figure, figure.add_subplot()
-
-
 def panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figure, Any]:
-    """A figure of two columns' width with its panels.
-
-    Parameters
-    ----------
-    rows, columns : int
-        Number of panels.
-    height : float
-        Height of the figure in centimetres.
-    **options
-        Options of :meth:`matplotlib.figure.Figure.subplots`.
-
-    Returns
-    -------
-    Figure
-        The figure.
-    Axes or array of Axes
-        Its panels, as of ``subplots``.
-    """
-    figure = new_figure(DOUBLE_COLUMN, height * CENTIMETRE)
+    """A figure of two columns' width and its panels, with options of ``Figure.subplots``."""
+    figure = new_figure(height)
     return figure, figure.subplots(rows, columns, **options)
+
+
+def column(height: float) -> tuple[Figure, Axes]:
+    """A figure of one column's width with one panel."""
+    figure = new_figure(height, SINGLE_COLUMN)
+    return figure, figure.add_subplot()
 
 
 def look(number: int) -> tuple[str, str]:
@@ -172,20 +151,7 @@ def look(number: int) -> tuple[str, str]:
 
 
 def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
-    """Colours of an ordered family, from dark to light.
-
-    Parameters
-    ----------
-    number : int
-        Number of colours.
-    lightest : float
-        Position of the last colour in the colour map, from 0 to 1.
-
-    Returns
-    -------
-    list of tuple
-        Red, green, blue and opacity.
-    """
+    """Colours of an ordered family, from dark to light, up to a part of the colour map."""
     colours = mpl.colormaps[SEQUENCE]
     return [colours(lightest * i / max(number - 1, 1)) for i in range(number)]
 
@@ -193,41 +159,12 @@ def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
 def key(
     label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **options: Any
 ) -> Line2D:
-    """An entry of a legend for several sets of data.
-
-    Parameters
-    ----------
-    label : str
-        Text of the entry.
-    marker : str
-        Marker of matplotlib.
-    line : str or tuple
-        Line style of matplotlib.
-    colour : str or tuple
-        Colour of marker and line.
-    **options
-        Further options of :class:`matplotlib.lines.Line2D`.
-
-    Returns
-    -------
-    Line2D
-        A handle for the legend.
-    """
+    """An entry of a legend for several sets of data."""
     return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **options)
 
 
 def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
-    """Letter panels, starting with (a).
-
-    Parameters
-    ----------
-    *panels : Axes
-        The panels in their order.
-    minor : bool
-        Whether they get minor ticks.
-    **options
-        Options of :meth:`matplotlib.axes.Axes.set_title`.
-    """
+    """Letter panels, starting with (a), with minor ticks if wanted."""
     for axes, letter in zip(panels, "abcdefghijklmnopqrstuvwxyz", strict=False):
         axes.set_title(f"({letter})", **options)
         if minor:
@@ -252,68 +189,26 @@ def plain_numbers(axis: Axis, ticks: Sequence[float] = ()) -> None:
 
 
 def level(axes: Axes, y: float, line: Any = "-", width: float = 0.7, **options: Any) -> None:
-    """Draw a horizontal line that marks a value.
-
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    y : float
-        The value.
-    line : str or tuple
-        Line style of matplotlib.
-    width : float
-        Width of the line in points.
-    **options
-        Further options of :meth:`matplotlib.axes.Axes.axhline`.
-    """
+    """Draw a horizontal line that marks a value."""
     usual = {"color": GUIDE, "linestyle": line, "linewidth": width}
     axes.axhline(y, **usual | options)
 
 
 def vertical(axes: Axes, x: float, line: Any = "--", width: float = 0.9, **options: Any) -> None:
-    """Draw a vertical line that marks a value, with the options of :func:`level`."""
-    axes.axvline(x, color=GUIDE, linestyle=line, linewidth=width, **options)
+    """Draw a vertical line that marks a value."""
+    usual = {"color": GUIDE, "linestyle": line, "linewidth": width}
+    axes.axvline(x, **usual | options)
 
 
-def band(
-    axes: Axes,
-    low: float,
-    high: float,
-    label: str,
-) -> None:
-    """Draw a horizontal band of agreement.
-
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    low, high : float
-        Its edges.
-    label : str
-        Its text in the legend.
-    """
+def band(axes: Axes, low: float, high: float, label: str) -> None:
+    """Draw a horizontal band of agreement."""
     axes.axhspan(low, high, color=GUIDE, alpha=0.15, linewidth=0.0, label=label)
 
 
 def arrow(
     axes: Axes, tail: Point, head: Point, colour: str = BLACK, kind: str = "-|>", **options: Any
 ) -> None:
-    """Draw an arrow between two points.
-
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    tail, head : (float, float)
-        The points.
-    colour : str
-        Colour of the arrow.
-    kind : str
-        Arrow style of matplotlib.
-    **options
-        Options of :meth:`matplotlib.axes.Axes.annotate`.
-    """
+    """Draw an arrow between two points."""
     look: Options = {
         "arrowstyle": f"{kind},head_length=0.35,head_width=0.17",
         "linewidth": 1.0,
@@ -330,64 +225,27 @@ def note(axes: Axes, text: str, point: Point, offset: Point, **options: Any) -> 
     axes.annotate(text, point, offset, **usual | options)
 
 
-def aside(axes: Axes, points: float) -> Transform:
-    """The transform of the data, moved to the right.
+def write(figure: Figure, path: Path, key: str = "") -> None:
+    """Write a figure as PDF or PNG by the name of `path`, completely or not at all.
 
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    points : float
-        Distance in points (1/72 inch).
-
-    Returns
-    -------
-    Transform
-        For options of matplotlib's drawing functions.
+    The same figure gives the same bytes: there is neither date nor version of a program in them.
+    `key`, of a recipe of the workflow, is kept in the file's metadata.
     """
-    figure = axes.get_figure(root=True)
-    assert figure is not None
-    return axes.transData + ScaledTranslation(
-        points / 72.0,
-        0.0,
-        figure.dpi_scale_trans,
-    )
-
-
-def save(
-    figure: Figure,
-    stem: str | os.PathLike[str],
-    key: str = "",
-) -> tuple[Path, Path]:
-    """Write a figure as ``stem.pdf`` and ``stem.png``, then clear it.
-
-    The same figure gives the same bytes: the files contain neither date nor program version. Each
-    file is written completely or not at all; missing directories are made.
-
-    Parameters
-    ----------
-    figure : Figure
-        The figure.
-    stem : path
-        Path of the files without suffix.
-    key : str
-        Key of the figure's recipe (:func:`replication.pipeline.keys.key`), for the files' metadata.
-
-    Returns
-    -------
-    tuple of Path
-        The PDF and the PNG.
-    """
-    stem = Path(stem)
-    pdf: Options = dict.fromkeys(("CreationDate", "ModDate", "Producer", "Creator"))
-    pdf["Keywords"] = key or None
-    png: Options = {"Software": None}
+    metadata: Options = {"Software": None}
+    entry = "Key"
+    if path.suffix == ".pdf":
+        metadata = dict.fromkeys(("CreationDate", "ModDate", "Producer", "Creator"))
+        entry = "Keywords"
     if key:
-        png[KEY] = key
-    paths = (stem.with_name(f"{stem.name}.pdf"), stem.with_name(f"{stem.name}.png"))
-    with mpl.rc_context(STYLE):
-        for path, metadata in zip(paths, (pdf, png), strict=True):
-            with replacing(path) as temporary:
-                figure.savefig(temporary, format=path.suffix[1:], metadata=metadata)
+        metadata[entry] = key
+    with applied(), replacing(path) as temporary:
+        figure.savefig(temporary, format=path.suffix[1:], metadata=metadata)
+
+
+def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[Path, Path]:
+    """Write a figure as ``stem.pdf`` and ``stem.png``, then clear it."""
+    pdf, png = Path(f"{os.fspath(stem)}.pdf"), Path(f"{os.fspath(stem)}.png")
+    for path in (pdf, png):
+        write(figure, path, key)
     figure.clear()
-    return paths
+    return pdf, png

@@ -12,7 +12,6 @@ from ..types import Array, Arrays
 from . import passes, remarks
 from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
-from .snapshots import Snapshots
 from .state import State
 from .step import Dynamics, StepReport
 
@@ -54,16 +53,15 @@ class Recorder:
         self.grid = dynamics.grid
         self._body = dynamics.body
         self._drive = dynamics.drive
-        self._level = parameters.recording
+        self._whole = parameters.recording.record == "interface"
         self._velocity = parameters.loading.velocity
         self._longest_pause = LONGEST_PAUSE * parameters.memory_time
-        self._fields = INTERFACE if self._level.covers("interface") else FOR_LENGTHS
+        self._fields = INTERFACE if self._whole else FOR_LENGTHS
         self._rows: list[tuple[float, ...]] = []  # of PER_STEP
         self._frame_times: list[float] = []
         self._frames: list[Array] = []  # of the fields
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        self._snapshots = Snapshots(dynamics)
         window = WINDOW * parameters.memory_time
         self._watch = DropWatch(window, parameters.stepping.event_drop)
         self._bursts = PatchBursts(parameters)
@@ -115,8 +113,6 @@ class Recorder:
             self._take_in_drop()
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
-        if self._level.covers("everything"):
-            self._snapshots.take(state, fastest)
 
     def _take_in_drop(self) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
@@ -192,7 +188,6 @@ class Recorder:
             "frame_times": np.array(self._frame_times),
             "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
-            **self._snapshots.to_arrays(),
             "watched": self._watch.maxima,
             "event_times": np.array(
                 [
@@ -213,7 +208,6 @@ class Recorder:
         self._frames = list(arrays["frames"])
         self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
-        self._snapshots.restore(arrays)
         self._watch.maxima = arrays["watched"]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
@@ -233,7 +227,7 @@ class Recorder:
             data[name] = ("time", "x"), frames[:, i]
         dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.parameters.to_json()
-        if not self._level.covers("interface"):
+        if not self._whole:
             return self._for_lengths(dataset)
         times = {
             "step": dataset["step_time"].values,
@@ -242,8 +236,6 @@ class Recorder:
         realised = self._drive.realised(times)
         if realised is not None:
             dataset["perturbation"] = realised
-        if self._level.covers("everything"):
-            return dataset.assign(self._snapshots.dataset())
         return dataset
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:

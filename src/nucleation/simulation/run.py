@@ -152,8 +152,7 @@ def simulate(
     Returns
     -------
     Dataset
-        The interface's fields on (time, x), the driving force and the step sizes on (step), some
-        fields of the bulk on (snapshot, y, x), see
+        The interface's fields on (time, x), the driving force and the step sizes on (step), see
         :data:`nucleation.simulation.recorded.RECORDED`. The attribute ``status`` says how the run
         ended and, after semicolons, why its event is doubtful (:mod:`.remarks`). A run that fails
         has everything recorded until then.

@@ -92,11 +92,11 @@ def _measurement_problems(run: Run, extraction: ExtractionSettings) -> Iterator[
         )
     recording = run.parameters.recording
     low = extraction.edge_threshold_low
-    if not recording.covers("interface") and low < STUCK_BELOW:
+    if recording.record == "lengths" and low < STUCK_BELOW:
         yield (
             f"record = {recording.record} is not allowed with extraction.edge_threshold_low "
-            f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must be interface "
-            f"or everything, or the threshold in [{STUCK_BELOW:g}, 1]"
+            f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must "
+            f"be interface, or the threshold in [{STUCK_BELOW:g}, 1]"
         )
 
 

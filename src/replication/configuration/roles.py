@@ -41,7 +41,7 @@ class _Need(NamedTuple):
 _LENGTHS = _Need("table", "lengths".__eq__, "lengths")
 _STABILITY = _Need("measure", "stability".__eq__, "stability")
 _BATCHES = _Need("runs_per_job", (1).__lt__, "more than 1")
-_INTERFACE = _Need("record", "lengths".__ne__, "interface or everything")
+_INTERFACE = _Need("record", "interface".__eq__, "interface")
 _UNPERTURBED = _Need("perturbation", "none".__eq__, "none")
 _PAIR = _Need("second_body", "deformable".__eq__, "deformable")
 _REMOTE = _Need("loading", "remote".__eq__, "remote")

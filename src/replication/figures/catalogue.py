@@ -57,7 +57,6 @@ FIGURES: dict[str, Entry] = {
         PAPER,
         roles=("paper",),
     ),
-    "animation": Entry("Creep, nucleation and rupture", BEYOND, roles=("paper",)),
     "figure_3_extended": Entry(
         "Lengths of the drop and of the patch's stability",
         BEYOND,

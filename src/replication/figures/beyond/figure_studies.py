@@ -127,7 +127,7 @@ def _draw(
     title: str = "",
 ) -> Figure:
     """Lengths over one number, or over the theory's lengths if `theory` is None."""
-    figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
+    figure = style.new_figure(7.31, style.SINGLE_COLUMN)
     axes, strip = _axes(figure, rows)
     names = ("length", "length_low", "length_high", "critical_length")
     lengths = np.concatenate([rows[name].values for name in names])

@@ -58,7 +58,7 @@ def draw(table: xr.Dataset) -> Figure:
     Figure
         Four panels.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 14.5 * style.CENTIMETRE)
+    figure = style.new_figure(14.5)
     panels = figure.subplot_mosaic("aa;bb;cd", height_ratios=(1.0, 1.0, 1.1))
     onset, length, meshes, steps = panels.values()
     perturbed = laws.where(table, table["kind"].values != "none")

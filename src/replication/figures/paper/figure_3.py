@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from nucleation.pictures import style
@@ -88,11 +89,13 @@ def _inset_height(axes: Axes, drawn: xr.Dataset) -> float:
 def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
     """Points of one law and initial state, with bars from the lowest to the highest."""
     for (law, old), kind, runs in laws.kinds(lengths):
+        points = _ASIDE.get((law, old), 0.0)
+        aside = ScaledTranslation(points / 72.0, 0.0, axes.figure.dpi_scale_trans)
         look: style.Options = {
             "marker": kind.marker,
             "markersize": kind.size,
             "color": kind.colour,
-            "transform": style.aside(axes, _ASIDE.get((law, old), 0.0)),
+            "transform": axes.transData + aside,
             "zorder": 4.0 - 0.1 * kind.size,
         }
         for same in laws.groups(runs.sortby("initial_state"), "initial_state"):

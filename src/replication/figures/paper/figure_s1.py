@@ -27,9 +27,7 @@ def draw(theory: xr.Dataset) -> Figure:
     logarithmic = theory["steady_friction_logarithmic"].values
     velocity = float(theory["velocity"])
     axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
-    axes.semilogx(
-        rate, logarithmic, color=style.LOGARITHMIC_LAW, linewidth=1.1, label="logarithmic law"
-    )
+    axes.semilogx(rate, logarithmic, color=style.BLUE, linewidth=1.1, label="logarithmic law")
     style.vertical(axes, velocity)
     across = axes.get_xaxis_transform()
     axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
