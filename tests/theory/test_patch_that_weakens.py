@@ -93,6 +93,18 @@ def test_fourier_modes_of_a_period_agree(ratio, strengthening, outside_a, change
     assert growth(0.99, 120) < 0.0 < growth(1.01, 120)
 
 
+def test_surroundings_of_much_larger_a_leave_a_width():
+    """Fourier modes of a period of 16 W grow from 0.2307 and 0.2398 mu D/(a sigma0) on.
+
+    Narrow patches turn the phase up to high frequencies if a differs six times or more.
+    """
+    fault = FAULT | {"plane": "antiplane", "zeta": 5.0 * A}
+    scale = FAULT["shear_modulus"] * FAULT["slip_distance"] / (A * FAULT["normal_stress"])
+    for ratio, modes in ((6.5, 0.231), (10.0, 0.240)):
+        width = weakening_patch_length(outside_zeta=-0.5 * A, outside_a=ratio * A, **fault)
+        assert float(width) / scale == pytest.approx(modes, rel=0.01)
+
+
 @pytest.mark.slow
 def test_half_spaces_are_the_limit_of_long_periods():
     """In a period P of half-spaces the threshold is higher by a term in 1/P^2, and meets W_c."""

@@ -39,7 +39,7 @@ FACTOR = 1.25  # between the widths that are tried
 PRECISION = 1e-5  # relative, of the width
 POLYNOMIALS = 16  # as many for each L_c of the width, at least
 SLOWEST = 1e-5  # of the frequencies, over V/D
-FASTEST = 1e3  # likewise, over 1 + zeta/a
+FASTEST = 1e3  # likewise, over 1 + zeta/a + the stiffest polynomial's load/a
 FREQUENCIES = 80  # at first
 TURN = 0.7  # rad, by which the phase changes between neighbouring frequencies at most
 HALVINGS = 40  # of the steps between frequencies
@@ -111,9 +111,11 @@ class WeakeningPatch:
 
     def _turn(self, width: float, number: int, sign: float) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
-        weakening = float(np.max(np.abs(self.inside.zeta / self.inside.a)))
-        weakening += float(np.max(np.abs(self.outside.zeta / self.outside.a)))
-        frequency = np.geomspace(SLOWEST, FASTEST * (1.0 + weakening), FREQUENCIES)
+        stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
+        scale = 1.0 + float(np.max(stiffest / np.minimum(self.inside.a, self.outside.a)))
+        for systems in (self.inside, self.outside):
+            scale += float(np.max(np.abs(systems.zeta / systems.a)))
+        frequency = np.geomspace(SLOWEST, FASTEST * scale, FREQUENCIES)
         found = self.factors(width, number, sign * frequency)
         for _ in range(HALVINGS):
             coarse = np.flatnonzero(np.abs(_turns(found)).max(axis=1) > TURN)
