@@ -54,7 +54,8 @@ def worst(runs):
     near = (apart["length_difference"] <= LENGTH) | (apart["elements_difference"] <= 1.0)
     missed = int((~(near & (apart["onset_difference"] <= ONSET))).sum())
     onset, length, _ = 100.0 * apart.max()
-    return f"{onset:.2f} / {length:.2f}" + (f" ({missed} !)" if missed else "")
+    missing = {0: "", 1: " (1 misses)"}.get(missed, f" ({missed} miss)")
+    return f"{onset:.2f} / {length:.2f}{missing}"
 
 
 def kind_rows():
