@@ -25,14 +25,16 @@ from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
 
-min_version("9.12")
+min_version("9.20")
 
 BASE = Path(workflow.current_basedir)  # of this file, also where it is a module of another
 
 # The place of the package, for this file and for all jobs.
 SOURCE = str(Path(BASE, "src"))
 sys.path.insert(0, SOURCE)
-os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
+PATHS = [SOURCE, *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, PATHS))
+os.environ["NUCLEATION_PYTHON"] = sys.executable  # a rule names no place: a clone may be moved
 
 LIBRARIES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "yaml", "pint", "numba")
 missing = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
@@ -60,12 +62,14 @@ from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication.figures import catalogue
+from replication.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
+from replication.pipeline.check import CURRENT
 from replication.pipeline.launch import options
-from replication.pipeline.messages import LOGGER
+from replication.pipeline.messages import LOGGER, end_in_one_line
 from replication.pipeline.planning import Plan
 from replication.pipeline.store import others
 
@@ -86,6 +90,7 @@ except (ParameterError, DatasetError) as error:
     raise WorkflowError("the workflow can't be used like this, see above") from None
 
 if PLANS:
+    end_in_one_line(logger)
     os.environ["NUCLEATION_CONFIGFILES"] = shlex.join(options().configfile)
 
 RESULTS = settings.results
@@ -94,12 +99,17 @@ DEFAULT = "paper" if settings.studies_for("paper") else "studies"
 EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
 """Code of the paper's law with either evolution, for rules that compute with both."""
 
-PYTHON = shlex.quote(sys.executable)
-JOB = f"exec {PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
+PYTHON = 'exec "$NUCLEATION_PYTHON" -P'  # no module of the working directory runs
+JOB = f"{PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
 """The command of every rule that makes a result."""
 
 
 recipe = Plan(rules, workflow, RESULTS)
+
+
+def ours(path):
+    """A file of this directory for an input, by a name that holds wherever the directory is moved."""
+    return path if Path.cwd() == BASE.resolve() else str(BASE / path)
 
 
 def no_more_timers():
@@ -115,6 +125,8 @@ onstart:
 
 onsuccess:
     no_more_timers()
+    if recipe.checked and not Path(str(rules.check.log)).read_text().endswith(f"{CURRENT}\n"):
+        sys.exit(1)
     if REFUSED:
         raise WorkflowError(f"studies that can't be run were left out, see above: {REFUSED}")
 
@@ -136,6 +148,7 @@ include: "workflow/rules/patches.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/targets.smk"
 
 

@@ -105,7 +105,7 @@ def _run(asked: Mapping[str, Any]) -> int:
     module = asked["words"][0]
     sys.argv = asked["words"]
     own = os.environ.get("PYTHONPATH", "")
-    sys.path[:1] = [os.getcwd(), *filter(None, own.split(os.pathsep))]
+    sys.path[:1] = [*filter(None, own.split(os.pathsep))]  # as with python -P
     code: Any = 0
     try:
         runpy.run_module(module, run_name="__main__", alter_sys=True)

@@ -13,6 +13,7 @@ DISTRIBUTION = "nucleation-length"
 EXTRAS = {
     "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
     "figures": ("matplotlib",),
+    "report": ("jinja2", "markupsafe", "docutils"),
     "article": ("pypandoc", "typst"),
 }
 """Modules of each extra."""

@@ -13,8 +13,8 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.simulation.run import simulate
+from nucleation.simulation.to_file import simulation_code
 from nucleation.theory.curves import Curves, theory_dataset
-from replication.pipeline.running import simulation_code
 
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):

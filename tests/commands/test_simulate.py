@@ -17,9 +17,9 @@ from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
 from nucleation.model.units import parse
 from nucleation.simulation.run import simulate
+from nucleation.simulation.to_file import simulation_code
 from nucleation.theory.estimates import growth_time
 from replication.configuration.study_names import other_names, study_parameters
-from replication.pipeline.running import simulation_code
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = [

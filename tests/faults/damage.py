@@ -27,8 +27,7 @@ from harness import (
 )
 from processes import require
 
-from replication.pipeline.entries import NOTE, read_note
-from replication.pipeline.store import Store
+from replication.pipeline.store import NOTE, Store, read_note
 
 
 def truncate(content: bytearray, random: random.Random) -> None:

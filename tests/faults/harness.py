@@ -32,11 +32,9 @@ from nucleation.datasets import netcdf, variables
 from nucleation.model.friction.registry import plugins
 from replication.configuration.load import load
 from replication.pipeline.check import LEFTOVERS, OWN, Finding
-from replication.pipeline.entries import path_in, read_note
-from replication.pipeline.keys import key_in
-from replication.pipeline.recipes import Recipe
-from replication.pipeline.running import SIMULATE, UNFINISHED
-from replication.pipeline.store import Store
+from replication.pipeline.making import SIMULATE, UNFINISHED
+from replication.pipeline.recipes import Recipe, key_in
+from replication.pipeline.store import Store, read_note
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
@@ -93,7 +91,7 @@ class Place:
 
     def simulation(self, id: str) -> Path:
         """The dataset of one simulation."""
-        return path_in(self.store.entry(self.key(id)), ".nc")
+        return self.store.entry(self.key(id)) / "result.nc"
 
     def forget(self, *ids: str) -> None:
         """Remove simulations from the store; the links to them lead nowhere then."""
@@ -103,7 +101,7 @@ class Place:
     def forget_tables(self) -> None:
         """Remove all from the store that is made of simulations."""
         for key in self.store.listed():
-            if (self.store.note(key) or {}).get("rule", "simulate") != "simulate":
+            if self.store.has(key) and read_note(self.store.entry(key))["rule"] != "simulate":
                 self.store.remove(key)
 
     def checkpoint(self, id: str) -> Path:
@@ -187,7 +185,7 @@ class Place:
     @contextlib.contextmanager
     def unharmed(self) -> Iterator[None]:
         """Whatever happens within: each entry that exists before is the same after."""
-        whole = (self.store.entry(key) for key in self.store.listed() if self.store.note(key))
+        whole = (self.store.entry(key) for key in self.store.listed() if self.store.has(key))
         paths = [path for entry in whole for path in entry.iterdir()]
         before = {path: path.read_bytes() for path in paths}
         yield
@@ -215,7 +213,7 @@ def datasets(store: Store) -> dict[str, xr.Dataset]:
     """All datasets of a store, by key, once every entry is found to be whole."""
     for key in store.listed():
         read_note(store.entry(key), whole=True)
-    paths = [path_in(store.entry(key), ".nc") for key in store.listed()]
+    paths = [store.entry(key) / "result.nc" for key in store.listed()]
     return {str(key_in(path)): netcdf.read(path) for path in paths if path.exists()}
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 from snakemake.io import IOCache
 
-from replication.pipeline import code
+from nucleation.datasets import code
 from replication.pipeline.making import verify
 from replication.pipeline.planning import Plan
 from replication.pipeline.recipes import Recipe, read
@@ -19,7 +19,7 @@ def planned(tmp_path):
     file = tmp_path / "recipe.json"
     part = Recipe("part", ["results/part.nc"], "results", CALL, [], {"n": 1}, {}, [])
     whole = Recipe("whole", ["results/whole.json"], "results", "", [], {}, {}, [part])
-    file.write_text(whole.text())
+    file.write_text(whole.text(""))
     return read(file)
 
 

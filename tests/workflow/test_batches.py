@@ -191,7 +191,8 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     values = configuration(2, HEIGHTS[:2])
     values["studies"]["many"]["defaults"] = SHORT | {"tolerance": 1e-4, "end_time": 4.0}
     slow = workflow.configured(values)
-    process = slow.start("lengths", "--cores", "2")
+    two = ("--cores", "2", "--set-threads", "simulate_and_measure=2")
+    process = slow.start("lengths", *two)
     while begun(slow) < 2:
         time.sleep(0.02)
         assert process.poll() is None
@@ -201,7 +202,7 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     printed, _ = process.communicate(timeout=120)
     left = list((slow.directory / "results/unfinished").glob("*.checkpoint.npz"))
     assert process.returncode != 0 and len(left) == 2 and not datasets(slow), printed
-    done = slow("lengths", "--cores", "2")
+    done = slow("lengths", *two)
     assert done.returncode == 0, done.stdout
     (log,) = (slow.directory / "results/logs/batches").glob("*.log")
     assert log.read_text().count("the run resumes from results/unfinished") == 2

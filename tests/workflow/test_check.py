@@ -67,9 +67,9 @@ def test_damage_leftovers_and_strangers_are_found(linked):
     run, other = (
         linked.dataset("simulations", f"paper-{law}-H0.02-phi1").parent for law in ("slip", "aging")
     )
-    run.rename(store / "aside")
+    run.rename(store / "other")
     other.rename(run)
-    (store / "aside").rename(other)  # whole entries, under each other's key
+    (store / "other").rename(other)  # whole entries, under each other's key
     shutil.copy(run / "result.nc", results / "simulations" / "mine.nc")
     xr.Dataset({"x": np.arange(3.0)}).to_netcdf(results / "other.nc")
     (store / ".half.tmp").mkdir()
@@ -106,7 +106,7 @@ def test_damage_leftovers_and_strangers_are_found(linked):
     done = linked()
     assert done.returncode == 0, done.stdout
     assert (results / "tables" / "table_s1.csv~").read_text() == "my own\n"
-    left = {path.split("/")[0] for path in states(linked) if not path.startswith("store/aside")}
+    left = {path.split("/")[0] for path in states(linked) if not path.startswith("store/damaged-")}
     assert left == {"simulations", "other.nc", "store", "unfinished", "tables"}
 
 

@@ -11,7 +11,7 @@ from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
 from nucleation.model.parameters import Parameters
 from replication.configuration.load import load, read_yaml
-from replication.pipeline.keys import key_in
+from replication.pipeline.recipes import key_in
 from replication.tables import lengths
 
 ROOT = Path(__file__).parents[2]

@@ -7,8 +7,7 @@ import sys
 
 import pytest
 
-from replication.pipeline.entries import read_note
-from replication.pipeline.store import Store
+from replication.pipeline.store import Store, read_note
 
 RUN = {"height": [0.02, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
 
@@ -79,11 +78,14 @@ def test_job_goes_on_without_a_store_that_its_node_lacks(workflow, monkeypatch):
     done = workflow("table_s1")
     assert done.returncode == 0, done.stdout
     shutil.rmtree((workflow.directory / "results/quick/tables/table_s1.md").resolve().parent)
-    (recipe,) = (workflow.directory / "results/quick/store/recipes").glob("*/tables/table_s1.json")
+    (recipe,) = (workflow.directory / "results/quick/store/recipes").glob(
+        "*/tables/table_s1.*.json"
+    )
     monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")
     monkeypatch.setenv("PYTHONPATH", str(workflow.checkout / "src"))
     command = [
         sys.executable,
+        "-P",
         "-m",
         "replication.pipeline.job",
         recipe,

@@ -103,7 +103,7 @@ def test_until_and_omit_from_know_the_rules(fresh):
 
 def test_threads_and_resources_of_a_rule_can_be_set(fresh):
     commands = printed(fresh, "lengths", "--dry-run", "-p", "--set-threads", "simulate=2")
-    assert len(re.findall(r"nucleation\.pipeline\.job \S+ simulate 2 ", commands)) == 2
+    assert len(re.findall(r"replication\.pipeline\.job \S+ simulate 2 ", commands)) == 2
     free = printed(fresh, "simulations", "--quiet", "host")
     assert "Execute 2 jobs" in free
     bound = ("--resources", "licences=1", "--set-resources", "simulate:licences=1")
@@ -117,7 +117,7 @@ def test_a_dry_run_changes_no_visible_file(copied):
     changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
     assert changed.planned("lengths")["simulate"] == 2
     for path, time in listed.items():
-        assert path.lstat().st_mtime_ns == time or "logs" in path.parts
+        assert path.lstat().st_mtime_ns == time or {"logs", "store"} & {*path.parts}
 
 
 def test_a_run_beside_another_one_changes_nothing(copied):

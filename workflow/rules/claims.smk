@@ -20,8 +20,7 @@ rule claims:
         after=lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))],
         recipe=recipe("claims"),
     output:
-        report(f"{RESULTS}/tables/claims.csv", category="Verdicts"),
-        multiext(f"{RESULTS}/tables/claims", ".md", ".json"),
+        multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),
     log:
         f"{RESULTS}/logs/tables/claims.log",
     params:
@@ -39,8 +38,6 @@ rule claims:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
-    message:
-        "Claims of the paper, our numbers and the verdicts"
     shell:
         JOB
 
@@ -60,8 +57,6 @@ rule evaluate_pairs:
     params:
         call="replication.claims.evaluation:of_pairs",
         statements=lambda wildcards: {PAIRED: statements()[PAIRED]},
-    message:
-        "Claims on two bodies, by simulations"
     shell:
         JOB
 
@@ -69,7 +64,7 @@ rule evaluate_pairs:
 rule write_article:
     """The article on the replication, its numbers from the results"""
     input:
-        template=str(Path(BASE, "docs", "article.md.in")),
+        template=ours("docs/article.md.in"),
         claims=f"{RESULTS}/tables/claims.json",
         lengths=lambda wildcards: lengths_of(*CLAIMED),
         recipe=recipe("write_article"),
@@ -80,8 +75,6 @@ rule write_article:
     localrule: True
     params:
         call="replication.claims.evaluation:write_article",
-    message:
-        "Article on the replication, its numbers from the results"
     shell:
         JOB
 
@@ -89,8 +82,8 @@ rule write_article:
 rule print_article:
     """The article with its figures, as PDF and LaTeX"""
     input:
-        template=str(Path(BASE, "docs", "article.md.in")),
-        citation=str(Path(BASE, "CITATION.cff")),
+        template=ours("docs/article.md.in"),
+        citation=ours("CITATION.cff"),
         claims=f"{RESULTS}/tables/claims.json",
         lengths=lambda wildcards: lengths_of(*CLAIMED),
         figures=[f"{RESULTS}/figures/{name}.png" for name in PRINTED],
@@ -103,7 +96,5 @@ rule print_article:
     params:
         call="replication.claims.printing:write",
         names=PRINTED,
-    message:
-        "Article on the replication as PDF and LaTeX"
     shell:
         JOB

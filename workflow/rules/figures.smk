@@ -16,8 +16,6 @@ rule figure_1:
     localrule: True
     params:
         call="replication.figures.paper.figure_1:draw",
-    message:
-        "Figure 1: the two set-ups"
     shell:
         JOB
 
@@ -39,8 +37,6 @@ rule figure_2:
     localrule: True
     params:
         call="replication.figures.paper.figure_2:draw",
-    message:
-        "Figure 2: bimaterial interfaces"
     shell:
         JOB
 
@@ -66,8 +62,6 @@ rule figure_3:
         call="replication.figures.paper.figure_3:draw_run",
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
-    message:
-        "Figure 3: critical length against height"
     shell:
         JOB
 
@@ -89,8 +83,6 @@ rule figure_s1:
     localrule: True
     params:
         call="replication.figures.paper.figure_s1:draw",
-    message:
-        "Figure S1: steady-state friction"
     shell:
         JOB
 
@@ -115,8 +107,6 @@ rule figure_s2:
         call="replication.figures.paper.figure_s2:draw",
         reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
         id=lambda wildcards: space_time_run().id,
-    message:
-        "Figure S2: stress in space and time"
     shell:
         JOB
 
@@ -140,8 +130,6 @@ rule figure_patch_stability:
     params:
         call="replication.figures.beyond.figure_patch_stability:draw",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES["patch_stability"])},
-    message:
-        "Stability of the creeping patch"
     shell:
         JOB
 
@@ -166,8 +154,6 @@ rule figure_3_extended:
     localrule: True
     params:
         call="replication.figures.beyond.figure_3_extended:draw",
-    message:
-        "Lengths of the drop and of the patch's stability"
     shell:
         JOB
 
@@ -189,8 +175,6 @@ rule figure_drop:
     localrule: True
     params:
         call="replication.figures.beyond.figure_drop:draw",
-    message:
-        "Where the force drops under a declared perturbation"
     shell:
         JOB
 
@@ -212,8 +196,6 @@ rule figure_weakening:
     localrule: True
     params:
         call="replication.figures.beyond.figure_weakening:draw",
-    message:
-        "Where slow slip ends: lengths over the weakening"
     shell:
         JOB
 
@@ -235,8 +217,6 @@ rule figure_weakening_patches:
     localrule: True
     params:
         call="replication.figures.beyond.figure_weakening_patches:draw",
-    message:
-        "Weakening patches among strengthening surroundings"
     shell:
         JOB
 
@@ -258,8 +238,6 @@ rule figure_map:
     localrule: True
     params:
         call="replication.figures.beyond.figure_map:draw",
-    message:
-        "Lengths over height and weakening: a map"
     shell:
         JOB
 
@@ -281,8 +259,6 @@ rule figure_patch_theory:
     localrule: True
     params:
         call="replication.figures.beyond.figure_patch_theory:draw",
-    message:
-        "Stability of the creeping patch by theory"
     shell:
         JOB
 
@@ -304,8 +280,6 @@ rule figure_convergence:
     localrule: True
     params:
         call="replication.figures.checks.figure_convergence:draw",
-    message:
-        "Length at the drop against mesh and steps"
     shell:
         JOB
 
@@ -327,8 +301,6 @@ rule figure_sensitivity:
     localrule: True
     params:
         call="replication.figures.beyond.figure_sensitivity:draw",
-    message:
-        "Sensitivity to parameters and definitions"
     shell:
         JOB
 
@@ -359,8 +331,6 @@ rule figure_pairs:
     params:
         call="replication.figures.beyond.figure_pairs:draw",
         theory=lambda wildcards: theory_of_identical_blocks(),
-    message:
-        "Two deformable bodies"
     shell:
         JOB
 
@@ -383,8 +353,6 @@ rule figure_2_simulated:
     localrule: True
     params:
         call="replication.figures.beyond.figure_2_simulated:draw",
-    message:
-        "Figure 2 with simulations, in both senses of the contrast"
     shell:
         JOB
 
@@ -406,8 +374,6 @@ rule figure_literature:
     localrule: True
     params:
         call="replication.figures.beyond.figure_literature:draw",
-    message:
-        "Lengths of the literature, simulated in their own settings"
     shell:
         JOB
 
@@ -430,7 +396,7 @@ rule draw_study:
         report(
             f"{RESULTS}/figures/study_{{study}}.png",
             caption="../report/figure_studies.rst",
-            category="Studies of your own",
+            category=catalogue.OWN,
         ),
         f"{RESULTS}/figures/study_{{study}}.pdf",
     log:
@@ -441,7 +407,5 @@ rule draw_study:
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),
-    message:
-        "Figure of the study {wildcards.study}: simulations and theory"
     shell:
         JOB

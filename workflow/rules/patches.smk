@@ -13,8 +13,6 @@ rule follow_patches:
     threads: 2
     params:
         makes=lambda wildcards: patches(wildcards.study),
-    message:
-        "Stability of the creeping patches of the study {wildcards.study}"
     shell:
         JOB
 
@@ -22,7 +20,7 @@ rule follow_patches:
 rule patch:
     """Stability of one creeping patch, shown under its run's name"""
     input:
-        after=lambda wildcards: patch_batches(study_of(wildcards.name)),
+        after=lambda wildcards: ancient(patch_batches(study_of(wildcards.name))),
         recipe=recipe("patch"),
     output:
         f"{RESULTS}/patches/{{name}}.nc",
@@ -34,8 +32,6 @@ rule patch:
         loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
         reads=lambda wildcards: {"simulation": simulations([run_of(wildcards.name)])[0]},
         settings=asdict(settings.extraction),
-    message:
-        "Stability of the creeping patch of {wildcards.name}"
     shell:
         JOB
 
@@ -57,7 +53,5 @@ rule gather_patches:
         call="replication.tables.stability:gather_stability",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES[wildcards.table])},
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.table])),
-    message:
-        "Patch lengths at which growth begins: {wildcards.table}"
     shell:
         JOB

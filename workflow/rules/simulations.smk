@@ -9,6 +9,12 @@ def memory(runs, threads, attempt):
     return attempt * ceil(300 + min(threads, len(runs)) * (largest + 150))
 
 
+def before_others(runs):
+    """What a batch adds to its priority: the longest begin first, by their elements and rows."""
+    meshes = [run.parameters.mesh for run in runs]
+    return min(0.9, sum(mesh.n_x * mesh.n_y for mesh in meshes) / 1e7)
+
+
 rule simulate:
     """The simulations of a batch, in parallel on its cores"""
     input:
@@ -17,7 +23,7 @@ rule simulate:
         f"{RESULTS}/batches/{{batch}}.json",
     log:
         f"{RESULTS}/logs/batches/{{batch}}.log",
-    priority: 2  # they take longest
+    priority: lambda wildcards: 2 + before_others(runs_of_batch(wildcards.batch))
     threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
     resources:
         mem_mb=lambda wildcards, threads, attempt: memory(
@@ -26,8 +32,6 @@ rule simulate:
         runtime=ceil(settings.limits.runtime),
     params:
         makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
-    message:
-        "Simulations of the batch {wildcards.batch}"
     shell:
         JOB
 
@@ -40,7 +44,7 @@ rule simulate_and_measure:
         multiext(f"{RESULTS}/batches/{{batch}}", ".nc", ".csv"),
     log:
         f"{RESULTS}/logs/batches/{{batch}}.log",
-    priority: 1
+    priority: lambda wildcards: 1 + before_others(runs_of_batch(wildcards.batch))
     threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
     resources:
         mem_mb=lambda wildcards, threads, attempt: memory(
@@ -54,8 +58,6 @@ rule simulate_and_measure:
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
         settings=asdict(settings.extraction),
         measure=lambda wildcards: settings.studies[study_of(wildcards.batch)].measure,
-    message:
-        "Simulations of the batch {wildcards.batch}, measured"
     shell:
         JOB
 
@@ -63,7 +65,7 @@ rule simulate_and_measure:
 rule simulation:
     """One simulation under its name; the job of its batch makes it"""
     input:
-        after=lambda wildcards: batches([run_of(wildcards.name)]),
+        after=lambda wildcards: ancient(batches([run_of(wildcards.name)])),
         recipe=recipe("simulation"),
     output:
         f"{RESULTS}/simulations/{{name}}.nc",
@@ -74,8 +76,6 @@ rule simulation:
         call=f"{SIMULATION}:simulate",
         loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
         parameters=lambda wildcards: run_of(wildcards.name).parameters.to_dict(),
-    message:
-        "Simulation {wildcards.name}"
     shell:
         JOB
 
@@ -91,14 +91,11 @@ rule extract:
     log:
         f"{RESULTS}/logs/lengths/{{study}}.log",
     priority: 1
-    localrule: True
     params:
         call="replication.tables.lengths:lengths_table",
         reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
         runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
         settings=asdict(settings.extraction),
-    message:
-        "Critical lengths of the study {wildcards.study}"
     shell:
         JOB
 
@@ -116,8 +113,6 @@ rule join_batches:
     params:
         call="replication.tables.runs:study_table",
         ids=lambda wildcards: [run.id for run in runs_of(wildcards.study)],
-    message:
-        "Critical lengths of the study {wildcards.study}"
     shell:
         JOB
 
@@ -134,7 +129,5 @@ rule lengths:
     localrule: True
     params:
         call="replication.tables.lengths:of_studies",
-    message:
-        "Critical lengths of the studies that share lengths.csv"
     shell:
         JOB

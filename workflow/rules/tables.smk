@@ -14,8 +14,6 @@ rule gather_drop:
         call="replication.tables.drops:drop_files",
         loads=lambda wildcards: laws_of(runs_for("drop")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("drop"))),
-    message:
-        "Drops, and the law of the drop"
     shell:
         JOB
 
@@ -33,8 +31,6 @@ rule gather_weakening:
         call="replication.tables.weakening:weakening_files",
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
-    message:
-        "Drops from weak to strong weakening: simulations and theory"
     shell:
         JOB
 
@@ -52,8 +48,6 @@ rule other_faults:
         call="replication.tables.other_faults:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
         runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
-    message:
-        "Drops of faults that the expected drop was not fitted to"
     shell:
         JOB
 
@@ -75,8 +69,6 @@ rule floors:
         call="replication.tables.drops:noise_floors",
         loads=lambda wildcards: laws_of(runs_for("convergence_quiet")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
-    message:
-        "Noise of meshes and steps"
     shell:
         JOB
 
@@ -93,8 +85,6 @@ rule gather_map:
     localrule: True
     params:
         call="replication.tables.map:map_files",
-    message:
-        "The map of lengths over height and weakening"
     shell:
         JOB
 
@@ -120,8 +110,6 @@ rule gather_patch_theory:
         call="replication.tables.theory:theory_files",
         loads=lambda wildcards: laws_of(compared_with_theory()),
         runs=lambda wildcards: as_dicts(compared_with_theory()),
-    message:
-        "Lengths of creeping patches: theory and simulations"
     shell:
         JOB
 
@@ -148,8 +136,6 @@ rule gather_pairs:
         },
         runs=lambda wildcards: as_dicts(runs_in(*PAIR_STUDIES)),
         settings=asdict(settings.extraction),
-    message:
-        "Lengths of the patches between two deformable bodies"
     shell:
         JOB
 
@@ -165,8 +151,6 @@ rule convergence:
         f"{RESULTS}/logs/convergence.log",
     params:
         call="replication.tables.convergence:refinement_table",
-    message:
-        "Critical lengths against mesh and steps"
     shell:
         JOB
 
@@ -185,8 +169,6 @@ rule sensitivity:
         reads=lambda wildcards: {"simulations": simulations(runs_for("sensitivity"))},
         runs=lambda wildcards: as_dicts(runs_for("sensitivity")),
         settings=asdict(settings.extraction),
-    message:
-        "Sensitivity of critical lengths"
     shell:
         JOB
 
@@ -204,8 +186,6 @@ rule gather_literature:
         call="replication.tables.literature:literature_table",
         reads=lambda wildcards: {"simulations": simulations(runs_for("literature"))},
         runs=lambda wildcards: as_dicts(runs_for("literature")),
-    message:
-        "The literature's lengths, simulated"
     shell:
         JOB
 
@@ -226,7 +206,5 @@ rule gather_weakening_patches:
         loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
         reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
         runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),
-    message:
-        "Weakening patches among strengthening surroundings, beside theory"
     shell:
         JOB

@@ -15,8 +15,6 @@ rule theory:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         curves=asdict(settings.curves),
-    message:
-        "Theory: critical lengths and friction curves"
     shell:
         JOB
 
@@ -37,8 +35,6 @@ rule dispersion:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
-    message:
-        "Dispersion: growth of single modes, time integration and theory"
     shell:
         JOB
 
@@ -58,8 +54,6 @@ rule pair_modes:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
-    message:
-        "Growth of single modes between two layers, time integration and theory"
     shell:
         JOB
 
@@ -77,7 +71,5 @@ rule table_s1:
         call="replication.figures.paper.table_s1:files",
         loads=plugins(settings.base),
         friction=asdict(settings.base.friction),
-    message:
-        "Table S1: parameters of the friction law"
     shell:
         JOB

@@ -148,13 +148,11 @@ def _described(run: Run) -> dict[str, Any]:
 
 def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
-    from replication.pipeline.running import checkpoint_of, run_to_file, simulation_code
-
     from ..datasets import netcdf, provenance
     from ..extraction.extraction import extract
     from ..simulation.checkpoints import Stopped
     from ..simulation.progress import Progress
-    from ..simulation.run import simulate
+    from ..simulation.to_file import checkpoint_of, run_to_file, simulation_code
 
     parameters = run.parameters
     digest = simulation_code(parameters)
@@ -167,7 +165,7 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
 
     try:
         with checkpoint.listening():
-            dataset, path = run_to_file(simulate, parameters, output, write, checkpoint, progress)
+            dataset, path = run_to_file(parameters, output, write, checkpoint, progress)
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED

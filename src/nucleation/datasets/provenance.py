@@ -44,7 +44,7 @@ def fingerprint(parameters: Any, code_digest: str) -> str:
     parameters : JSON-serialisable
         All parameters of the result.
     code_digest : str
-        From :func:`replication.pipeline.code.digest`.
+        From :func:`nucleation.datasets.code.digest`.
 
     Returns
     -------
@@ -89,14 +89,13 @@ def attributes(
     parameters : JSON-serialisable
         All values of the configuration that the result depends on.
     code_digest : str
-        From :func:`replication.pipeline.code.digest`.
+        From :func:`nucleation.datasets.code.digest`.
     command : str
         A command that makes the dataset again.
     sources : mapping of role to keys
         Keys of the results that it was made from.
     key : str
-        Key of the dataset in the workflow (:func:`replication.pipeline.keys.key`); empty if the
-        workflow did not make it.
+        Key of the dataset in the workflow; empty if the workflow did not make it.
 
     Returns
     -------

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..model.parameters import Geometry, Mesh
-from ..types import Array, Arrays
+from ..types import Array
 
 Components = tuple[Array, Array]
 """Values along x and along y, or the tangential and the normal component."""
@@ -17,10 +17,21 @@ Components = tuple[Array, Array]
 
 @dataclasses.dataclass(frozen=True)
 class Grid:
-    """A rectangle ``[0, length] x [0, height]`` (m) of ``n_x`` by ``n_y`` elements.
+    """A rectangle ``[0, length] x [0, height]`` of ``n_x`` by ``n_y`` elements.
 
     The spacing is uniform along x. Along y the element heights grow geometrically from the
-    interface y = 0; `grading` is the height of the top row over that of the bottom row.
+    interface y = 0 to the top.
+
+    Parameters
+    ----------
+    length, height : float
+        Size of the rectangle (m).
+    n_x, n_y : int
+        Number of elements along x and y.
+    grading : float
+        Height of the top row of elements over that of the bottom row.
+    periodic : bool
+        Whether node 0 is node n_x.
     """
 
     length: float
@@ -28,13 +39,30 @@ class Grid:
     n_x: int
     n_y: int
     grading: float = 1.0
-    periodic: bool = False  # whether node 0 is node n_x
+    periodic: bool = False
 
     @classmethod
-    def of(cls, geometry: Geometry, mesh: Mesh, periodic: bool = False) -> Grid:
-        """The grid of a simulation's block."""
-        length, height = geometry.length, geometry.height
-        return cls(length, height, mesh.n_x, mesh.n_y, mesh.grading, periodic)
+    def of(cls, geometry: Geometry, mesh: Mesh) -> Grid:
+        """Make the grid of a simulation's block.
+
+        Parameters
+        ----------
+        geometry : Geometry
+            Height and length of the block.
+        mesh : Mesh
+            Number of elements and their grading.
+
+        Returns
+        -------
+        Grid
+        """
+        return cls(
+            geometry.length,
+            geometry.height,
+            mesh.n_x,
+            mesh.n_y,
+            mesh.grading,
+        )
 
     @property
     def dx(self) -> float:
@@ -55,7 +83,8 @@ class Grid:
     def y(self) -> Array:
         """Node positions along y (m), shape (n_y + 1,)."""
         row = np.arange(self.n_y) / max(self.n_y - 1, 1)
-        nodes = np.concatenate(([0.0], np.cumsum(self.grading**row)))
+        heights = self.grading**row
+        nodes = np.concatenate(([0.0], np.cumsum(heights)))
         return self.height * nodes / nodes[-1]
 
     @cached_property
@@ -69,22 +98,54 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """A displacement, a velocity or a load of a body, its layers one after the other.
+    """A displacement, a velocity or a load: mode amplitudes, and values on the right edge.
 
-    `modes` are amplitudes, (levels, 2, n_x): level from the interface up, component, mode. `edge`
-    are the values of u_y on the right edge, (levels,); the first one is zero in one layer.
+    Parameters
+    ----------
+    modes : ndarray
+        Amplitudes, shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
+    edge : ndarray
+        Values of u_y on the right edge, shape (n_y + 1,). The first one is zero in one body.
     """
 
     modes: Array
     edge: Array
 
     def plus(self, other: Field) -> Field:
-        """The sum of two fields."""
+        """Return the sum of two fields."""
         return Field(self.modes + other.modes, self.edge + other.edge)
 
     def times(self, factor: float) -> Field:
-        """The field times a number."""
+        """Return the field times a number."""
         return Field(factor * self.modes, factor * self.edge)
+
+    def to_arrays(self, name: str) -> dict[str, Array]:
+        """Return the field as plain arrays; their names begin with `name`."""
+        return {
+            f"{name}_modes": self.modes,
+            f"{name}_edge": self.edge,
+        }
+
+    @classmethod
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Field:
+        """Read a field from the arrays of :meth:`to_arrays`.
+
+        Parameters
+        ----------
+        name : str
+            Beginning of the names of its arrays.
+        arrays : mapping
+            Arrays by name; further ones are ignored.
+
+        Returns
+        -------
+        Field
+        """
+        return cls(arrays[f"{name}_modes"], arrays[f"{name}_edge"])
 
 
 Terms = Sequence[tuple[float, Field]]
@@ -93,30 +154,53 @@ Terms = Sequence[tuple[float, Field]]
 
 @dataclasses.dataclass(frozen=True)
 class Motion:
-    """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``."""
+    """Displacement and velocity of a body at one instant, ``u_x = U(t) + w_x``.
+
+    Parameters
+    ----------
+    displacement : Field
+        (w_x, u_y) in m.
+    velocity : Field
+        Rate of the displacement (m/s).
+    momentum : float
+        Momentum along x of that velocity (kg/s per unit depth).
+    """
 
     displacement: Field
     velocity: Field
-    momentum: float  # along x, of that velocity (kg/s per unit depth)
+    momentum: float
 
-    def to_arrays(self, name: str) -> Arrays:
-        """The motion as plain arrays, without loss; their names begin with `name`."""
-        return {
-            f"{name}_momentum": np.asarray(self.momentum),
-            f"{name}_displacement": self.displacement.modes,
-            f"{name}_displacement_edge": self.displacement.edge,
-            f"{name}_velocity": self.velocity.modes,
-            f"{name}_velocity_edge": self.velocity.edge,
-        }
+    def to_arrays(self, name: str) -> dict[str, Array]:
+        """Return the motion as plain arrays, without loss; their names begin with `name`."""
+        displacement = self.displacement.to_arrays(f"{name}_displacement")
+        velocity = self.velocity.to_arrays(f"{name}_velocity")
+        momentum = {f"{name}_momentum": np.asarray(self.momentum)}
+        return displacement | velocity | momentum
 
     @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Motion:
-        """The inverse of :meth:`to_arrays`."""
-        displacement, velocity = (
-            Field(arrays[f"{name}_{kind}"], arrays[f"{name}_{kind}_edge"])
-            for kind in ("displacement", "velocity")
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Motion:
+        """Read a motion from the arrays of :meth:`to_arrays`.
+
+        Parameters
+        ----------
+        name : str
+            Beginning of the names of its arrays.
+        arrays : mapping
+            Arrays by name; further ones are ignored.
+
+        Returns
+        -------
+        Motion
+        """
+        return cls(
+            Field.from_arrays(f"{name}_displacement", arrays),
+            Field.from_arrays(f"{name}_velocity", arrays),
+            float(arrays[f"{name}_momentum"]),
         )
-        return cls(displacement, velocity, float(arrays[f"{name}_momentum"]))
 
 
 Motions = tuple[Motion, ...]

@@ -18,27 +18,16 @@ CHECKED = (0b11).to_bytes(4, "little")
 def make_checked(root: Path) -> None:
     """Make all bytecode below a directory of the kind that is compared by content.
 
-    If bytecode can't be written, the old one is left: then Python compiles the source itself.
+    Where it can't be written, the old one is left: then Python compiles the source itself.
     """
     for source in root.rglob("*.py"):
         compiled = Path(importlib.util.cache_from_source(str(source)))
-        if _is_checked(compiled):
-            continue
+        with contextlib.suppress(OSError), compiled.open("rb") as file:
+            if file.read(8)[4:] == CHECKED:
+                continue
         with contextlib.suppress(OSError, SyntaxError, ValueError):
-            py_compile.compile(
-                str(source),
-                doraise=False,
-                quiet=2,
-                invalidation_mode=py_compile.PycInvalidationMode.CHECKED_HASH,
-            )
-
-
-def _is_checked(compiled: Path) -> bool:
-    try:
-        with compiled.open("rb") as file:
-            return file.read(8)[4:] == CHECKED
-    except OSError:
-        return False
+            mode = py_compile.PycInvalidationMode.CHECKED_HASH
+            py_compile.compile(str(source), doraise=False, quiet=2, invalidation_mode=mode)
 
 
 def cache_of_numba(root: Path) -> Path:

@@ -1,29 +1,31 @@
 """Find results that are stale, incomplete, damaged or foreign, and results that are not in use.
 
-    python -m replication.pipeline.check check RESULTS EXPECTED
-    python -m replication.pipeline.check prune RESULTS EXPECTED       (PRUNE=yes: and remove them)
+    python -P -m replication.pipeline.check check RESULTS EXPECTED
+    python -P -m replication.pipeline.check prune RESULTS EXPECTED     (PRUNE=yes: and remove them)
 
-The workflow writes the file EXPECTED, with the recipes of all results that a configuration can
-make. They are compared with the store.
+The workflow writes the file EXPECTED, with the result that each file of a configuration should
+show. The last line says whether all is current.
 """
 
-import dataclasses
+import contextlib
 import json
 import os
+import stat
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 from nucleation.datasets.variables import DatasetError
 
-from .entries import read_note
-from .keys import key_in
-from .recipe_files import referred
-from .store import ASIDE, Store
-from .views import shows
+from .planning import RECIPES
+from .recipes import key_in, read
+from .store import DAMAGED, Store, read_note
+from .views import shows_expected
 
+CURRENT = "All is current"
 _HALF = "half a file of a run that was killed: delete it"
-LEFTOVERS = {
+_LEFTOVERS = {
     ".*.tmp": _HALF,
     "*.checkpoint.npz": "a run has begun here and continues when it is requested again",
     "*.failed.nc": "the record of a run that failed",
@@ -35,8 +37,7 @@ Expected = Mapping[str, str]
 """For each file its target in the store, or its text if it is the list of a batch."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Finding:
+class Finding(NamedTuple):
     """A file that is not as it should be."""
 
     path: Path
@@ -44,72 +45,65 @@ class Finding:
     reason: str
 
     def __str__(self) -> str:
-        return f"{self.state:<10}  {self.path}: {self.reason}"
+        return f"{self.state:<10}  {plain(f'{self.path}: {self.reason}')}"
+
+
+def plain(text: str) -> str:
+    """A text of others as one line that any terminal can print."""
+    return "".join(c if c.isprintable() else "?" for c in text)
 
 
 def check_results(results: Path, expected: Expected) -> list[Finding]:
     """Compare results with those that the present configuration and code make.
 
-    Parameters
-    ----------
-    results : Path
-        The directory of results.
-    expected : mapping
-        For each file its target in the store, or its text.
-
-    Returns
-    -------
-    list of Finding
-        Among them the entries that are not in use.
+    Among the findings are the entries that are not in use.
     """
     store = Store(results / "store")
-    findings = [*_entries(store), *_shown(results, expected)]
-    for key in unused(results, expected):
-        findings.append(Finding(store.entry(key), UNUSED, "make prune removes it"))
-    return findings
+    idle = [
+        Finding(store.entry(key), UNUSED, "make prune removes it")
+        for key in unused(store, expected)
+    ]
+    return [*_entries(store, expected), *_shown(results, expected), *idle]
 
 
-def unused(results: Path, expected: Expected) -> list[str]:
-    """Keys in a store without any reference.
-
-    Parameters
-    ----------
-    results : Path
-        The directory of results.
-    expected : mapping
-        As of :func:`check_results`.
-
-    Returns
-    -------
-    list of str
-        Neither the configuration nor any directory of results refers to them.
-    """
-    store = Store(results / "store")
-    used = referred(store) | {str(key_in(path)) for path in expected.values()}
+def unused(store: Store, expected: Expected) -> list[str]:
+    """Keys that neither the configuration nor any directory of results refers to."""
+    used = {key_in(path) for path in expected.values()}
+    for file in store.directory.glob(f"{RECIPES}/**/*.json"):
+        used.update(_keys(file))
     return [key for key in store.listed() if key not in used]
 
 
-def _entries(store: Store) -> Iterator[Finding]:
+def _keys(file: Path) -> Iterator[str | None]:
+    """Keys that a recipe refers to, or that its files show."""
+    try:
+        recipe = read(file)
+        for one in (recipe, *recipe.parts):
+            yield one.key
+            for keys in one.source_keys.values():
+                yield from keys
+            yield from (key_in(os.path.realpath(path)) for path in one.files)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        message = f"{file} can't be read ({error!r}): delete it, plan again"
+        raise DatasetError(message) from None
+
+
+def _entries(store: Store, expected: Expected) -> Iterator[Finding]:
     """Wrong entries, and files that processes have left between the entries."""
+    names: dict[str | None, set[str]] = {}
+    for target in expected.values():
+        names.setdefault(key_in(target), set()).add(os.path.basename(target))
     for key in store.listed():
         entry = store.entry(key)
         try:
-            read_note(entry, whole=True)
+            read_note(entry, whole=True, names=names.get(key, ()))
         except DatasetError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
-            yield Finding(
-                entry,
-                state,
-                f"{error}: make it again, and it is moved aside",
-            )
+            yield Finding(entry, state, f"{error}: make it again, and it is moved aside")
     for path in sorted(store.directory.glob(".*.tmp")):
         yield Finding(path, "incomplete", _HALF)
-    for path in sorted((store.directory / ASIDE).glob("*/*")):
-        yield Finding(
-            path,
-            "damaged",
-            "it was moved aside, since it is not what it should be",
-        )
+    for path in sorted(store.directory.glob(f"{DAMAGED}*")):
+        yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
 
 
 def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
@@ -117,113 +111,63 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
     for path in sorted(results.rglob("*")):
         if path.relative_to(results).parts[0] in OWN or path.is_dir():
             continue
-        if _is_of_other_results(path, results):
-            continue
-        leftover = _leftover(path)
+        below = [above for above in path.parents if results in above.parents]
+        if any((directory / "store").is_dir() for directory in below):
+            continue  # of another configuration
         wanted = expected.get(str(path))
+        leftover = next((text for form, text in _LEFTOVERS.items() if path.match(form)), None)
         if leftover is not None:
             yield Finding(path, "incomplete", leftover)
         elif wanted is None:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
-            yield Finding(
-                path,
-                "damaged",
-                "its result is not in the store: make it again",
-            )
-        elif not _is_as_wanted(path, wanted):
-            yield Finding(
-                path,
-                "stale",
-                "it is of other parameters or other code: make it again",
-            )
-
-
-def _is_of_other_results(path: Path, results: Path) -> bool:
-    """Whether a file is in the directory of results of another configuration, below this one."""
-    below = [above for above in path.parents if results in above.parents]
-    return any((directory / "store").is_dir() for directory in below)
-
-
-def _leftover(path: Path) -> str | None:
-    for form, text in LEFTOVERS.items():
-        if path.match(form):
-            return text
-    return None
-
-
-def _is_as_wanted(path: Path, wanted: str) -> bool:
-    if wanted.startswith("{"):
-        return path.read_bytes() == wanted.encode()
-    return shows(path, Path(wanted))
+            yield Finding(path, "damaged", "its result is not in the store: make it again")
+        elif not shows_expected(path, wanted):
+            yield Finding(path, "stale", "it is of other parameters or other code: make it again")
 
 
 def prune(results: Path, expected: Expected, remove: bool) -> str:
-    """List the results that are not in use, and remove them if `remove` is set.
-
-    Parameters
-    ----------
-    results : Path
-        The directory of results.
-    expected : mapping
-        As of :func:`check_results`.
-    remove : bool
-        Whether they are removed.
-
-    Returns
-    -------
-    str
-        A line for each, and their number.
-    """
+    """List the results that are not in use, and with `remove` remove them."""
     store = Store(results / "store")
-    keys = unused(results, expected)
+    keys = unused(store, expected)
     lines = []
     for key in keys:
-        name = (store.note(key) or {}).get("name", "")
-        size = sum(file.stat().st_size for file in store.entry(key).iterdir())
-        lines.append(f"{store.entry(key)}  {name}  {size / 1e6:.1f} MB")
+        entry = store.entry(key)
+        name = ""
+        with contextlib.suppress(DatasetError):
+            name = str(read_note(entry).get("name", ""))[:200]
+        megabytes = _size(entry) / 1e6
+        lines.append(f"{entry}  {plain(name)}  {megabytes:.1f} MB")
         if remove:
-            store.remove(key)
+            try:
+                store.remove(key)
+            except OSError as error:
+                lines[-1] += f"  not removed: {error.strerror}"
     done = "removed" if remove else "that nothing refers to; PRUNE=yes removes them"
     return "\n".join([*lines, f"{len(keys)} results {done}"])
 
 
+def _size(entry: Path) -> int:
+    """Bytes of the files in an entry, which may be anything else."""
+    if not stat.S_ISDIR(entry.lstat().st_mode):
+        return 0
+    return sum(file.lstat().st_size for file in entry.iterdir())
+
+
 def main(command: str, results: str, expected_file: str) -> None:
-    """Run ``check`` or ``prune``.
-
-    Parameters
-    ----------
-    command : str
-        ``check`` or ``prune``.
-    results : str
-        The directory of results.
-    expected_file : str
-        File that the workflow has written.
-
-    Raises
-    ------
-    SystemExit
-        If ``check`` has findings.
-    """
+    """Print the findings of ``check``, or the results of ``prune``."""
     try:
         expected = json.loads(Path(expected_file).read_text("utf-8"))
         if command == "prune":
-            print(
-                prune(
-                    Path(results),
-                    expected,
-                    os.environ.get("PRUNE") == "yes",
-                )
-            )
+            print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
             return
         findings = check_results(Path(results), expected)
     except (DatasetError, OSError) as error:
-        sys.exit(str(error))
+        sys.exit(plain(str(error)))
     wrong = sum(found.state != UNUSED for found in findings)
-    end = f"{wrong} findings: these results are not current" if wrong else "All is current"
+    end = f"{wrong} findings: these results are not current" if wrong else CURRENT
     print(*findings, end, sep="\n")
-    if wrong:
-        sys.exit(1)
+    sys.exit(bool(wrong))
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 """A job of the workflow: take the result from a store, or make it and put it there.
 
-    python -m replication.pipeline.job RECIPE RULE THREADS LOG
+    python -P -m replication.pipeline.job RECIPE RULE THREADS LOG
 
 No heavy library is loaded before the stores were searched. If Snakemake was forced to run the job,
-the result is made again and compared with the stored one.
+the result is made again and compared with the stored one. All that the job writes to standard error
+is appended to LOG; warnings and errors also appear on the terminal.
 """
 
 import contextlib
@@ -20,36 +21,14 @@ from .views import show
 FORCED = "NUCLEATION_FORCED"
 """Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
 
-_ONE_CORE = (
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-)
+_ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Environment variables that keep a result on one core: on several, sums have another order.
 
 Snakemake sets the first to the threads of the rule."""
 
 
 def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
-    """Make the result of a recipe and show it.
-
-    Parameters
-    ----------
-    recipe_file : str
-        File of the recipe.
-    rule : str
-        Name of the rule.
-    threads : str
-        Number of cores.
-    log : str
-        File to which everything on standard error is appended. Warnings and errors also appear on
-        the terminal.
-
-    Raises
-    ------
-    SystemExit
-        If the job fails; the reason has been reported.
-    """
+    """Make the result of a recipe and show it; SystemExit if that fails, with the reason logged."""
     began = time.monotonic()
     os.environ |= dict.fromkeys(_ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
@@ -61,14 +40,15 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     ):
         try:
             _run(read(recipe_file), rule, int(threads))
-        except SystemExit as error:  # with the reason
-            LOGGER.error(error)
+        except (SystemExit, KeyboardInterrupt) as error:  # with the reason
+            LOGGER.error(error if error.args else f"{rule}: stopped by SIGINT")
             sys.exit(1)
         LOGGER.info(f"done in {time.monotonic() - began:.1f} s")
 
 
 def _run(recipe: Recipe, rule: str, threads: int) -> None:
-    forced = _is_forced(rule, recipe)
+    named = os.environ.get(FORCED, "").split("\n")
+    forced = not {"*", rule, *recipe.files}.isdisjoint(named)
     if forced or not _is_there(recipe):
         from .making import make
 
@@ -81,18 +61,13 @@ def _is_there(recipe: Recipe) -> bool:
     store = recipe.store
     elsewhere = others(strict=False)
     for one in recipe.needed:
-        if store.note(one.key) is not None:
+        if store.has(one.key, one.names):
             continue
-        source = store.take(one.key, elsewhere)
+        source = store.take(one.key, one.names, elsewhere)
         if source is None:
             return False
         LOGGER.info(f"taken from {source}")
     return True
-
-
-def _is_forced(rule: str, recipe: Recipe) -> bool:
-    named = os.environ.get(FORCED, "").split("\n")
-    return not {"*", rule, *recipe.files}.isdisjoint(named)
 
 
 if __name__ == "__main__":

@@ -17,21 +17,13 @@ from nucleation.model.quantities import ParameterError
 from ..configuration.load import load
 
 
-def options(
-    arguments: Sequence[str] | None = None,
-) -> argparse.Namespace:
+def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     """Cores and configuration files in Snakemake's arguments, by default those of this process."""
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--cores", "-c", nargs="?")
-    parser.add_argument(
-        "--configfile",
-        "--configfiles",
-        nargs="*",
-        action="extend",
-        default=[],
-    )
-    known, _ = parser.parse_known_args(arguments)
-    return known
+    names = ("--configfile", "--configfiles")
+    parser.add_argument(*names, nargs="*", action="extend", default=[])
+    return parser.parse_known_args(arguments)[0]
 
 
 def problem(arguments: Sequence[str]) -> str | None:

@@ -6,62 +6,45 @@ New results are copied to the stores elsewhere.
 
 import gc
 import importlib
+import inspect
 import os
 import shlex
 import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Mapping
+from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from nucleation.datasets import netcdf, provenance
+from nucleation.datasets import code, netcdf, provenance
 from nucleation.datasets.variables import DatasetError, is_table, to_csv
 from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event
-from . import code
-from .batch import Batch, Inputs
-from .calls import arguments
-from .differences import differences
-from .entries import STEM, path_in, read_note
-from .keys import key_in
+from .batches import Batch, Inputs, PartFailed
 from .messages import LOGGER
-from .recipes import Recipe
-from .store import Store, give_all, others
+from .recipes import Recipe, key_in
+from .store import STEM, Store, give_all, others, read_note
 
-_EXPECTED = (
-    DatasetError,
-    ParameterError,
-    code.CodeError,
-    OSError,
-)
+SIMULATE = "nucleation.simulation.run:simulate"
+UNFINISHED = "unfinished"  # directory of checkpoints, and of records of runs that failed
+_LENGTHS = "lengths/"  # directory of the tables of studies
+
+_EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
 """Errors that are reported in one line: their cause is not in the code."""
 
-_LENGTHS = "lengths/"
-"""Directory of the tables of studies; a run without an event, or with a remark, is reported."""
+_OF_MACHINE = {"wall_seconds", "peak_megabytes", "created", "versions", "command", "history"}
+"""Variables that differ between any two results of one recipe."""
 
 
 def make(recipe: Recipe, rule: str, threads: int, forced: bool) -> None:
-    """Make the result of a recipe, and put it into the store.
+    """Make the result of a recipe and put it into the store; SystemExit with the reason if not.
 
-    Parameters
-    ----------
-    recipe : Recipe
-        Recipe of the result.
-    rule : str
-        Name of its rule.
-    threads : int
-        Number of cores for the parts of a batch.
-    forced : bool
-        Whether the result is made even if the store has it, and compared with the stored one.
-
-    Raises
-    ------
-    SystemExit
-        With the reason, if that is impossible.
+    The parts of a batch are made on `threads` cores. If it is `forced`, a result that the store has
+    is made too, and compared.
     """
     try:
         verify(recipe)
@@ -75,13 +58,7 @@ def make(recipe: Recipe, rule: str, threads: int, forced: bool) -> None:
 
 
 def verify(recipe: Recipe) -> None:
-    """Load all code of a recipe, and check that code and sources are those of the plan.
-
-    Raises
-    ------
-    CodeError
-        If the code or a source has changed.
-    """
+    """Load all code of a recipe; CodeError unless code and sources are those of the plan."""
     recipes = (recipe, *recipe.parts)
     for roots in dict.fromkeys(one.roots for one in recipes):
         code.load(*roots)
@@ -94,17 +71,7 @@ def verify(recipe: Recipe) -> None:
 
 
 class _Maker:
-    """Makes the results of one rule.
-
-    Parameters
-    ----------
-    rule : str
-        Its name, for the notes of the store.
-    store : Store
-        Receives the results.
-    forced : bool
-        Whether a result is made even if the store has it, and compared with the stored one.
-    """
+    """Makes the results of one rule."""
 
     def __init__(self, rule: str, store: Store, forced: bool) -> None:
         self._rule = rule
@@ -118,33 +85,55 @@ class _Maker:
             self._result(recipe)
             return
         batch = Batch(self._result, recipe.parts, threads)
+        table = self._called(recipe, records=batch) if recipe.call else batch.map()
+        batch.end_on_failures()  # a table without the failed runs is not kept
         if recipe.call:
-            table = self._called(recipe, records=batch)
-            batch.end_on_failures()  # a table without the failed runs is not kept
             self._put(recipe, table)
-        else:
-            batch.map()
-            batch.end_on_failures()
 
     def _result(self, recipe: Recipe) -> Any:
         """The result of a recipe as its function returned it, or the dataset in the store.
 
-        Raises
-        ------
-        PartFailed
-            If it is a simulation that has failed.
+        A simulation that has failed raises PartFailed.
         """
-        if not self._forced and self._store.note(recipe.key) is not None:
+        if not self._forced and recipe.is_in(self._store):
             return self._open(recipe.stored(recipe.files[0]))
-        from .running import SIMULATE, run_of
-
         if recipe.call == SIMULATE:
-            return run_of(recipe, self._put, self._origin(recipe))
+            return self._simulated(recipe)
         made = self._called(recipe)
         self._put(recipe, made)
         if recipe.name.startswith(_LENGTHS):
             _warn_of_unusual_runs(recipe, made)
         return made
+
+    def _simulated(self, recipe: Recipe) -> xr.Dataset:
+        """The record of a run, from its checkpoint; a signal leaves a new one."""
+        from nucleation.model.parameters import Parameters
+        from nucleation.simulation.checkpoints import Stopped
+        from nucleation.simulation.progress import Progress
+        from nucleation.simulation.to_file import checkpoint_of, run_to_file
+
+        name = recipe.name.rpartition("/")[2]
+        parameters = Parameters.from_dict(recipe.values["parameters"])
+        place = Path(recipe.results, UNFINISHED, f"{name}.nc")
+        checkpoint = checkpoint_of(parameters, place, recipe.code)
+
+        def write(dataset: xr.Dataset, path: Path) -> None:
+            if path == place:
+                self._put(recipe, dataset)
+            else:
+                netcdf.write(dataset, path, **self._origin(recipe))
+
+        progress = Progress(parameters, sys.stderr, name=name)
+        try:
+            with checkpoint.listening():
+                dataset, path = run_to_file(parameters, place, write, checkpoint, progress)
+        except Stopped as stopped:
+            sys.exit(f"{name}: {stopped}")
+        status = dataset.attrs["status"]
+        if path != place:
+            raise PartFailed(f"{name}: {status}; its record is in {path}")
+        LOGGER.info(f"{name}: {status}")
+        return dataset
 
     def _called(self, recipe: Recipe, **more: Any) -> Any:
         """Call the function of a recipe; it reads each of several sources when it needs it."""
@@ -160,28 +149,26 @@ class _Maker:
         return function(**arguments(function, values), **sources, **more)
 
     def _open(self, path: str) -> xr.Dataset | Path:
-        """Read a dataset, whose key must be the one in its path; return other files as paths.
+        """Read a dataset, whose key must be the one in its path; other files are paths.
 
-        Raises
-        ------
-        DatasetError
-            If it is another result; an entry of this store is moved aside.
+        If an entry of the store is damaged, it is moved aside, and DatasetError is raised.
         """
         key = key_in(path)
         if key is None:
             return Path(path)
-        file = path_in(self._store.entry(key), Path(path).suffix)
+        file = self._store.entry(key) / f"{STEM}{Path(path).suffix}"
         try:
             if file.suffix != ".nc":
                 read_note(file.parent, whole=True)
                 return file
             dataset = netcdf.read(file)
-            found = dataset.attrs.get("key", "missing")
-            if found != key:
-                raise DatasetError(f"{file} is another result than it should be, of key {found}")
+            if dataset.attrs.get("key") != key:
+                raise DatasetError(f"{file} is another result than it should be")
             return dataset
         except DatasetError as error:
-            raise self._store.refused(key, error) from None
+            self._store.set_aside(key)
+            advice = "It was moved aside: run this again, and it is made again"
+            raise DatasetError(f"{error}. {advice}") from None
 
     def _put(self, recipe: Recipe, made: Any) -> None:
         """Put the value of a function into the store, or compare it with the stored result."""
@@ -192,13 +179,12 @@ class _Maker:
             for suffix, content in files.items():
                 _write_one(content, place / f"{STEM}{suffix}", origin)
 
-        if self._store.note(recipe.key) is not None:
+        if recipe.is_in(self._store):
             compared = self._compared(recipe.key, write)
             LOGGER.info(f"{recipe.name}, made again: {compared}")
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
-        about |= {"rule": self._rule, "name": recipe.name}
-        self._store.put(recipe.key, write, about)
+        self._store.put(recipe.key, write, {**about, "rule": self._rule, "name": recipe.name})
         give_all(self._store.entry(recipe.key), self._others)
 
     def _compared(self, key: str, write: Callable[[Path], None]) -> str:
@@ -217,15 +203,12 @@ class _Maker:
         if files:
             command += f" --configfile {files}"
         return provenance.attributes(
-            recipe.values,
-            recipe.code,
-            command,
-            recipe.source_keys,
-            key=recipe.key,
+            recipe.values, recipe.code, command, recipe.source_keys, key=recipe.key
         )
 
 
 def _warn_of_unusual_runs(recipe: Recipe, made: Any) -> None:
+    """Report the runs of a study's table without an event, or with a remark."""
     if isinstance(made, xr.Dataset) and "onset_time" in made:
         study = recipe.name.removeprefix(_LENGTHS)
         rows = rows_of(made)
@@ -235,12 +218,8 @@ def _warn_of_unusual_runs(recipe: Recipe, made: Any) -> None:
 
 def _files_of(made: Any) -> Mapping[str, Any]:
     """The contents of a result's files by suffix; a table is also written as CSV."""
-    if isinstance(made, xr.Dataset):
-        files: Mapping[str, Any] = {".nc": made}
-    elif isinstance(made, Mapping):
-        files = made
-    else:
-        files = {"": made}  # a figure, which has several files
+    single = ".nc" if isinstance(made, xr.Dataset) else ""  # or a figure, which has several files
+    files: Mapping[str, Any] = made if not single and isinstance(made, Mapping) else {single: made}
     dataset = files.get(".nc")
     if ".csv" not in files and dataset is not None and is_table(dataset):
         files = {**files, ".csv": to_csv(dataset)}
@@ -261,3 +240,47 @@ def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
         from nucleation.pictures import style
 
         style.save(content, path, origin["key"])
+
+
+def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of JSON for a function, as dataclasses where it is annotated with them.
+
+    ``origin`` is dropped if the function has no such argument.
+    """
+    wanted = inspect.signature(function).parameters
+    found = {}
+    for name, value in values.items():
+        if name in wanted:
+            kind = wanted[name].annotation
+            kind = function.__globals__.get(kind) if isinstance(kind, str) else kind
+            found[name] = _converted(kind, value)
+        elif name != "origin":
+            found[name] = value
+    return found
+
+
+def _converted(kind: Any, value: Any) -> Any:
+    if not (isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping)):
+        return value
+    if hasattr(kind, "from_dict"):
+        return kind.from_dict(value)
+    lists = {name: tuple(own) for name, own in value.items() if isinstance(own, list)}
+    return kind(**{**value, **lists})  # JSON has no tuples
+
+
+def differences(new: Path, old: Path) -> list[str]:
+    """The differences of two files of one recipe in words, of datasets by variable."""
+    if not old.is_file():
+        return [f"{new.name} is not in the store"]
+    if new.suffix != ".nc":
+        same = new.read_bytes() == old.read_bytes()
+        return [] if same else [f"{new.name} differs"]
+    ours = netcdf.read(new)
+    theirs = netcdf.read(old)
+    found = []
+    for name in sorted({*map(str, ours.variables), *map(str, theirs.variables)} - _OF_MACHINE):
+        if name not in ours.variables or name not in theirs.variables:
+            found.append(f"{name} is in one of them alone")
+        elif not ours[name].variable.equals(theirs[name].variable):
+            found.append(f"{name} differs")
+    return found

@@ -6,9 +6,11 @@ print. Warnings and errors of a job also appear on the terminal.
 
 import contextlib
 import logging
+import signal
 import sys
 from collections.abc import Iterator
-from typing import TextIO
+from types import FrameType
+from typing import Any, TextIO
 
 LOGGER = logging.getLogger("replication.pipeline")
 
@@ -35,3 +37,16 @@ def warnings_on(terminal: TextIO) -> Iterator[None]:
         yield
     finally:
         LOGGER.removeHandler(handler)
+
+
+def end_in_one_line(logger: logging.Logger) -> None:
+    """After Ctrl-C, have a line of ours in place of Snakemake's reports on jobs that it stops."""
+    before: Any = signal.getsignal(signal.SIGINT)
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        signal.signal(number, before)
+        LOGGER.error("Stopped by Ctrl-C; the same command continues from here")
+        logger.addFilter(lambda record: record.levelno < logging.ERROR)
+        before(number, frame)
+
+    signal.signal(signal.SIGINT, stop)

@@ -1,12 +1,14 @@
 """Planning: the recipe of each result, and whether the result is there already.
 
 Every file that people open is the output of a rule. Each rule has its recipe (:mod:`.recipes`) as
-one more input, a file below the store. :class:`Plan` writes it while Snakemake plans: as old as a
-file can be if the rule's outputs show the result of that recipe, otherwise with new content. So
-Snakemake's own triggers decide correctly, even if its notes are lost or times of files are wrong.
+one more input, a file below the store with the key in its name. The process that plans writes it:
+as old as a file can be if the rule's outputs show the result of that recipe, otherwise with new
+content and newer than the outputs. So Snakemake's own triggers decide correctly, even if its notes
+are lost or times of files are wrong; and what another process plans has other names.
 
 A run, unlike a dry run, starts by showing all results that are in a store; they need no job. Files
-that show an outdated result are removed first, so that none is left if a job fails.
+that show another result are removed first, so that none is left if a job fails. All that is used of
+Snakemake's inner parts is used here.
 """
 
 import atexit
@@ -21,15 +23,14 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from .entries import NOTE
 from .job import FORCED
-from .keys import as_json
 from .messages import LOGGER
-from .recipe_files import RECIPES, WORKING, expected_of, key_of, marks_shown
-from .recipes import Recipe, listed
-from .store import Store, others
-from .views import can_link, is_broken, is_linked, is_shown, show, withdraw, write
+from .recipes import Recipe, as_json, listed
+from .store import NOTE, Store, others
+from .views import is_broken, is_linked, is_shown, show, withdraw, write
 
+RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
+_PLANNED = "planned"  # file beside recipes with the names and keys of the jobs of the latest run
 _LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 
 Paths = Any
@@ -37,20 +38,10 @@ Paths = Any
 
 
 class Plan:
-    """The recipes of a workflow.
-
-    Parameters
-    ----------
-    rules : rules of Snakemake
-        By name. Each is read when it is used, so its definition may come later.
-    workflow : workflow of Snakemake
-        The one that is planned.
-    results : str
-        The directory of results, as the configuration names it.
-    """
+    """The recipes of a workflow: its rules by name, Snakemake's workflow, and where results go."""
 
     def __init__(self, rules: Any, workflow: Any, results: str) -> None:
-        self._rules = rules
+        self._rules = rules  # each is read when it is used, so its definition may come later
         self._workflow = workflow
         self._configured = results
         self._names: list[str] = []  # of the rules that make results
@@ -58,6 +49,7 @@ class Plan:
         self._inputs: dict[str, list[str]] = {}  # by the name of the result
         self._files: dict[str, Any] = {}  # Snakemake's files by their paths
         self._kept: Counter[str] = Counter()  # jobs of a dry run that a run would not start
+        self.checked = False  # whether the expected files were asked for
         self._shown = 0  # results that were shown without a job
         self._taken = 0  # results that were copied from other stores
         atexit.register(self._report)
@@ -67,7 +59,10 @@ class Plan:
         self._names.append(rule)
 
         def recipe_file(wildcards: Any) -> str:
-            file = self._file_of(rule, dict(wildcards.items()))
+            try:
+                file = self._file_of(rule, dict(wildcards.items()))
+            except Exception as error:  # else Snakemake would use an outdated file of the result
+                raise SystemExit(f"{rule} can't be planned: {error}") from None
             return file.removeprefix(self.prefix)
 
         return recipe_file
@@ -88,10 +83,12 @@ class Plan:
     @cached_property
     def prefix(self) -> str:
         """The ``prefix:`` of a module, which Snakemake puts before all paths of its rules."""
-        name = str(getattr(self._rules, self._names[0]).output[0])
-        before, found, _ = name.partition(self._configured)
+        first = getattr(self._rules, self._names[0]).output[0]
+        if getattr(first, "is_storage", False):
+            raise ValueError("results are links, which no storage keeps: use NUCLEATION_STORES")
+        before, found, _ = str(first).partition(self._configured)
         if not found:
-            raise ValueError(f"{name} is not in {self._configured}: use prefix, not replace_prefix")
+            raise ValueError(f"{first} is not in {self._configured}: use prefix, no replace_prefix")
         return before
 
     @cached_property
@@ -102,14 +99,10 @@ class Plan:
     @cached_property
     def _place(self) -> str:
         """The directory of the recipes in the store; directories of results may share a store."""
-        places = [self._from_store(place) for place in (self.results, ".")]
+        store = os.path.realpath(self.store.directory)
+        places = [os.path.relpath(os.path.realpath(place), store) for place in (self.results, ".")]
         mark = hashlib.sha256("\n".join(places).encode()).hexdigest()[:8]
         return f"{self.store.directory}/{RECIPES}/{mark}"
-
-    def _from_store(self, place: str) -> str:
-        """A path relative to the store."""
-        store = os.path.realpath(self.store.directory)
-        return os.path.relpath(os.path.realpath(place), store)
 
     @cached_property
     def runs(self) -> bool:
@@ -118,21 +111,35 @@ class Plan:
         If another run is at work, Snakemake stops later, and nothing may be changed before.
         """
         workflow = self._workflow
-        if workflow.executor_plugin is None or workflow.dryrun or workflow.touch:
-            return False
-        if any(Path(_LOCKS).glob("*")):
+        only_lists = workflow.executor_plugin is None or workflow.dryrun or workflow.touch
+        if only_lists or any(Path(_LOCKS).glob("*")):
             return False
         os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
+        Path(self._place).mkdir(parents=True, exist_ok=True)
+        write(Path(self._place, _PLANNED), "")
         return True
+
+    @cached_property
+    def _planned(self) -> dict[str, str]:
+        """Keys by the names of results, as the latest run planned them."""
+        try:
+            lines = Path(self._place, _PLANNED).read_text("utf-8").splitlines()
+        except OSError:
+            return {}
+        return dict(line.rsplit(" ", 1) for line in lines)
+
+    @cached_property
+    def _written(self) -> dict[str, set[str]]:
+        """Keys of all recipes that are written, by the names of results."""
+        found: dict[str, set[str]] = {}
+        for path in Path(self._place).rglob("*.json"):
+            name, _, key = str(path.relative_to(self._place).with_suffix("")).rpartition(".")
+            found.setdefault(name, set()).add(key)
+        return found
 
     @cached_property
     def _others(self) -> list[Store]:
         return others(strict=False)
-
-    @cached_property
-    def _links(self) -> bool:
-        """Whether links are possible; if not, copies are left as they are, whatever their time."""
-        return can_link(self.store.directory)
 
     @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
@@ -165,10 +172,12 @@ class Plan:
         This includes the files of all rules without wildcards, the files `more`, and all their
         sources. A target is left out if the configuration lacks its studies.
         """
+        self.checked = True
         found: dict[str, str] = {}
         for path in (*self._makers[0], *more):
             with contextlib.suppress(Exception):
-                found |= expected_of(self._with_sources(path))
+                for recipe in self._with_sources(path):
+                    found |= recipe.expected()
         file = f"{self._place}/expected"
         write(Path(file), as_json(found))
         return file
@@ -182,8 +191,7 @@ class Plan:
             if found is not None and found.name not in seen:
                 seen.add(found.name)
                 waiting += self._inputs[found.name]
-                yield found
-                yield from found.parts
+                yield from (found, *found.parts)
 
     def _of_rule(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
         mark = (rule, *wildcards.values())
@@ -241,54 +249,63 @@ class Plan:
         return str(paths) if found is None else found.stored(str(paths))
 
     def _file_of(self, rule: str, wildcards: Mapping[str, str]) -> str:
-        """The file with the recipe of a job; this process writes it if it plans."""
+        """The file with the recipe of a job; the process that plans writes it.
+
+        A job on another machine takes the one that was planned, even if the configuration has
+        changed since then.
+        """
         first = getattr(self._rules, rule).output[0].apply_wildcards(wildcards)
-        file = f"{self._place}/{self._name(str(first))}.json"
-        if self._workflow.is_main_process:  # a job takes its recipe as it is
-            try:
-                if not os.path.exists(f"{self._place}/{WORKING}"):
-                    write(
-                        Path(self._place, WORKING),
-                        self._from_store("."),
-                    )
-                self._write(rule, self._of_rule(rule, wildcards), Path(file))
-            except Exception as error:  # else Snakemake would use an outdated file of the result
-                raise SystemExit(f"{rule} can't be planned: {error}") from None
-        return file
+        name = self._name(str(first))
+        plans = self._workflow.is_main_process
+        if not plans and name in self._planned:
+            return f"{self._place}/{name}.{self._planned[name]}.json"
+        recipe = self._of_rule(rule, wildcards)
+        file = Path(f"{self._place}/{name}.{recipe.key}.json")
+        if plans:
+            self._write(rule, recipe, file)
+        return str(file)
 
     def _write(self, rule: str, recipe: Recipe, file: Path) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
         if self.runs:
-            self._update_views(recipe, file)
+            self._update_views(recipe)
         shown = is_shown(recipe, self.store)
         if not self.runs and not (shown and is_linked(recipe)):
-            self._kept[rule] += all(self._is_kept(one.key) for one in recipe.needed)
-            self._remove_broken_links(recipe)
-        if not (shown and marks_shown(file) and key_of(file) == recipe.key):
-            write(file, recipe.text("" if shown else str(time.time_ns())))
-        if shown:
+            self._kept[rule] += all(map(self._is_kept, recipe.needed))
+            for path in filter(is_broken, map(Path, recipe.files)):  # Snakemake stops at them
+                path.unlink(missing_ok=True)
+                self._refresh(str(path))
+        newest = max(map(_time, recipe.files))
+        if shown and _time(str(file)) != 0.0:
+            write(file, recipe.text(""))
             os.utime(file, (0, 0))
+        elif not shown and _time(str(file)) <= newest:
+            write(file, recipe.text(str(time.time_ns())))
+            if newest >= _time(str(file)):  # a clock was wrong
+                os.utime(file, (newest + 1.0, newest + 1.0))
+        if self.runs:
+            self._keep_alone(recipe)
         self._refresh(str(file))
 
-    def _remove_broken_links(self, recipe: Recipe) -> None:
-        """Remove links to missing files, at which Snakemake would stop."""
-        for path in recipe.files:
-            if is_broken(Path(path)):
-                Path(path).unlink(missing_ok=True)
-                self._refresh(path)
+    def _keep_alone(self, recipe: Recipe) -> None:
+        """Note a recipe for its job, and remove recipes of other results of the same name."""
+        with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as file:
+            print(recipe.name, recipe.key, file=file)
+        for key in self._written.get(recipe.name, set()) - {recipe.key}:
+            Path(f"{self._place}/{recipe.name}.{key}.json").unlink(missing_ok=True)
 
-    def _update_views(self, recipe: Recipe, file: Path) -> None:
-        """Show the results that the stores have, and remove files that show outdated ones."""
+    def _update_views(self, recipe: Recipe) -> None:
+        """Show the results that the stores have, and remove files that show other ones."""
         for one in recipe.needed:
-            if self.store.note(one.key) is None and self.store.take(one.key, self._others):
-                self._taken += 1
+            if not self.store.has(one.key, one.names):
+                self._taken += self.store.take(one.key, one.names, self._others) is not None
         for one in (recipe, *recipe.parts):
-            if is_shown(one, self.store) and (is_linked(one) or not self._links):
+            if is_shown(one, self.store) and is_linked(one):
                 continue
-            earlier = self.store.entry(key_of(file) or "none")
-            for path in one.files:
-                withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
-            if all(self.store.note(part.key) for part in one.needed):
+            keys = {one.key, *self._written.get(one.name, ())}
+            for path, name in zip(one.files, one.names, strict=True):
+                withdraw(Path(path), [self.store.entry(key) / name for key in keys])
+            if one.is_in(self.store):
                 show(one)
                 self._shown += one is recipe
                 for path in one.files:
@@ -309,11 +326,18 @@ class Plan:
             if facts:
                 facts.pop(path, None)
 
-    def _is_kept(self, key: str) -> bool:
+    def _is_kept(self, one: Recipe) -> bool:
         """Whether a store has a result; an entry elsewhere is not checked."""
-        if self.store.note(key) is not None:
-            return True
-        return any((other.entry(key) / NOTE).is_file() for other in self._others)
+        elsewhere = (other.entry(one.key) / NOTE for other in self._others)
+        return one.is_in(self.store) or any(map(os.path.isfile, elsewhere))
+
+
+def _time(path: str) -> float:
+    """The time of a file or link (s since 1970); -1 if there is none."""
+    try:
+        return os.lstat(path).st_mtime
+    except OSError:
+        return -1.0
 
 
 def _evaluated(value: Any, wildcards: SimpleNamespace) -> Any:

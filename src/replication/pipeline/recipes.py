@@ -5,26 +5,54 @@ name (``loads``), its other arguments, and its sources. The recipe collects thes
 key. It is stored as JSON, so that a job on any machine makes the result that was planned.
 """
 
+import dataclasses
+import hashlib
 import json
+import os
 import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from . import code
-from .entries import STEM
-from .keys import PATTERN, as_json, key, key_of_file
-from .store import Store
+from nucleation.datasets import code
 
+from .store import PATTERN, STEM, Store, digest_of_file
+
+_IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
 _MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')
 
 Sources = dict[str, str | list[str]]
 """Paths of the sources, by the function's argument: files in the store, or other files."""
 
 
-class PartFailed(Exception):
-    """A part of a batch has failed; the other parts are made."""
+def as_json(values: Any) -> str:
+    """Values as JSON, equal values as equal text; TypeError if one has no such form."""
+    return json.dumps(values, sort_keys=True, default=_converted)
+
+
+def _converted(value: Any) -> Any:
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return dataclasses.asdict(value)
+    if hasattr(value, "items"):
+        return dict(value.items())
+    if hasattr(value, "tolist"):  # NumPy
+        return value.tolist()
+    raise TypeError(f"{value!r} can't be part of a key")
+
+
+def key_in(path: str | Path) -> str | None:
+    """The key in the path of a file in a store; None for any other file."""
+    found = _IN_STORE.search(str(path))
+    return found[1] if found else None
+
+
+def _key_of_file(path: str) -> str:
+    """The key of a source: the key in its path, or else the digest of its bytes."""
+    key = key_in(path)
+    if key is not None:
+        return key
+    return digest_of_file(path) if os.path.isfile(path) else "missing"
 
 
 class _Ingredients(NamedTuple):
@@ -48,25 +76,22 @@ class Recipe(_Ingredients):
 
     def key_now(self) -> str:
         """Digest of the present code, the arguments and the present keys of the sources."""
-        if not self.call:
-            return key("", {}, {"parts": [part.key for part in self.parts]})
-        function = self.call.partition(":")[2]
-        return key(self.code, {"": function, **self.values}, self.source_keys)
+        if self.call:
+            function = self.call.partition(":")[2]
+            content = [self.code, {"": function, **self.values}, self.source_keys]
+        else:
+            content = ["", {}, {"parts": [part.key for part in self.parts]}]
+        return hashlib.sha256(as_json(content).encode()).hexdigest()[:16]
 
     @property
     def source_keys(self) -> dict[str, list[str]]:
         """Keys of the sources, by the function's argument."""
-        found = {}
-        for role, paths in self.sources.items():
-            found[role] = [key_of_file(path) for path in listed(paths)]
-        return found
+        return {role: [*map(_key_of_file, listed(paths))] for role, paths in self.sources.items()}
 
     @property
     def roots(self) -> tuple[str, ...]:
         """The modules that its code begins with."""
-        if not self.call:
-            return ()
-        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads)
+        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads) if self.call else ()
 
     @property
     def code(self) -> str:
@@ -83,6 +108,15 @@ class Recipe(_Ingredients):
         """The recipes of the results that must be in the store: for a batch its parts."""
         return [self] if self.call else self.parts
 
+    @property
+    def names(self) -> list[str]:
+        """The names of its files in the store."""
+        return [Path(self.stored(file)).name for file in self.files]
+
+    def is_in(self, store: Store) -> bool:
+        """Whether a store has the result; of a batch all parts."""
+        return all(store.has(one.key, one.names) for one in self.needed)
+
     def stored(self, file: str) -> str:
         """The path in the store of one of the result's files."""
         suffix = file.removeprefix(f"{self.results}/{self.name}")
@@ -92,37 +126,30 @@ class Recipe(_Ingredients):
         """The text in the file of a batch: the keys of its parts, by their names."""
         return as_json({part.name: part.key for part in self.parts}) + "\n"
 
-    def text(self, planned: str = "") -> str:
-        """The recipe as JSON, the key first.
+    def expected(self) -> dict[str, str]:
+        """The target in the store of each file, or its text if it is the list of a batch."""
+        return {file: self.stored(file) if self.call else self.manifest() for file in self.files}
 
-        Parameters
-        ----------
-        planned : str
-            Distinguishes two files of the same recipe.
-
-        Returns
-        -------
-        str
-            The text.
-        """
-        values = {"key": self.key, "planned": planned, **self._plain()}
-        return as_json(values, sort_keys=False)
+    def text(self, planned: str) -> str:
+        """The recipe as JSON; `planned` distinguishes two files of the same recipe."""
+        return as_json({"planned": planned, **self._plain()})
 
     def _plain(self) -> dict[str, Any]:
-        parts = [{"key": part.key, **part._plain()} for part in self.parts]
-        return self._asdict() | {"parts": parts}
+        parts = [part._plain() for part in self.parts]
+        return {**self._asdict(), "key": self.key, "parts": parts}
 
 
-def is_manifest(text: str | None) -> bool:
-    """Whether a text has the form of :meth:`Recipe.manifest`."""
-    return text is not None and re.fullmatch(_MANIFEST, text) is not None
+def is_manifest(file: Path) -> bool:
+    """Whether a file has the form of :meth:`Recipe.manifest`."""
+    try:
+        return re.fullmatch(_MANIFEST, file.read_text("utf-8")) is not None
+    except (OSError, ValueError):
+        return False
 
 
 def listed(paths: str | Iterable[object]) -> list[str]:
     """One path, or several, as a list of plain texts."""
-    if isinstance(paths, str):
-        return [str(paths)]
-    return [str(path) for path in paths]
+    return [str(paths)] if isinstance(paths, str) else [str(path) for path in paths]
 
 
 def read(path: str | Path) -> Recipe:

@@ -1,30 +1,104 @@
 """Stores: finished results under their keys, written completely, published by name, never changed.
 
-The store of a directory of results is its subdirectory ``store/``; new results are made there.
-A result is first looked for in the stores elsewhere, and each new result is copied to them. A
-damaged or foreign entry is reported and not used.
+An entry is a directory ``KEY/`` with the files of a result (``result.nc``, ``result.csv``, ...) and
+a note with the key and each file's size and digest. The store of a directory of results is its
+subdirectory ``store/``. A damaged or foreign entry is reported, not used, and renamed once it is
+made again. Stores elsewhere are asked first, and given each new result.
 """
 
 import contextlib
+import hashlib
 import json
 import os
+import re
 import shutil
-import tempfile
-from collections.abc import Callable, Iterator, Mapping
+import stat
+import uuid
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from nucleation.datasets import seal
 from nucleation.datasets.files import flush
 from nucleation.datasets.variables import DatasetError
 
-from .entries import NOTE, Note, mark_as_checked, may_have_changed, read_note
-from .keys import LENGTH, digest_of_file
 from .messages import LOGGER
 
-ASIDE = "aside"
-"""Directory in a store for entries that were wrong."""
+NOTE = "entry.json"
+STEM = "result"  # of the files of an entry
+DAMAGED = "damaged-"  # begins the names of entries that were wrong
 VARIABLE = "NUCLEATION_STORES"
 """Environment variable with the directories of stores elsewhere, separated by commas."""
+PATTERN = r"[0-9a-f]{16}"  # of a key: with 64 bits, thousands of results never share one
+_FILE = re.compile(rf"{STEM}(\.\w+)+")
+_LARGEST_NOTE = 2**20  # bytes
+
+
+def digest_of_file(path: str | Path) -> str:
+    """Digest of a file's bytes."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def read_note(
+    entry: Path, key: str = "", whole: bool = False, names: Collection[str] = ()
+) -> dict[str, Any]:
+    """Read the note of an entry, and compare it with the key (by default the entry's name).
+
+    It must have the files `names`. Sizes of files are compared too, and with `whole` all bytes.
+    Raises DatasetError, whose text has nothing of the note, as anybody may have written it.
+    """
+    key = key or entry.name
+    try:
+        note = json.loads(_read(entry / NOTE))
+        files = note["files"].items()
+        if note["key"] != key:
+            raise DatasetError(f"{entry} holds the result of another key")
+        if entry.is_symlink() or not files:
+            raise DatasetError(f"{entry} is damaged: it is a link, or has no files")
+        if not all(_FILE.fullmatch(name) for name in note["files"]):  # none leads out of the entry
+            raise DatasetError(f"{entry} is damaged: its note names other files")
+        if not note["files"].keys() >= set(names):
+            raise DatasetError(f"{entry} is damaged: it lacks files of the result")
+        for name, about in files:
+            _check(entry / name, about["size"])
+            if whole:
+                _check_bytes(entry / name, about["sha256"], key)
+    except DatasetError:
+        raise
+    except OSError as error:
+        raise DatasetError(f"{entry} is damaged: {error}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise DatasetError(f"{entry} is damaged: its note can't be read") from None
+    return dict(note)
+
+
+def _read(note: Path) -> bytes:
+    """The bytes of a note; a pipe does not block here."""
+    found = note.lstat()
+    if not stat.S_ISREG(found.st_mode) or found.st_size > _LARGEST_NOTE:
+        raise DatasetError(f"{note} is damaged: it is no note")
+    return note.read_bytes()
+
+
+def _check(path: Path, size: int) -> None:
+    """Raise DatasetError if a file of an entry has another kind or size (bytes)."""
+    found = path.lstat()
+    if not stat.S_ISREG(found.st_mode) or found.st_size != size:
+        raise DatasetError(f"{path} is damaged: it does not have its original size")
+
+
+def _check_bytes(path: Path, digest: str, key: str) -> None:
+    """Raise DatasetError if a file of an entry has another digest, or another key in its seal."""
+    if digest_of_file(path) != digest:
+        raise DatasetError(f"{path} is damaged: it differs from the file that was written")
+    if path.suffix == ".nc" and seal.attributes(path).get("key") != key:
+        raise DatasetError(f"{path} is the result of another key")
+
+
+def _newest(entry: Path) -> int:
+    """The newest time (ns) at which the inode of a file in an entry changed; no program sets it."""
+    return max(path.lstat().st_ctime_ns for path in entry.iterdir())
 
 
 class Store:
@@ -32,98 +106,66 @@ class Store:
 
     def __init__(self, directory: str | Path) -> None:
         self.directory = Path(directory)
-        self._known: dict[str, Note | None] = {}
+        self._known: dict[str, bool] = {}
 
     def entry(self, key: str) -> Path:
         """The directory of an entry, which need not exist."""
         return self.directory / key
 
-    def note(self, key: str) -> Note | None:
-        """The note of an entry; None if the entry is missing or wrong.
-
-        It is read once and kept in memory. A wrong entry is reported. If a file may have changed
-        since the entry was published, the bytes of all its files are checked.
-        """
+    def has(self, key: str, names: Collection[str] = ()) -> bool:
+        """Whether there is a right entry that has these files; a wrong one is reported once."""
         if key not in self._known:
-            self._known[key] = None
-            if os.path.lexists(self.entry(key) / NOTE):
-                try:
-                    self._known[key] = self._checked_note(key)
-                except DatasetError as error:
-                    LOGGER.warning(f"Not used: {error}")
+            self._known[key] = os.path.lexists(self.entry(key))
+            try:
+                if self._known[key]:
+                    self._check(self.entry(key), names)
+            except DatasetError as error:
+                self._known[key] = False
+                LOGGER.warning(f"Not used: {error}")
         return self._known[key]
 
-    def _checked_note(self, key: str) -> Note:
-        entry = self.entry(key)
-        changed = may_have_changed(entry)
-        note = read_note(entry, whole=changed)
+    def _check(self, entry: Path, names: Collection[str]) -> None:
+        """Check an entry; all bytes are read if a file may have changed since that was done.
+
+        Then the entry's own time was set to the newest time of a file's inode; it is another one
+        after any file was made or removed there.
+        """
+        try:
+            newest = _newest(entry)
+            changed = entry.lstat().st_mtime_ns != newest
+        except (OSError, ValueError):
+            raise DatasetError(f"{entry} is damaged: it is no directory with files") from None
+        read_note(entry, whole=changed, names=names)
         if changed:
-            mark_as_checked(entry)
-        return note
+            _mark(entry, newest)
 
     def listed(self) -> list[str]:
         """Keys of all entries, right or wrong."""
-        return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * LENGTH))]
+        return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
 
-    def put(
-        self,
-        key: str,
-        make: Callable[[Path], None],
-        about: Mapping[str, Any],
-    ) -> Note:
-        """Make an entry; after a crash it is complete or missing.
+    def put(self, key: str, make: Callable[[Path], None], about: Mapping[str, Any]) -> None:
+        """Make an entry by a function that writes its files into a directory.
 
-        Parameters
-        ----------
-        key : str
-            Key of the entry.
-        make : callable
-            Writes the files into the directory that it is called with.
-        about : mapping
-            Further values of the note.
-
-        Returns
-        -------
-        dict
-            The note.
+        `about` has further values of the note. After a crash the entry is complete or missing.
         """
         with self._unfinished() as place:
             make(place)
             files = {}
             for path in sorted(place.iterdir()):
-                if path.name != NOTE:
-                    size = path.stat().st_size
-                    files[path.name] = {
-                        "size": size,
-                        "sha256": digest_of_file(path),
-                    }
+                files[path.name] = {"size": path.stat().st_size, "sha256": digest_of_file(path)}
             note = {"key": key, "files": files, **about}
             (place / NOTE).write_text(json.dumps(note, indent=1, sort_keys=True) + "\n")
             self._publish(place, key)
-        return note
 
-    def take(self, key: str, others: "list[Store]") -> Path | None:
-        """Copy an entry from the first store elsewhere that has it.
+    def take(self, key: str, names: Collection[str], others: "list[Store]") -> Path | None:
+        """Copy an entry from the first store elsewhere that has it right; return that store.
 
-        A damaged or foreign entry is reported and skipped. A store that is out of reach is reported
-        and removed from the list.
-
-        Parameters
-        ----------
-        key : str
-            Key of the entry.
-        others : list of Store
-            Stores elsewhere, in the order in which they are tried.
-
-        Returns
-        -------
-        Path or None
-            Directory of the store with the entry; None if no store has it.
+        A store that is out of reach is reported and removed from the list.
         """
         for other in list(others):
             try:
-                if (other.entry(key) / NOTE).is_file():
-                    self._copy(other.entry(key))
+                if os.path.lexists(other.entry(key) / NOTE):
+                    self._copy(other.entry(key), names)
                     return other.directory
             except (OSError, DatasetError) as error:
                 LOGGER.warning(f"Not taken from {other.directory}: {_in_a_line(error)}")
@@ -138,109 +180,82 @@ class Store:
         with contextlib.suppress(DatasetError):
             read_note(self.entry(entry.name), whole=True)
             return
-        self._copy(entry)
+        self._copy(entry, ())
 
-    def _copy(self, entry: Path) -> None:
-        """Copy the note of another store's entry, and the files that it names."""
+    def _copy(self, entry: Path, names: Collection[str]) -> None:
+        """Copy the note of another store's entry, and the files that it names, once checked."""
+        files = read_note(entry, whole=True, names=names)["files"]
         with self._unfinished() as place:
-            for name in (NOTE, *read_note(entry)["files"]):
+            for name in (NOTE, *files):
                 shutil.copyfile(entry / name, place / name)
-                shutil.copystat(entry / name, place / name)  # keeps the time when it was made
+                made = (entry / name).stat().st_mtime_ns
+                os.utime(place / name, ns=(made, made))
             read_note(place, entry.name, whole=True)
             self._publish(place, entry.name)
 
     @contextlib.contextmanager
     def _unfinished(self) -> Iterator[Path]:
-        """Yield a directory in the store without a key; it is removed unless it was renamed."""
-        self.directory.mkdir(parents=True, exist_ok=True)
-        place = Path(tempfile.mkdtemp(prefix=".", suffix=".tmp", dir=self.directory))
+        """Yield a directory without a key; it is removed unless it was renamed."""
+        place = self.directory / f".{uuid.uuid4().hex}.tmp"
+        place.mkdir(parents=True)
         try:
             yield place
         finally:
             shutil.rmtree(place, ignore_errors=True)
 
     def _publish(self, place: Path, key: str) -> None:
-        """Rename a finished directory to its key; an entry of a faster process stays."""
+        """Rename a finished directory to its key; a right entry of a faster process stays."""
+        names = {path.name for path in place.iterdir()} - {NOTE}
         for path in place.iterdir():
-            path.chmod(0o444)  # nobody may change it through a link in the results
+            path.chmod(path.stat().st_mode & 0o444)  # nobody changes it through a link
             flush(path)
-        place.chmod(0o755)
+        _mark(place, _newest(place))
         flush(place)
         self._known.pop(key, None)
         try:
             place.rename(self.entry(key))
         except OSError:  # an entry exists
             with contextlib.suppress(DatasetError):
-                read_note(self.entry(key), whole=True)
+                read_note(self.entry(key), whole=True, names=names)
                 return
             self.set_aside(key)
             try:
                 place.rename(self.entry(key))
             except OSError:
-                if self.note(key) is None:  # else another process has just published one
+                if not self.has(key):  # else another process has just published one
                     raise
         flush(self.directory)
 
     def set_aside(self, key: str) -> None:
-        """Move a wrong entry out of the way."""
-        if not os.path.lexists(self.entry(key)):
-            return
-        (self.directory / ASIDE).mkdir(exist_ok=True)
-        place = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=self.directory / ASIDE))
+        """Rename a wrong entry; its owner may be another user."""
         self._known.pop(key, None)
         with contextlib.suppress(FileNotFoundError):  # another process was faster
-            self.entry(key).rename(place / key)
-
-    def refused(self, key: str, error: Exception) -> DatasetError:
-        """Move a wrong entry out of the way, and make the error for the user.
-
-        Parameters
-        ----------
-        key : str
-            Key of the entry.
-        error : Exception
-            The reason.
-
-        Returns
-        -------
-        DatasetError
-            To be raised.
-        """
-        self.set_aside(key)
-        return DatasetError(f"{error}. It was moved aside: run this again, and it is made again")
+            self.entry(key).rename(self.directory / f"{DAMAGED}{key}-{uuid.uuid4().hex[:8]}")
 
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that no process finds half of it."""
-        gone = self.directory / f".{key}.removed.tmp"
-        shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
+        gone = self.directory / f".{key}-{uuid.uuid4().hex[:8]}.tmp"
         self.entry(key).rename(gone)
-        shutil.rmtree(gone)
+        if gone.is_symlink() or not gone.is_dir():
+            gone.unlink()
+        else:
+            shutil.rmtree(gone)
+
+
+def _mark(entry: Path, newest: int) -> None:
+    """Note in the time of an entry that its bytes are right, if it is not another user's."""
+    with contextlib.suppress(OSError):
+        os.utime(entry, ns=(newest, newest))
 
 
 def others(strict: bool = True) -> list[Store]:
     """The stores elsewhere, from the environment.
 
-    Parameters
-    ----------
-    strict : bool
-        Whether an unusable store is an error. If not, it is reported and left out, since a node of
-        a cluster may lack a disk.
-
-    Returns
-    -------
-    list of Store
-        In the order of the environment.
-
-    Raises
-    ------
-    DatasetError
-        If one is not a readable directory and `strict` is set.
+    One that is no readable directory raises DatasetError, or without `strict` is left out: a node
+    of a cluster may lack a disk.
     """
-    found: list[Store] = []
-    for name in os.environ.get(VARIABLE, "").split(","):
-        name = name.strip()
-        if not name:
-            continue
+    found = []
+    for name in filter(None, map(str.strip, os.environ.get(VARIABLE, "").split(","))):
         if Path(name).is_dir() and os.access(name, os.R_OK | os.X_OK):
             found.append(Store(Path(name).absolute()))
             continue
@@ -252,15 +267,7 @@ def others(strict: bool = True) -> list[Store]:
 
 
 def give_all(entry: Path, others: list[Store]) -> None:
-    """Copy a new entry to the stores elsewhere.
-
-    Parameters
-    ----------
-    entry : Path
-        Directory of the entry.
-    others : list of Store
-        A store that is out of reach is reported and removed from this list.
-    """
+    """Copy a new entry to stores elsewhere; one out of reach is reported and leaves the list."""
     for other in list(others):
         try:
             other.give(entry)

@@ -7,24 +7,16 @@ import contextlib
 import itertools
 import os
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
 
-from .keys import digest_of_file, key_in
 from .messages import LOGGER
-from .recipes import Recipe, is_manifest
-from .store import Store
+from .recipes import Recipe, is_manifest, key_in
+from .store import Store, digest_of_file
 
 
 def lay(file: Path, target: Path) -> None:
-    """Make a relative link to a file of a store, or a copy where links are impossible.
-
-    Parameters
-    ----------
-    file : Path
-        The link; an older file is replaced.
-    target : Path
-        The file in the store.
-    """
+    """Make a relative link to a file of a store, or a copy; an older file is replaced."""
     file.parent.mkdir(parents=True, exist_ok=True)
     new = _beside(file)
     new.unlink(missing_ok=True)
@@ -36,15 +28,7 @@ def lay(file: Path, target: Path) -> None:
 
 
 def write(file: Path, text: str) -> None:
-    """Write a text completely or not at all.
-
-    Parameters
-    ----------
-    file : Path
-        The file; an older one is replaced.
-    text : str
-        Its content.
-    """
+    """Write a text completely or not at all; an older file is replaced."""
     file.parent.mkdir(parents=True, exist_ok=True)
     new = _beside(file)
     new.write_text(text, "utf-8")
@@ -56,27 +40,15 @@ def _beside(file: Path) -> Path:
 
 
 def shows(file: Path, target: Path) -> bool:
-    """Whether a file is a link to a file of a store, or a copy of it.
-
-    Parameters
-    ----------
-    file : Path
-        A file that people open.
-    target : Path
-        The file in the store.
-
-    Returns
-    -------
-    bool
-        False also if either is missing.
-    """
+    """Whether a file is a link to a file of a store, or a copy of it; not if either is missing."""
     if file.is_symlink():
         return os.path.realpath(file) == os.path.realpath(target)
     try:
-        same_size = file.stat().st_size == target.stat().st_size
+        if not file.is_file() or file.stat().st_size != target.stat().st_size:
+            return False
+        return digest_of_file(file) == digest_of_file(target)
     except OSError:
         return False
-    return file.is_file() and same_size and digest_of_file(file) == digest_of_file(target)
 
 
 def show(recipe: Recipe) -> None:
@@ -86,31 +58,22 @@ def show(recipe: Recipe) -> None:
             lay(Path(file), Path(recipe.stored(file)))
         else:
             write(Path(file), recipe.manifest())
-            times = [os.stat(part.stored(part.files[0])).st_mtime for part in recipe.parts]
-            newest = max(times)
+            newest = max(os.stat(part.stored(part.files[0])).st_mtime for part in recipe.parts)
             os.utime(file, (newest, newest))  # results that were made of the parts are newer
 
 
 def is_shown(recipe: Recipe, store: Store) -> bool:
-    """Whether the files of a rule show its result, and the store has it.
+    """Whether the store has a result, and the rule's files show it."""
+    return recipe.is_in(store) and all(
+        shows_expected(Path(file), wanted) for file, wanted in recipe.expected().items()
+    )
 
-    Parameters
-    ----------
-    recipe : Recipe
-        Recipe of the result.
-    store : Store
-        Store of the directory of results.
 
-    Returns
-    -------
-    bool
-        False also if a part of a batch is missing in the store.
-    """
-    if not all(store.note(one.key) for one in recipe.needed):
-        return False
-    if not recipe.call:
-        return all(_text(Path(file)) == recipe.manifest() for file in recipe.files)
-    return all(shows(Path(file), Path(recipe.stored(file))) for file in recipe.files)
+def shows_expected(file: Path, wanted: str) -> bool:
+    """Whether a file shows its target in the store, or has its text, as of Recipe.expected."""
+    if not wanted.startswith("{"):
+        return shows(file, Path(wanted))
+    return file.is_file() and file.read_bytes() == wanted.encode()
 
 
 def is_linked(recipe: Recipe) -> bool:
@@ -118,64 +81,25 @@ def is_linked(recipe: Recipe) -> bool:
     return not recipe.call or all(map(os.path.islink, recipe.files))
 
 
-def can_link(directory: Path) -> bool:
-    """Whether links are possible in a directory."""
-    link = directory / f".link.{os.getpid()}.tmp"
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        link.symlink_to(".")
-        link.unlink()
-    except OSError:
-        return False
-    return True
-
-
-def _text(file: Path) -> str | None:
-    try:
-        return file.read_text("utf-8") if file.is_file() else None
-    except (OSError, ValueError):
-        return None
-
-
 def is_broken(file: Path) -> bool:
     """Whether it is a link to a missing file."""
     return file.is_symlink() and not file.exists()
 
 
-def withdraw(file: Path, earlier: Path) -> None:
-    """Remove a file that shows an outdated result.
+def withdraw(file: Path, known: Iterable[Path]) -> None:
+    """Remove a file that shows another result; the store still has that.
 
-    A link into a store, a copy of `earlier` or a list of a batch is deleted; the store still has
-    the result. Any other file belongs to the user, and is moved aside.
-
-    Parameters
-    ----------
-    file : Path
-        A file that people open; it may be missing.
-    earlier : Path
-        The file in the store that it showed before; it may be missing.
+    A link into a store, a copy of a `known` file or a list of a batch is deleted. Any other file
+    belongs to the user, and is moved aside.
     """
     if not os.path.lexists(file):
         return
+    into_store = file.is_symlink() and key_in(os.readlink(file)) is not None
     with contextlib.suppress(FileNotFoundError):  # another process was faster
-        if _is_view(file, earlier):
+        if into_store or is_broken(file) or is_manifest(file) or any(shows(file, k) for k in known):
             file.unlink()
             return
-        kept = _free_name(file)
+        names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())
+        kept = next(name for name in names if not os.path.lexists(name))
         file.rename(kept)
         LOGGER.warning(f"{file} is not of the workflow: it is now {kept}")
-
-
-def _is_view(file: Path, earlier: Path) -> bool:
-    if file.is_symlink() and key_in(os.readlink(file)) is not None:
-        return True
-    return shows(file, earlier) or is_broken(file) or is_manifest(_text(file))
-
-
-def _free_name(file: Path) -> Path:
-    """A name for a file that is moved aside: with ``~``, or ``~1``, ``~2``, ..."""
-    for number in itertools.count():
-        name = file.with_name(f"{file.name}~{number or ''}")
-        if not os.path.lexists(name):
-            return name
-    raise AssertionError  # the count does not end

@@ -1,0 +1,213 @@
+"""The code that a result depends on: a digest of modules, of all that they import, of libraries.
+
+Of a module the syntax tree counts, without comments, docstrings, layout and code for type checkers;
+of a library its version. Code is read, not imported.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import hashlib
+import importlib
+import importlib.metadata
+import importlib.util
+import json
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from .files import replacing
+
+PACKAGES = ("nucleation", "replication")
+_ROOT = Path(__file__).resolve().parents[2]
+_NEUTRAL = "replication.pipeline"  # surrounds the computations, and can't change their results
+ALWAYS = ("nucleation.datasets.netcdf",)
+"""Code of every dataset: the writer of its file."""
+
+# libraries whose distribution has another name than the module
+_DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml", "pypandoc": "pypandoc_binary"}
+# libraries that do the work of others and are not imported here
+_COMPANIONS = {
+    "numba": ("llvmlite",),
+    "xarray": ("netCDF4", "pandas"),
+    "matplotlib": ("pillow",),
+}
+# fields of syntax trees without meaning here, or unknown to some Python versions
+_UNCOUNTED = {"ctx", "kind", "type_comment", "type_ignores", "type_params"}
+_PARSED = _ROOT / "nucleation" / "__pycache__" / "digests.json"
+"""Parsed sources by their content, so that a start of the workflow need not parse them again."""
+
+
+class CodeError(RuntimeError):
+    """Code differs from the code that a job was planned with, or can't be read."""
+
+
+class _Source(NamedTuple):
+    tree: str  # digest of the syntax tree
+    imports: list[tuple[int, str, str]]  # level, module, name
+    libraries: list[str]
+
+
+@cache
+def digest(*roots: str) -> str:
+    """Digest of modules, by dotted names, of all that they import, and of libraries' versions."""
+    parts = [f"{module} {_source(module).tree}" for module in sorted(closure(*roots))]
+    parts += [f"{name} {_version(name)}" for name in sorted(libraries(*roots))]
+    parsed = _parsed()
+    if parsed.pop("changed", False):
+        with contextlib.suppress(OSError), replacing(_PARSED) as temporary:
+            temporary.write_text(json.dumps(parsed))
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+@cache
+def closure(*roots: str) -> frozenset[str]:
+    """Modules, all that they import from our packages, directly or not, and packages around."""
+    found: set[str] = set()
+    waiting = set(roots)
+    while waiting:
+        module = waiting.pop()
+        found.add(module)
+        waiting |= set(_needed(module)) - found
+    return frozenset(found)
+
+
+def libraries(*roots: str) -> set[str]:
+    """Distributions that modules and all that they import need."""
+    imported = {name for module in closure(*roots) for name in _source(module).libraries}
+    needed = {_DISTRIBUTIONS.get(name, name) for name in imported}
+    return needed.union(*(_COMPANIONS.get(name, ()) for name in imported))
+
+
+def forget() -> None:
+    """Read all code anew at the next call: it may have been edited."""
+    for function in (digest, closure, _source, _needed):
+        function.cache_clear()
+
+
+def load(*roots: str) -> None:
+    """Import all code of some roots, and read it anew for the next digest.
+
+    No later edit reaches this process, as nothing is left to import; an earlier one is noticed.
+    """
+    for module in sorted(closure(*roots)):
+        importlib.import_module(module)
+    forget()
+
+
+@cache
+def _version(library: str) -> str:
+    try:
+        return importlib.metadata.version(library)
+    except importlib.metadata.PackageNotFoundError:
+        return "missing"  # the job that needs it reports the error
+
+
+@cache
+def _source(module: str) -> _Source:
+    """A parsed module; each content is parsed once and kept on the disk."""
+    path = _file(module)
+    if path is None:
+        raise CodeError(f"{module} is no module of the package")
+    content = path.read_bytes()
+    name = hashlib.sha256(content).hexdigest()
+    parsed = _parsed()
+    if name not in parsed:
+        try:
+            parsed[name] = parse(content)
+        except SyntaxError as error:
+            raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
+        parsed["changed"] = True
+    return _Source(*parsed[name])
+
+
+@cache
+def _parsed() -> dict[str, Any]:
+    try:
+        return dict(json.loads(_PARSED.read_text()))
+    except (OSError, ValueError, TypeError):
+        return {}
+
+
+@cache
+def _needed(module: str) -> list[str]:
+    """The modules of ours that one imports, and the packages around it."""
+    parts = module.split(".")
+    found = [".".join(parts[:depth]) for depth in range(1, len(parts))]
+    is_package = _file(module) == _ROOT.joinpath(*parts, "__init__.py")
+    base = module if is_package else found[-1]
+    for level, start, name in _source(module).imports:
+        imported = importlib.util.resolve_name("." * level + start, base)
+        inner = f"{imported}.{name}"
+        found.append(inner if name and _file(inner) else imported)
+    return [name for name in found if not f"{name}.".startswith(f"{_NEUTRAL}.")]
+
+
+def _file(module: str) -> Path | None:
+    place = _ROOT.joinpath(*module.split("."))
+    for path in (place.with_suffix(".py"), place / "__init__.py"):
+        if path.is_file():
+            return path
+    return None
+
+
+def parse(content: bytes) -> _Source:
+    """Parse the bytes of a module; the result is the same for every Python version."""
+    tree = ast.parse(content)
+    words = "\0".join(_words(tree))
+    imports = []
+    others = set()
+    for node in _counted(tree):
+        if isinstance(node, ast.Import):
+            imports += [(0, alias.name, "") for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            imports += [(node.level, node.module or "", alias.name) for alias in node.names]
+    own = []
+    for level, module, name in imports:
+        root = module.partition(".")[0]
+        if level or root in PACKAGES:
+            own.append((level, module, name))
+        elif root not in sys.stdlib_module_names:
+            others.add(root)
+    return _Source(hashlib.sha256(words.encode()).hexdigest(), own, sorted(others))
+
+
+def _counted(node: ast.AST) -> Iterator[ast.AST]:
+    """A node of a syntax tree and all below it that count."""
+    yield node
+    for child in ast.iter_child_nodes(node):
+        if not _is_ignored(child):
+            yield from _counted(child)
+
+
+def _words(node: object) -> Iterator[str]:
+    """The words of a syntax tree, or of a value in one."""
+    if isinstance(node, list):
+        yield "["
+        for item in node:
+            if not _is_ignored(item):
+                yield from _words(item)
+        yield "]"
+    elif isinstance(node, ast.AST):
+        yield type(node).__name__
+        for field, value in ast.iter_fields(node):
+            if field not in _UNCOUNTED and value is not None:
+                yield field
+                yield from _words(value)
+    else:
+        yield repr(node)
+
+
+def _is_ignored(node: object) -> bool:
+    """Whether a node is a docstring, code for type checkers, or the package's version."""
+    match node:
+        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
+            return True
+        case ast.Assign(targets=[ast.Name(id="__version__")]):
+            return True
+        case ast.Expr(value=ast.Constant(value=str())):
+            return True
+    return False

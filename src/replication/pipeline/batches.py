@@ -1,0 +1,145 @@
+"""Batches: the results of one job, made on several cores and shown one by one."""
+
+import multiprocessing
+import os
+import signal
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from threading import Thread
+from types import FrameType
+from typing import Any
+
+from nucleation.simulation.checkpoints import SIGNALS
+
+from .messages import LOGGER
+from .recipes import Recipe
+from .views import show
+
+_TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
+
+
+class PartFailed(Exception):
+    """A part of a batch has failed; the other parts are made."""
+
+
+class Inputs(Sequence[Any]):
+    """The sources of one role; each is read when it is needed."""
+
+    def __init__(self, open: Callable[[str], Any], paths: list[str]) -> None:
+        self._open = open
+        self._paths = paths
+
+    def __len__(self) -> int:
+        return len(self._paths)
+
+    def __getitem__(self, i: Any) -> Any:
+        return self._open(self._paths[i])
+
+
+class Batch:
+    """The results of a batch, each made from its recipe by a function, on some cores."""
+
+    def __init__(self, result: Callable[[Recipe], Any], parts: Sequence[Recipe], cores: int):
+        self._result = result
+        self._parts = parts
+        self._cores = cores
+        self._failures: list[str] = []
+
+    def map(self, function: Callable[[int, Any], Any] | None = None) -> list[Any]:
+        """Make all results, and return the values of a function of each one's number and result.
+
+        It is called in the process that makes the result; failed parts are left out.
+        """
+        names = [part.name for part in self._parts]
+        values = []
+        for failure, value in side_by_side(lambda i: self._one(i, function), names, self._cores):
+            if failure:
+                self._failures.append(failure)
+            else:
+                values.append(value)
+        return values
+
+    def _one(self, number: int, function: Callable[[int, Any], Any] | None) -> tuple[str, Any]:
+        """Why a part has failed, and the value of the function if it has not."""
+        part = self._parts[number]
+        try:
+            result = self._result(part)
+        except PartFailed as error:
+            LOGGER.info(error)
+            return str(error), None
+        show(part)
+        return "", None if function is None else function(number, result)
+
+    def end_on_failures(self) -> None:
+        """Raise SystemExit if a part has failed; it is called after all parts were tried."""
+        if not self._failures:
+            return
+        if len(self._parts) == 1:
+            sys.exit(self._failures[0])
+        count = f"{len(self._failures)} of {len(self._parts)} runs failed, the others are kept:"
+        sys.exit("\n  ".join([count, *self._failures]))
+
+
+def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -> list[Any]:
+    """The values of a function of 0, 1, ..., computed by a forked process for each core.
+
+    If a call fails, those that have begun are finished, no other one begins, and SystemExit has the
+    reasons. Signals that stop a job are passed on to its processes.
+    """
+    if min(len(names), cores) < 2:
+        return [work(i) for i in range(len(names))]
+    context = multiprocessing.get_context("fork")
+    pool = ProcessPoolExecutor(
+        min(len(names), cores), context, initializer=_begin, initargs=(work, context.Event())
+    )
+
+    def pass_on(number: int, _frame: FrameType | None) -> None:
+        for process in multiprocessing.active_children():
+            with suppress(ProcessLookupError):
+                os.kill(process.pid or 0, number)
+
+    before = {number: signal.signal(number, pass_on) for number in SIGNALS}
+    try:
+        with pool:
+            calls = [pool.submit(_call, i) for i in range(len(names))]
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    reasons = []
+    for name, call in zip(names, calls, strict=True):
+        match call.exception():
+            case SystemExit(code=reason):
+                reasons.append(str(reason))
+            case BrokenProcessPool():
+                reasons.append(f"{name} is not made: a process was killed")
+            case Exception() as error:
+                reasons.append(f"{type(error).__name__}: {error}")
+    if reasons:
+        sys.exit("\n".join(filter(None, dict.fromkeys(reasons))))
+    return [call.result() for call in calls]
+
+
+def _begin(work: Callable[[int], Any], ended: Any) -> None:
+    """In a process of the pool, before its first call: it ends when the job is killed."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
+    parent = multiprocessing.parent_process()
+    Thread(target=lambda: (parent and parent.join(), os._exit(1)), daemon=True).start()
+    _TASK[:] = [work, ended]
+
+
+def _call(number: int) -> Any:
+    work, ended = _TASK
+    if ended.is_set():
+        sys.exit("")
+    try:
+        return work(number)
+    except BaseException as error:
+        ended.set()
+        if not isinstance(error, SystemExit):
+            traceback.print_exc()  # into the log
+        raise
