@@ -35,7 +35,7 @@ CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
-.PHONY: help install paper report replication quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
+.PHONY: help install paper report replication quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
 	targets check prune torture
 
 help: ## This list
@@ -47,8 +47,9 @@ install: $(STAMP) ## Install what `make paper` needs, in .venv
 paper: $(if $(findstring replication,$(TARGETS)),$(DEV_STAMP),$(STAMP)) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $$TARGETS $(OPTIONS)
 
-report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in half an hour to an hour
-	$(LAUNCH) report $(OPTIONS)
+report: $(STAMP) ## Make results/report.html: all figures with captions, and verdicts, in half an hour to an hour
+	$(LAUNCH) figures $(OPTIONS)
+	$(LAUNCH) figures --report results/report.html $(OPTIONS)
 
 replication: $(DEV_STAMP) ## Make the article with all figures as PDF, results/replication.pdf
 	$(LAUNCH) replication $(OPTIONS)
@@ -79,22 +80,19 @@ hooks: $(DEV_STAMP) ## Have git check what make lint checks before each commit
 docs: $(DEV_STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, in one page
-	PYTHONPATH=src $(BIN)/python -m replication.report.calculator results/calculator.html results/reference/patch_tables.json
-
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $$PARTS
 
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
-	literature.csv weakening.csv other_faults.csv weakening_patches.csv patch_tables.json \
+	literature.csv weakening.csv other_faults.csv weakening_patches.csv \
 	figures/*.png tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
 
 reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_drop \
-		patch_tables figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
+		figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
 		figure_weakening_patches other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference

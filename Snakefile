@@ -62,7 +62,6 @@ from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication.figures import catalogue
-from replication.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
@@ -148,7 +147,6 @@ include: "workflow/rules/patches.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
-include: "workflow/rules/report.smk"
 include: "workflow/rules/targets.smk"
 
 

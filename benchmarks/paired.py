@@ -1,131 +1,142 @@
-"""A run's processor time here over that at an earlier commit, both measured in turns.
+"""Times of whole commands here and at an earlier commit, in turns, and their ratios.
 
-``python -m benchmarks.paired 8b1871d [--run ID] [--turns N]``, in a checkout with its history. Both
-codes run in the present environment, each on its own configuration.
+    python -m benchmarks.paired 01c05321 [--parts length plan ...] [--turns 3]
+
+Each commit is cloned, and its environment made by its own `make install`. A part runs in both
+clones in turns, so that a machine that gets slower does so for both. Times of the first turn
+include the compilation of kernels only in the parts `install` and `paper`, which start from
+nothing.
 """
 
 import argparse
 import json
 import os
+import resource
+import shlex
+import statistics
 import subprocess
-import sys
 import tempfile
+import time
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 CHECKOUT = Path(__file__).parents[1]
-RUN = "converged-aging-H0.02-phi1-seed1"  # declared, 400 x 16
-TURNS = 4
 
-MEASURE = """
-import json, sys, time
-from nucleation.extraction.extraction import extract
-from replication.configuration.load import load
-from nucleation.simulation.run import simulate
-
-runs = {run.id: run for run in load("config/config.yaml").runs}
-parameters = runs[sys.argv[1]].parameters
-simulate(parameters.replaced({"n_x": 16, "n_y": 4, "end_time": 1e-3}))  # compiles the kernels
-start = time.process_time()
-record = simulate(parameters)
-seconds = time.process_time() - start
-found = extract(record)
-print(json.dumps({
-    "seconds": seconds, "steps": record.attrs["steps"] + record.attrs["rejected_steps"],
-    "onset_time": found["onset_time"], "length": found["length"],
-}))
+FAULT = (
+    "--shear-modulus 30GPa --poisson-ratio 0.25 --normal-stress 50MPa --a 0.010 --b 0.015 "
+    "--slip-distance 5um"
+)
+WEAK = {
+    "shear_modulus": 30e9,
+    "poisson_ratio": 0.25,
+    "normal_stress": 50e6,
+    "a": 0.010,
+    "b": 0.015,
+    "slip_distance": 5e-6,
+    "height": 0.5,
+}
+RUNAWAY = f"""
+from nucleation import api
+fault = api.Fault(**{WEAK})
+print(fault.runaway_length())
 """
+PLAN = """
+studies:
+  large:
+    defaults: {n_x: 20, n_y: 4, block_length: 1.0, end_time: 1.0e-3}
+    runs:
+      - height: {start: 0.01, stop: 0.1, num: 5000}
+"""
+NOTHING = "git clean -fdxq results; rm -rf .snakemake"
+RUN = "converged-aging-H0.02-phi1-seed1"
+
+PARTS = {
+    "install": ("make clean-venv", "make install"),
+    "paper": (f"{NOTHING}; make clean-venv", "make paper"),
+    "workflow": (NOTHING, "make paper"),
+    "length": ("", f".venv/bin/nucleation length {FAULT}"),
+    "runaway": ("", "PYTHONPATH=src .venv/bin/python runaway.py"),
+    "step": ("", f".venv/bin/nucleation simulate --force run.nc --run {RUN}"),
+    "plan": ("", ".venv/bin/snakemake -n lengths --quiet all --configfile plan.yaml"),
+    "test": ("", "make test"),
+}
+"""Commands that are not timed, and the command that is."""
+
+USUAL = ("length", "runaway", "step", "plan", "workflow", "paper")
 
 
-def _measured(source: Path, run: str) -> dict[str, float]:
-    """Processor time (s), steps, onset (s) and length (m) of one run by the code in a directory."""
-    environment = os.environ | {"PYTHONPATH": str(source / "src"), "OMP_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [sys.executable, "-c", MEASURE, run],
-        cwd=source,
-        env=environment,
-        check=True,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    found: dict[str, float] = json.loads(done.stdout)
-    return found
+class Times(NamedTuple):
+    """Wall time and processor time (s) of a command with all its children."""
+
+    wall: float
+    processor: float
 
 
-def _unpack(commit: str, directory: str) -> None:
-    """Write the code and the configuration of a commit into a directory."""
-    archive = subprocess.run(
-        ["git", "archive", commit, "src", "config"],
-        cwd=CHECKOUT,
-        check=True,
-        stdout=subprocess.PIPE,
-    )
+def timed(part: str, clone: Path) -> Times:
+    """Run a part once in a clone."""
+    before, command = PARTS[part]
+    run(before, clone)
+    used = _processor_time()
+    start = time.perf_counter()
+    run(command, clone)
+    return Times(time.perf_counter() - start, _processor_time() - used)
+
+
+def run(command: str, folder: Path) -> None:
+    """Run a command of the shell in a folder, without its output."""
     subprocess.run(
-        ["tar", "-x", "-C", directory],
-        input=archive.stdout,
+        ["bash", "-c", command],
+        cwd=folder,
+        env=os.environ | {"OMP_NUM_THREADS": "1"},
         check=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
 
 
-def paired(
-    commit: str,
-    run: str = RUN,
-    turns: int = TURNS,
-) -> dict[str, Any]:
-    """Compare the time of a step here with that at an earlier commit.
-
-    Parameters
-    ----------
-    commit : str
-        The earlier commit.
-    run : str
-        Identifier of a run in both configurations.
-    turns : int
-        Number of runs of each code.
-
-    Returns
-    -------
-    dict
-        The fastest run of each code as ``before`` and ``now``, and ``step_now_over_before``.
-
-    Raises
-    ------
-    subprocess.CalledProcessError
-        If there is no such commit or run, or a run fails.
-    """
-    before = []
-    now = []
-    with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as directory:
-        _unpack(commit, directory)
-        for _ in range(turns):
-            before.append(_measured(Path(directory), run))
-            now.append(_measured(CHECKOUT, run))
-    best_before = min(before, key=_seconds)
-    best_now = min(now, key=_seconds)
-    return {
-        "before": best_before,
-        "now": best_now,
-        "step_now_over_before": _per_step(best_now) / _per_step(best_before),
-    }
+def _processor_time() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
-def _seconds(run: dict[str, float]) -> float:
-    return run["seconds"]
-
-
-def _per_step(run: dict[str, float]) -> float:
-    return run["seconds"] / run["steps"]
+def clone_of(commit: str, folder: Path) -> Path:
+    """A clone of the checkout at a commit, with its environment."""
+    run(f"git clone --quiet . {shlex.quote(str(folder))}", CHECKOUT)
+    run(f"git checkout --quiet {shlex.quote(commit)}", folder)
+    (folder / "runaway.py").write_text(RUNAWAY)
+    (folder / "plan.yaml").write_text(PLAN)
+    run("make install", folder)
+    return folder
 
 
 def main() -> None:
-    """Print both measurements of a run and their ratio."""
+    """Print medians of both commits and their ratio, now over before, for each part."""
     parser = argparse.ArgumentParser(prog="benchmarks.paired", description=main.__doc__)
     parser.add_argument("commit")
-    parser.add_argument("--run", default=RUN, help="identifier of a run of config/config.yaml")
-    parser.add_argument("--turns", type=int, default=TURNS)
-    arguments = parser.parse_args()
-    found = paired(arguments.commit, arguments.run, arguments.turns)
-    print(json.dumps(found, indent=2))
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=USUAL)
+    parser.add_argument("--turns", type=int, default=3)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as folder:
+        clones = [
+            clone_of(commit, Path(folder, name))
+            for name, commit in (("before", given.commit), ("now", "HEAD"))
+        ]
+        for part in given.parts:
+            if part not in ("install", "paper", "workflow", "test"):
+                for clone in clones:
+                    timed(part, clone)  # compiles kernels, fills caches
+            turns = [[timed(part, clone) for clone in clones] for _ in range(given.turns)]
+            found: dict[str, object] = {"part": part}
+            for which in Times._fields:
+                before, now = (
+                    statistics.median(getattr(turn[i], which) for turn in turns) for i in (0, 1)
+                )
+                found[which] = {
+                    "before": round(before, 2),
+                    "now": round(now, 2),
+                    "ratio": round(now / before, 3),
+                }
+            print(json.dumps(found), flush=True)
 
 
 if __name__ == "__main__":

@@ -10,8 +10,7 @@ import xarray as xr
 from scipy.sparse.linalg import splu
 
 from nucleation.extraction.extraction import extract
-from nucleation.fem.block import Block
-from nucleation.fem.bodies import body_of
+from nucleation.fem.body import Body, body_of
 from nucleation.fem.grid import Grid
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import KINDS
@@ -124,16 +123,16 @@ def _timed_steps(parameters: Parameters) -> Task:
 def _step_over_solve(parameters: Parameters) -> dict[str, float]:
     """A whole step against the one solve of the block that it needs at least."""
     grid = Grid.of(parameters.geometry, parameters.mesh)
-    body = Block(grid, parameters.material)
+    body = Body((grid, parameters.material))
     beta = rung_value(_longest_rung(parameters))
     operator = body.operator(1.0 / beta**2)
-    load = body.top_load(1e6)
+    load = body.far_load(1e6)
     at_rest = np.zeros(grid.n_x)
     edge = np.zeros(grid.n_y + 1)
 
     def solve() -> None:
         swept = operator.swept_down(load, edge)
-        operator.substitute_up(swept, at_rest, None)
+        operator.substitute_up(swept, at_rest, 0.0)
 
     steps, solve_seconds = _fastest(_timed_steps(parameters), solve)
     step_seconds = steps / STEPS

@@ -1,4 +1,4 @@
-"""The cost beside the simulations: planning, a run's overhead, tables, report, checks, archives.
+"""The cost beside the simulations: planning, a run's overhead, tables, figures, checks, archives.
 
 Studies of short runs to their event are made in batches, by the commands of the workflow.
 """
@@ -102,8 +102,8 @@ def snakemake(*arguments: str) -> list[str]:
 
 
 COMMANDS = {
-    "report": snakemake("report"),
-    "nothing_to_do": snakemake("report"),
+    "figures": snakemake("figures"),
+    "nothing_to_do": snakemake("figures"),
     "check": snakemake("check"),
 }
 """The commands that are measured once all runs of a study and its table are made."""

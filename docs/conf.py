@@ -1,6 +1,7 @@
 """Sphinx: these pages, the tutorials (executed) and the reference of the API (`make docs`)."""
 
 import re
+import runpy
 import shutil
 import sys
 from pathlib import Path
@@ -32,7 +33,7 @@ extensions = [
     "sphinx.ext.viewcode",
     "numpydoc",
 ]
-exclude_patterns = ["_build", "_templates"]
+exclude_patterns = ["_build", "_templates", "calculator"]
 templates_path = ["_templates"]
 
 # Pages are read on the forge as well: plain Markdown, mathematics between dollars.
@@ -96,10 +97,8 @@ def mathematics(writer, node):
 def calculator(app, error):
     """The calculator beside the pages."""
     if error is None and app.builder.name == "html":
-        from replication.report.calculator import build
-
-        tables = ROOT / "results" / "reference" / "patch_tables.json"
-        Path(app.outdir, "calculator.html").write_text(build(tables), encoding="utf-8")
+        page = runpy.run_path(ROOT / "docs" / "calculator" / "tables.py")["page"]
+        Path(app.outdir, "calculator.html").write_text(page(), encoding="utf-8")
 
 
 def redirects(app, error):

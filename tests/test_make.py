@@ -60,7 +60,10 @@ LAUNCH = ["-m", "replication.pipeline.launch"]
 def test_no_name_of_a_file_is_run(make, name):
     cores = ["--cores", "2"]
     assert make("paper", CONFIG=name) == [[*LAUNCH, *cores, "--configfile", name]]
-    assert make("report", CONFIG=name) == [[*LAUNCH, "report", *cores, "--configfile", name]]
+    built, shown = make("report", CONFIG=name)
+    given = [*cores, "--configfile", name]
+    assert built == [*LAUNCH, "figures", *given]
+    assert shown == [*LAUNCH, "figures", "--report", "results/report.html", *given]
     assert make("paper", CORES=name) == [[*LAUNCH, "--cores", name]]
 
 

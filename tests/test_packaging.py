@@ -42,7 +42,7 @@ def named(requirements):
 
 CORE = named(PROJECT["dependencies"])
 BEYOND = {
-    "nucleation/pictures": "figures", "nucleation/commands/pictures.py": "figures",
+    "nucleation/pictures": "figures",
     "nucleation/extraction": "solver", "nucleation/fem": "solver",
     "nucleation/simulation": "solver", "replication": "test",
 }  # fmt: skip
@@ -101,7 +101,7 @@ def test_everything_declared_is_pinned():
     assert {"sphinx", "mypy", "pytest", "pypandoc-binary", "typst", "ruff"}.isdisjoint(paper)
     for name, versions in paper.items():
         assert versions <= everything[name], f"{name}: make lock"
-    assert {"solver", "figures", "report", "workflow", "article", "docs", "test"} == set(EXTRAS)
+    assert {"solver", "figures", "workflow", "article", "docs", "test"} == set(EXTRAS)
 
 
 def run(*command, code=0, **options):
@@ -233,8 +233,6 @@ def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_p
         said = outside(light, tmp_path, "-m", "nucleation", *words, code=2)
         assert f"Error: {advice}" in " ".join(said.split())
         assert "Traceback" not in said
-    report = outside(light, tmp_path, "-c", "import replication.report", code=1)
-    assert "nucleation-length[report]" in report.splitlines()[-1]
 
 
 @pytest.mark.slow

@@ -19,9 +19,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from nucleation.fem.block import Block
-from nucleation.fem.condensed import Operator, Response
+from nucleation.fem.body import Body
 from nucleation.fem.grid import Field, Grid, Motion
+from nucleation.fem.modes import BlockModes
+from nucleation.fem.operator import Operator, Response
 from nucleation.model.parameters import Parameters
 from nucleation.simulation.drive import Drive, Imposed
 from nucleation.simulation.interface import Interface, InterfaceSolution, Past
@@ -76,7 +77,7 @@ class Manufactured(Drive):
         friction is integrated along x, and the lumping of the solver is an error of order h^2.
     """
 
-    body: Block
+    body: Body
     velocity = 0.0
     moves = True
 
@@ -101,10 +102,10 @@ class Manufactured(Drive):
         scheme = BDF(self.body.crossing_time)
         self.dynamics = Dynamics(self.body, interface, self, scheme)
 
-    def body_of(self, parameters: Parameters) -> Block:
+    def body_of(self, parameters: Parameters) -> Body:
         """Make the elastic body."""
         grid = Grid.of(parameters.geometry, parameters.mesh)
-        return Block(grid, parameters.material)
+        return Body((grid, parameters.material))
 
     def at(self, time: float) -> Imposed:
         """The motion of the driven edge and the source of the state at a time (s)."""
@@ -195,7 +196,6 @@ class Manufactured(Drive):
             rates,
             states,
             w,
-            self.body.no_memory,
         )
 
     def displacement_error(self, state: State) -> float:
@@ -244,11 +244,11 @@ class Manufactured(Drive):
         return self.exact_log_state(x, time, by_t=1) - own
 
 
-def block_field(block: Block, values: Array) -> Field:
-    """Convert nodal values into a field."""
-    grid = block.grid
+def block_field(body: Body, values: Array) -> Field:
+    """Convert nodal values of a layer of a block into a field."""
+    modes = body.modes
+    assert isinstance(modes, BlockModes)
     x, y = values
-    modes = np.empty((grid.n_y + 1, 2, grid.n_x))
-    modes[:, 0] = block.sine_amplitudes(x[:, 1:])
-    modes[:, 1] = block.cosine_amplitudes(y[:, :-1])
-    return Field(modes, y[:, -1].copy())
+    along_x = modes.sine_amplitudes(x[:, 1:])
+    along_y = modes.cosine_amplitudes(y[:, :-1])
+    return Field(np.stack((along_x, along_y), axis=1), y[:, -1].copy())

@@ -113,8 +113,8 @@ SHOW = [
     (["foreign.nc"], ["foreign.nc is damaged, or not of this project"]),
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
-    (["plain.nc", "--plot", "new.png"], ["no plot of this kind"]),
     (["theory.nc", "--plot", "no/new.png"], ["there is no directory", "mkdir -p"]),
+    (["plain.nc", "--plot", "new.png"], ["a plot of simulations alone"]),
 ]
 
 DROP = [

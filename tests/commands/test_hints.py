@@ -15,7 +15,7 @@ FAULT = (
         (["specimen", "--length", "1m"], "--D-RS", "did you mean --slip-distance?"),
         (["drop"], "--sigma-n", "did you mean --normal-stress?"),
         (["simulate", "run.nc"], "--Vpl", "did you mean --velocity?"),
-        (["plot", "out.png"], "--G", "did you mean --shear-modulus?"),
+        (["length"], "--G", "did you mean --shear-modulus?"),
         (["length"], "--nu", "did you mean --poisson-ratio?"),
         (["length"], "--youngs-modulus", "give --shear-modulus: mu = E/(2 (1 + nu))"),
         (["drop"], "-E", "give --shear-modulus: mu = E/(2 (1 + nu))"),
@@ -52,9 +52,3 @@ def test_a_message_lists_the_keys_of_its_command(nucleation, tmp_path):
     assert "unknown key; known: shear_modulus" in " ".join(own.split())
     assert "n_x" not in own
     assert "n_x" in nucleation("simulate", "run.nc", "--parameters", path).err
-
-
-def test_an_unknown_parameter_to_vary(nucleation):
-    ended = nucleation("plot", "out.png", "--paper", "--over", "sigma_n=1MPa:2MPa")
-    assert ended.code == 2
-    assert "did you mean normal_stress?" in ended.err

@@ -89,10 +89,10 @@ def test_names_can_be_any():
 
 
 def test_figures_stand_on_roles_that_there_are():
-    asked = {role for entry in catalogue.FIGURES.values() for role in entry.roles}
+    asked = {role for roles in catalogue.ROLES.values() for role in roles}
     assert asked | {*PAIRS, *REFINEMENTS} <= set(ROLES)
     found = {own.role for own in load(CONFIG / "quick.yaml").studies.values()}
-    assert catalogue.drawable(found) == list(catalogue.FIGURES)
+    assert catalogue.drawable(found) == list(catalogue.ROLES)
 
 
 def test_the_schema_has_the_purpose_of_every_role():

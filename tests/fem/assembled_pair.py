@@ -54,8 +54,8 @@ class AssembledPair:
         forces = np.zeros(self.stiffness.shape[0])
         parts = body.parts(load)
         places = ((self.x, self.y, 1.0), (self.below_x, self.below_y, -1.0))
-        for block, part, (x, y, sign) in zip((body.upper, body.lower), parts, places, strict=True):
-            tangential, normal = block.interface_forces(part.modes.transpose(1, 0, 2))
+        for part, (x, y, sign) in zip(parts, places, strict=True):
+            tangential, normal = body.modes.interface_forces(part.modes.transpose(1, 0, 2))
             forces[x[:, 1:]], forces[y[:, :-1]] = tangential, sign * normal
             forces[y[:, -1]] = sign * part.edge
         return forces
@@ -64,7 +64,7 @@ class AssembledPair:
         """The unknowns of a field of the pair."""
         values = np.zeros(self.stiffness.shape[0])
         values[self.x], values[self.y] = body.nodal_values(field)
-        values[self.below_x], values[self.below_y] = body.nodal_values_below(field)
+        values[self.below_x], values[self.below_y] = body.nodal_values(field, 1)
         return values
 
     def solve(self, s, forces, w, pinned=False):

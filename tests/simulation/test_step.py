@@ -6,7 +6,6 @@ import itertools
 import numpy as np
 import pytest
 
-from nucleation.fem.block import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -70,8 +69,8 @@ def test_start_without_shear_is_uniaxial_stress():
 def test_without_density_every_step_is_a_static_field():
     parameters = dataclasses.replace(small(), material=Material(density=0.0))
     dynamics = composed(parameters)
-    static = BlockOperator(dynamics.body, 0.0)
-    load = dynamics.body.top_load(parameters.loading.normal_stress)
+    static = dynamics.body.operator(0.0)
+    load = dynamics.body.far_load(parameters.loading.normal_stress)
     state, _ = at_rest(dynamics, parameters.loading)
     for rung in LADDER[:40]:
         state, report = dynamics.advance(state, rung)

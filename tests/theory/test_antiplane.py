@@ -26,7 +26,7 @@ from nucleation.api import (
     stability_length,
     transfer_functions,
 )
-from nucleation.fem.bodies import body_of
+from nucleation.fem.body import body_of
 from nucleation.fem.grid import Grid
 from nucleation.model.linearised import interface_state
 from nucleation.theory.creep.lengths import stability_length_of

@@ -34,8 +34,8 @@ class Body:
 
     def __init__(self, parameters, dynamics, below):
         body, second = dynamics.body, parameters.below
-        self.below, self.values = below, body.nodal_values_below if below else body.nodal_values
-        grid = body.grid_below if below else body.grid
+        self.below, self.values = below, body.nodal_values
+        grid = body.layers[below].grid
         self.stiffness, self.mass = assemble(grid, (second if below else parameters).material)
         i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))
         self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
@@ -46,7 +46,7 @@ class Body:
     def vector(self, field, uniform):
         """Nodal values, to which what moves the body above as a whole is added."""
         out = np.empty(self.stiffness.shape[0])
-        w_x, u_y = self.values(field)
+        w_x, u_y = self.values(field, self.below)
         out[self.x], out[self.y] = (w_x, -u_y) if self.below else (w_x + uniform, u_y)
         return out
 
@@ -94,7 +94,7 @@ class Accountant:
             self.dynamics.interface = interface
         both = (False, True)[: 1 if parameters.below is None else 2]
         self.bodies = [Body(parameters, self.dynamics, below) for below in both]
-        self.steady = self.dynamics.body.top_load(parameters.loading.normal_stress)
+        self.steady = self.dynamics.body.far_load(parameters.loading.normal_stress)
 
     def books(self, over):
         """The ledger until the event is `over`, by its largest slip rate and the present one."""
@@ -251,14 +251,14 @@ REMOTE = Parameters(
 # tolerance: single steps of a remote load miss 2e-10, and changes in the last bit move the sum by
 # up to 4e-10 either way.
 @pytest.mark.parametrize(
-    "parameters",
+    ("parameters", "missing"),
     [
-        REMOTE,
-        REMOTE.replaced({"plane": "antiplane"}),
-        REMOTE.replaced({"second_body": "deformable", "second_far_side": "clamped"}),
+        (REMOTE, 1e-9),
+        (REMOTE.replaced({"plane": "antiplane"}), 1e-9),
+        (REMOTE.replaced({"second_body": "deformable", "second_far_side": "clamped"}), 5e-9),
     ],
     ids=["remote", "antiplane", "pair"],
 )
-def test_energy_balance_of_bodies_that_are_loaded_from_afar(parameters):
+def test_energy_balance_of_bodies_that_are_loaded_from_afar(parameters, missing):
     accountant = Accountant(parameters, tolerance=1e-12)
-    balanced(accountant.books(lambda fastest, rate: rate < 0.5 * fastest), missing=1e-9)
+    balanced(accountant.books(lambda fastest, rate: rate < 0.5 * fastest), missing)

@@ -8,7 +8,7 @@ import pytest
 from benchmarks.manufactured.dynamics import Manufactured, block_field
 from benchmarks.manufactured.fields import Displacement, Loads, Term, power, sine
 from benchmarks.manufactured.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
-from nucleation.fem.bodies import body_of
+from nucleation.fem.body import body_of
 from nucleation.fem.grid import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -34,7 +34,7 @@ class ManufacturedPair(Manufactured):
 
     def __init__(self, parameters, exact, below, log_state, lumped):
         super().__init__(parameters, exact, log_state, lumped)
-        self.below, self.loads_below = below, Loads(self.body.lower.grid, below)
+        self.below, self.loads_below = below, Loads(self.body.layers[1].grid, below)
 
     def load(self, time):
         above, below = self.loads.nodal(time), self.loads_below.nodal(time)
@@ -47,7 +47,7 @@ class ManufacturedPair(Manufactured):
         return self.body.joined(self.loads.field(above), self.loads_below.field(below))
 
     def nodal_exact_below(self, time, **orders):
-        grid = self.body.lower.grid
+        grid = self.body.layers[1].grid
         x, y = grid.x[None], grid.y[:, None]
         return np.array([self.below.value(c, x, y, time, **orders) for c in (0, 1)])
 
@@ -62,15 +62,15 @@ class ManufacturedPair(Manufactured):
     def exact_motion(self, time):
         u, rate = (
             self.body.joined(
-                block_field(self.body.upper, self.nodal_exact(time, by_t=order)),
-                block_field(self.body.lower, self.nodal_exact_below(time, by_t=order)),
+                block_field(self.body, self.nodal_exact(time, by_t=order)),
+                block_field(self.body, self.nodal_exact_below(time, by_t=order)),
             )
             for order in (0, 1)
         )
         return Motion(u, rate, self.body.momentum_x(rate))
 
     def displacement_error_below(self, state):
-        x, y = self.body.nodal_values_below(state.displacement)
+        x, y = self.body.nodal_values(state.displacement, 1)
         return self.loads_below.mean_over_area(
             np.array([x, -y]) - self.nodal_exact_below(state.time)
         )

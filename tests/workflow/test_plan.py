@@ -213,7 +213,7 @@ def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     modules = {path.stem for path in (ROOT / "src/replication/figures").rglob("figure_*.py")}
     assert len(modules) > 9
     assert modules == {name for name in texts if name.startswith("figure_")}
-    assert {"paper", "lengths", "report", "simulate", "figure_3"} <= texts.keys()
+    assert {"paper", "lengths", "figures", "simulate", "figure_3"} <= texts.keys()
     rules = "".join(path.read_text() for path in ROOT.glob("workflow/rules/*.smk"))
     rules += (ROOT / "Snakefile").read_text()
     assert set(re.findall(r"^rule (\w+):$", rules, re.M)) == texts.keys()

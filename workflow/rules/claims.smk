@@ -20,7 +20,8 @@ rule claims:
         after=lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))],
         recipe=recipe("claims"),
     output:
-        multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),
+        report(f"{RESULTS}/tables/claims.csv", category="Verdicts"),
+        multiext(f"{RESULTS}/tables/claims", ".md", ".json"),
     log:
         f"{RESULTS}/logs/tables/claims.log",
     params:

@@ -396,7 +396,7 @@ rule draw_study:
         report(
             f"{RESULTS}/figures/study_{{study}}.png",
             caption="../report/figure_studies.rst",
-            category=catalogue.OWN,
+            category="Studies of your own",
         ),
         f"{RESULTS}/figures/study_{{study}}.pdf",
     log:

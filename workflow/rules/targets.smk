@@ -14,6 +14,13 @@ def of_studies(names):
     return figures + tables
 
 
+OWN_STUDIES = [study for study in SHARED if study not in CLAIMED]
+"""Studies that share lengths.csv, except those that claims are about."""
+DRAWABLE = catalogue.drawable({study.role for study in settings.studies.values()})
+if DEFAULT != "paper":  # the paper's figures are of the paper's runs
+    DRAWABLE = [name for name in DRAWABLE if name not in catalogue.PAPERS]
+
+
 rule simulations:
     """The simulations of all studies that share lengths.csv"""
     input:
@@ -33,6 +40,15 @@ rule replication:
     input:
         rules.article.input,
         rules.print_article.output,
+
+
+rule figures:
+    """Every figure for which there are studies; make report shows them on one page"""
+    input:
+        [f"{RESULTS}/figures/{name}.png" for name in DRAWABLE],
+        lambda wildcards: of_studies(filter(is_usable, OWN_STUDIES)),
+        rules.lengths.output if SHARED else [],
+        [f"{RESULTS}/tables/claims.csv"] if DEFAULT == "paper" else [],
 
 
 rule figure_studies:

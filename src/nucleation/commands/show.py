@@ -88,11 +88,11 @@ def _described(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
 def _require_picture(plot: Path, kind: _Kind, force: bool) -> None:
     """Refuse a picture that can't be drawn or written."""
     require("figures")
-    if kind.name != _SIMULATION:
-        raise ParameterError(f"there is a plot of simulations alone, and this is a {kind.name}")
     if plot.suffix not in (".png", ".pdf"):
         raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
     text.require_writable(plot, force)
+    if kind.name != _SIMULATION:
+        raise ParameterError(f"there is a plot of simulations alone, and this is a {kind.name}")
 
 
 def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:

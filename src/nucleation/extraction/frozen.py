@@ -18,8 +18,8 @@ import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fem.bodies import body_of
-from ..fem.condensed import Operator
+from ..fem.body import body_of
+from ..fem.operator import Operator
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..simulation.event import NEAR
@@ -40,7 +40,7 @@ def frozen_patch(
 
     Parameters
     ----------
-    operator : BodyOperator
+    operator : Operator
         The static stiffness of the body or bodies (``s = 0``).
     law : Friction
         The friction law; its parameters may vary along the interface.
@@ -55,17 +55,16 @@ def frozen_patch(
         Its coefficients at the slipping nodes.
     """
     grid = operator.body.grid
-    first = grid.n_x + 1 - operator.body.free_nodes  # node 0 is driven, repeats another, or is free
     slipping = slip_rate > slowest
-    if first and not grid.periodic:
+    if not grid.periodic:
         slipping &= grid.x <= NEAR * grid.length
-    nodes = np.flatnonzero(slipping[first:]) + first
+    nodes = np.flatnonzero(slipping[1:]) + 1  # node 0 is driven, or repeats another
     v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
     own_law = _at(law, nodes)
     f = own_law.coefficient(v, phi)
     f_v, f_phi = own_law.derivatives(v, phi)
     g_v, g_psi = log_state_derivatives(own_law, v, phi)
-    stiffness, coupling = operator.tangent(nodes + 1 - first)
+    stiffness, coupling = operator.tangent(nodes)
     by_force = (f_v * force)[:, None]
     return FrozenPatch(
         nodes=nodes,

@@ -1,21 +1,15 @@
-"""Compiled loops for the stiffness of the right edge; arrays as in :mod:`.kernels`."""
+"""Compiled loops over the right edge's values and the interface; arrays as in :mod:`.kernels`."""
 
-from ..types import Array
-from .compiling import compiled_loop
+import numpy as np
+
+from .compiling import compiled, compiled_loop
 
 
 @compiled_loop
-def diagonal_inverse(inverse: Array, lower: Array, out: Array) -> None:
-    """Find the diagonal blocks of the inverse of the levels 1..n_y, interface held fixed.
+def diagonal_inverse(inverse, lower, out):
+    """Diagonal blocks (xx, xy, yy) of the inverse of the levels 1..n_y, interface held fixed.
 
     ``out[j] = Q[j] + T[j-1]^T out[j-1] T[j-1]``, with ``out[0] = 0``.
-
-    Parameters
-    ----------
-    inverse, lower : ndarray
-        Q and T of :func:`.kernels.factorise`.
-    out : ndarray
-        Filled with the blocks: xx, xy, yy, shape (n_y + 1, 3, modes).
     """
     modes = inverse.shape[2]
     for m in range(modes):
@@ -46,36 +40,11 @@ def diagonal_inverse(inverse: Array, lower: Array, out: Array) -> None:
 
 
 @compiled_loop
-def respond(
-    inverse: Array,
-    lower: Array,
-    diagonal: Array,
-    profiles: Array,
-    weights: Array,
-    scale: float,
-    first: int,
-    solution: Array,
-) -> None:
-    """Find the displacement under the force of one edge value, interface held fixed.
+def respond(inverse, lower, diagonal, profiles, weights, scale, first, solution):
+    """Displacement under the force of one edge value, interface held fixed.
 
-    The force acts on the levels first-1 .. first+1.
-
-    Parameters
-    ----------
-    inverse, lower : ndarray
-        Q and T of :func:`.kernels.factorise`.
-    diagonal : ndarray
-        The result of :func:`diagonal_inverse`.
-    profiles : ndarray
-        Profiles of the force at those levels, shape (3, up to 3).
-    weights : ndarray
-        Weight of each mode in the edge's forces, shape (3, modes).
-    scale : float
-        Scale of the loads.
-    first : int
-        A level from 1 on.
-    solution : ndarray
-        Filled from level first - 1 on, shape (n_y + 1, 2, modes); lower levels are not needed.
+    The force has `profiles` on the levels first - 1 .. first + 1; `diagonal` is that of
+    :func:`diagonal_inverse`. Fills `solution` from the level first - 1 on.
     """
     top = inverse.shape[0] - 1
     modes = inverse.shape[2]
@@ -118,3 +87,107 @@ def respond(
                 ay += q[1, m] * x + q[2, m] * y
             here[0, m] = ax
             here[1, m] = ay
+
+
+@compiled_loop
+def edge_sums(weights, field, first, out):
+    """Sums over the modes ``w_0 u_x``, ``w_1 u_x``, ``w_2 u_y`` of a field, from a level on."""
+    wa = weights[0]
+    wb = weights[1]
+    wc = weights[2]
+    for j in range(first, field.shape[0]):
+        x = field[j, 0]
+        y = field[j, 1]
+        a = 0.0
+        b = 0.0
+        c = 0.0
+        for m in range(x.size):
+            a += wa[m] * x[m]
+            b += wb[m] * x[m]
+            c += wc[m] * y[m]
+        out[0, j] = a
+        out[1, j] = b
+        out[2, j] = c
+
+
+@compiled_loop
+def products(matrices, vector):
+    """Products of tridiagonal matrices, (number, 3, n), with a vector, (number, n)."""
+    out = np.empty((matrices.shape[0], vector.size))
+    last = vector.size - 1
+    for k in range(matrices.shape[0]):
+        lower, diagonal, upper = matrices[k]
+        for j in range(last + 1):
+            total = diagonal[j] * vector[j]
+            if j > 0:
+                total += lower[j] * vector[j - 1]
+            if j < last:
+                total += upper[j] * vector[j + 1]
+            out[k, j] = total
+    return out
+
+
+@compiled_loop
+def edge_residual(matrices, weights, field, edge, load, levels):
+    """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the lowest edge values.
+
+    s_0 to s_2 are the :func:`edge_sums` of the field and s_3 the edge values (m). Unless all levels
+    are wanted, the field is given one level further up than the result.
+    """
+    given = min(field.shape[0], edge.size)
+    sums = np.empty((4, given))
+    edge_sums(weights, field, 0, sums)
+    for j in range(given):
+        sums[3, j] = edge[j]
+    out = np.empty(levels)
+    for j in range(levels):
+        total = load[j]
+        for k in range(4):
+            total -= matrices[k, 1, j] * sums[k, j]
+            if j > 0:
+                total -= matrices[k, 0, j] * sums[k, j - 1]
+            if j + 1 < given:
+                total -= matrices[k, 2, j] * sums[k, j + 1]
+        out[j] = total
+    return out
+
+
+@compiled
+def add_edge_in_balance(w, felt, response, schur, tangential, normal):
+    """Add the forces of an edge in balance with w (m) to those on the interface (N/m)."""
+    near = w[w.size - response.shape[1] :]
+    edge = response @ near
+    add_edge(edge, felt, tangential, normal)
+    normal[-1] = felt[0, 0] @ near + schur @ edge
+
+
+@compiled
+def add_edge(edge, felt, tangential, normal):
+    """Add the forces of given edge values (m) to those on the interface (N/m), in place.
+
+    `felt` has the forces along x and y on the last nodes per edge value, (2, edge, nodes).
+    """
+    first = tangential.size - felt.shape[2]
+    for j in range(edge.size):
+        for i in range(felt.shape[2]):
+            tangential[first + i] += edge[j] * felt[0, j, i]
+            normal[first + i] += edge[j] * felt[1, j, i]
+
+
+@compiled_loop
+def interface_blocks(d, h, n, nodes, stiffness, coupling):
+    """Fill ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)`` between sorted nodes.
+
+    Half an element, and half of its force, belongs to the last node n; its normal force is the
+    edge's, not the modes'. d and h hold the arguments 0..2 n.
+    """
+    for a in range(nodes.size):
+        i = nodes[a]
+        half_i = 0.5 if i == n else 1.0
+        for b in range(a + 1):
+            j = nodes[b]  # not above i: N_ji has the opposite sign of h(i-j)
+            half = half_i * (0.5 if j == n else 1.0)
+            stiffness[a, b] = half * (d[i - j] - d[i + j])
+            stiffness[b, a] = stiffness[a, b]
+            coupling[a, b] = 0.0 if i == n else half * (h[i + j] - h[i - j])
+            coupling[b, a] = half * (h[i + j] + h[i - j]) if j < n else 0.0

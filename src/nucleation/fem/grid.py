@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..model.parameters import Geometry, Mesh
-from ..types import Array
+from ..types import Array, Arrays
 
 Components = tuple[Array, Array]
 """Values along x and along y, or the tangential and the normal component."""
@@ -17,21 +17,10 @@ Components = tuple[Array, Array]
 
 @dataclasses.dataclass(frozen=True)
 class Grid:
-    """A rectangle ``[0, length] x [0, height]`` of ``n_x`` by ``n_y`` elements.
+    """A rectangle ``[0, length] x [0, height]`` (m) of ``n_x`` by ``n_y`` elements.
 
     The spacing is uniform along x. Along y the element heights grow geometrically from the
-    interface y = 0 to the top.
-
-    Parameters
-    ----------
-    length, height : float
-        Size of the rectangle (m).
-    n_x, n_y : int
-        Number of elements along x and y.
-    grading : float
-        Height of the top row of elements over that of the bottom row.
-    periodic : bool
-        Whether node 0 is node n_x.
+    interface y = 0; `grading` is the height of the top row over that of the bottom row.
     """
 
     length: float
@@ -39,30 +28,13 @@ class Grid:
     n_x: int
     n_y: int
     grading: float = 1.0
-    periodic: bool = False
+    periodic: bool = False  # whether node 0 is node n_x
 
     @classmethod
-    def of(cls, geometry: Geometry, mesh: Mesh) -> Grid:
-        """Make the grid of a simulation's block.
-
-        Parameters
-        ----------
-        geometry : Geometry
-            Height and length of the block.
-        mesh : Mesh
-            Number of elements and their grading.
-
-        Returns
-        -------
-        Grid
-        """
-        return cls(
-            geometry.length,
-            geometry.height,
-            mesh.n_x,
-            mesh.n_y,
-            mesh.grading,
-        )
+    def of(cls, geometry: Geometry, mesh: Mesh, periodic: bool = False) -> Grid:
+        """The grid of a simulation's block."""
+        length, height = geometry.length, geometry.height
+        return cls(length, height, mesh.n_x, mesh.n_y, mesh.grading, periodic)
 
     @property
     def dx(self) -> float:
@@ -83,8 +55,7 @@ class Grid:
     def y(self) -> Array:
         """Node positions along y (m), shape (n_y + 1,)."""
         row = np.arange(self.n_y) / max(self.n_y - 1, 1)
-        heights = self.grading**row
-        nodes = np.concatenate(([0.0], np.cumsum(heights)))
+        nodes = np.concatenate(([0.0], np.cumsum(self.grading**row)))
         return self.height * nodes / nodes[-1]
 
     @cached_property
@@ -98,54 +69,22 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """A displacement, a velocity or a load: mode amplitudes, and values on the right edge.
+    """A displacement, a velocity or a load of a body, its layers one after the other.
 
-    Parameters
-    ----------
-    modes : ndarray
-        Amplitudes, shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
-    edge : ndarray
-        Values of u_y on the right edge, shape (n_y + 1,). The first one is zero in one body.
+    `modes` are amplitudes, (levels, 2, n_x): level from the interface up, component, mode. `edge`
+    are the values of u_y on the right edge, (levels,); the first one is zero in one layer.
     """
 
     modes: Array
     edge: Array
 
     def plus(self, other: Field) -> Field:
-        """Return the sum of two fields."""
+        """The sum of two fields."""
         return Field(self.modes + other.modes, self.edge + other.edge)
 
     def times(self, factor: float) -> Field:
-        """Return the field times a number."""
+        """The field times a number."""
         return Field(factor * self.modes, factor * self.edge)
-
-    def to_arrays(self, name: str) -> dict[str, Array]:
-        """Return the field as plain arrays; their names begin with `name`."""
-        return {
-            f"{name}_modes": self.modes,
-            f"{name}_edge": self.edge,
-        }
-
-    @classmethod
-    def from_arrays(
-        cls,
-        name: str,
-        arrays: Mapping[str, Array],
-    ) -> Field:
-        """Read a field from the arrays of :meth:`to_arrays`.
-
-        Parameters
-        ----------
-        name : str
-            Beginning of the names of its arrays.
-        arrays : mapping
-            Arrays by name; further ones are ignored.
-
-        Returns
-        -------
-        Field
-        """
-        return cls(arrays[f"{name}_modes"], arrays[f"{name}_edge"])
 
 
 Terms = Sequence[tuple[float, Field]]
@@ -154,53 +93,30 @@ Terms = Sequence[tuple[float, Field]]
 
 @dataclasses.dataclass(frozen=True)
 class Motion:
-    """Displacement and velocity of a body at one instant, ``u_x = U(t) + w_x``.
-
-    Parameters
-    ----------
-    displacement : Field
-        (w_x, u_y) in m.
-    velocity : Field
-        Rate of the displacement (m/s).
-    momentum : float
-        Momentum along x of that velocity (kg/s per unit depth).
-    """
+    """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``."""
 
     displacement: Field
     velocity: Field
-    momentum: float
+    momentum: float  # along x, of that velocity (kg/s per unit depth)
 
-    def to_arrays(self, name: str) -> dict[str, Array]:
-        """Return the motion as plain arrays, without loss; their names begin with `name`."""
-        displacement = self.displacement.to_arrays(f"{name}_displacement")
-        velocity = self.velocity.to_arrays(f"{name}_velocity")
-        momentum = {f"{name}_momentum": np.asarray(self.momentum)}
-        return displacement | velocity | momentum
+    def to_arrays(self, name: str) -> Arrays:
+        """The motion as plain arrays, without loss; their names begin with `name`."""
+        return {
+            f"{name}_momentum": np.asarray(self.momentum),
+            f"{name}_displacement": self.displacement.modes,
+            f"{name}_displacement_edge": self.displacement.edge,
+            f"{name}_velocity": self.velocity.modes,
+            f"{name}_velocity_edge": self.velocity.edge,
+        }
 
     @classmethod
-    def from_arrays(
-        cls,
-        name: str,
-        arrays: Mapping[str, Array],
-    ) -> Motion:
-        """Read a motion from the arrays of :meth:`to_arrays`.
-
-        Parameters
-        ----------
-        name : str
-            Beginning of the names of its arrays.
-        arrays : mapping
-            Arrays by name; further ones are ignored.
-
-        Returns
-        -------
-        Motion
-        """
-        return cls(
-            Field.from_arrays(f"{name}_displacement", arrays),
-            Field.from_arrays(f"{name}_velocity", arrays),
-            float(arrays[f"{name}_momentum"]),
+    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Motion:
+        """The inverse of :meth:`to_arrays`."""
+        displacement, velocity = (
+            Field(arrays[f"{name}_{kind}"], arrays[f"{name}_{kind}_edge"])
+            for kind in ("displacement", "velocity")
         )
+        return cls(displacement, velocity, float(arrays[f"{name}_momentum"]))
 
 
 Motions = tuple[Motion, ...]

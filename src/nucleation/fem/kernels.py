@@ -1,4 +1,4 @@
-"""Compiled loops of the separable solver: block-tridiagonal elimination for all modes at once.
+"""Compiled loops over the bulk: block-tridiagonal elimination for all modes at once, and inertia.
 
 Every array is laid out ``[level, component, mode]`` with the mode fastest. Each inner loop runs
 over the independent modes, along rows that the compiler knows to be contiguous, and becomes vector
@@ -6,52 +6,24 @@ instructions. Levels count from the interface (0) to the top (n_y). Elimination 
 down: the last pivot is the body's dynamic stiffness condensed on its interface.
 
 For each mode the equations are ``A[j,j-1] u[j-1] + A[j,j] u[j] + A[j,j+1] u[j+1] = r[j]`` with
-2x2 blocks. The factors are the inverse pivots ``Q[j] = P[j]^-1`` (symmetric: xx, xy, yy) and
-``T[j] = A[j,j+1] Q[j+1]`` (xx, xy, yx, yy).
+2x2 blocks. The factors are the inverse pivots ``Q[j] = P[j]^-1`` (`inverse`; symmetric: xx, xy, yy)
+and ``T[j] = A[j,j+1] Q[j+1]`` (`lower`; xx, xy, yx, yy).
 """
 
-from ..types import Array
+import numpy as np
+
 from .compiling import compiled_loop
+from .edge_kernels import products
 
 
 @compiled_loop
 def factorise(
-    kxx: Array,
-    mxx: Array,
-    kyy: Array,
-    myy: Array,
-    cxy: Array,
-    mass: Array,
-    stiff: Array,
-    deriv: Array,
-    lame: float,
-    shear: float,
-    held: tuple[bool, bool],
-    pivot: Array,
-    inverse: Array,
-    lower: Array,
-) -> None:
-    """Eliminate from the top down.
+    kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, held, pivot, inverse, lower
+):
+    """Eliminate from the top down; fill P[0] (xx, xy, yy), Q in the levels 1..n_y, and T.
 
-    The blocks are ``A_xx = kxx M + mxx K``, ``A_yy = kyy M + myy K`` and
-    ``A_xy = cxy (lame C - shear C^T)`` with the y-matrices M, K and C.
-
-    Parameters
-    ----------
-    kxx, mxx, kyy, myy, cxy : ndarray
-        Coefficients of each mode, shape (modes,).
-    mass, stiff, deriv : ndarray
-        The matrices M, K and C (:mod:`.matrices`), shape (3, n_y + 1).
-    lame, shear : float
-        Moduli of the coupling (Pa).
-    held : (bool, bool)
-        Whether x and y are zero on the top: a component held fixed has zeros in `inverse`.
-    pivot : ndarray
-        Filled with P[0]: xx, xy, yy, shape (3, modes).
-    inverse : ndarray
-        Filled with Q in the levels 1..n_y, shape (n_y + 1, 3, modes).
-    lower : ndarray
-        Filled with T, shape (n_y, 4, modes).
+    The blocks are ``A_xx = kxx M + mxx K``, ``A_yy = kyy M + myy K`` and ``A_xy = cxy (lame C -
+    shear C^T)`` with the matrices M, K, C along y. A component held on the top has zeros in Q.
     """
     top = mass.shape[1] - 1
     for j in range(top, -1, -1):
@@ -117,32 +89,11 @@ def factorise(
 
 
 @compiled_loop
-def eliminate(
-    lower: Array,
-    load: Array,
-    profiles: Array,
-    weights: Array,
-    scale: float,
-    out: Array,
-) -> None:
+def eliminate(lower, load, profiles, weights, scale, out):
     """Sweep a load from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
 
-    The right-hand side has the forces of the edge values, ``r = load - scale G^T e``.
-
-    Parameters
-    ----------
-    lower : ndarray
-        T of :func:`factorise`.
-    load : ndarray
-        The load (N/m), shape (n_y + 1, 2, modes).
-    profiles : ndarray
-        Profiles of ``G^T e`` along y, shape (3, n_y + 1).
-    weights : ndarray
-        Weight of each mode in the edge's forces, shape (3, modes).
-    scale : float
-        Scale of the loads.
-    out : ndarray
-        Filled with the swept load, shape (n_y + 1, 2, modes).
+    The right-hand side has the forces of edge values too: ``r = load - scale G^T e``, by the
+    profiles of ``G^T e`` along y, (3, n_y + 1), and the weights of the modes, (3, modes).
     """
     top = lower.shape[0]
     wa = weights[0]
@@ -177,16 +128,8 @@ def eliminate(
 
 
 @compiled_loop
-def substitute(inverse: Array, lower: Array, rhs: Array) -> None:
-    """Sweep back from the interface to the top, in place.
-
-    Parameters
-    ----------
-    inverse, lower : ndarray
-        Q and T of :func:`factorise`.
-    rhs : ndarray
-        The swept load (N/m) with the interface's displacement (m) in level 0, (levels, 2, modes).
-    """
+def substitute(inverse, lower, rhs):
+    """Sweep back from the interface, whose displacement (m) is in level 0, to the top, in place."""
     for j in range(1, rhs.shape[0]):
         x = rhs[j, 0]
         y = rhs[j, 1]
@@ -206,28 +149,12 @@ def substitute(inverse: Array, lower: Array, rhs: Array) -> None:
 
 
 @compiled_loop
-def load_couple(
-    compliance: Array,
-    forces: Array,
-    upper: Array,
-    lower: Array,
-    held: Array,
-    start: Array,
-) -> None:
-    """Find the effect of two bodies' reduced loads at zero slip, per mode.
+def load_couple(compliance, forces, upper, lower, held, start):
+    """The effect of two bodies' reduced loads r1, r2 (N/m) at zero slip, per mode.
 
-    Parameters
-    ----------
-    compliance : ndarray
-        T^-1: xx, xy, yy (m per N/m), shape (3, modes).
-    forces : ndarray
-        S1 T^-1 and S2 T^-1: xx, xy, yx, yy of each, shape (8, modes).
-    upper, lower : ndarray
-        The reduced loads r1 and r2 (N/m), the lower body's mirrored, shape (2, modes).
-    held : ndarray
-        Filled with ``S2 T^-1 r1 - S1 T^-1 r2`` (N/m), shape (2, modes).
-    start : ndarray
-        Filled with the interface's displacement ``T^-1 (r1 + r2)`` (m), shape (2, modes).
+    Fills `held` with ``S2 T^-1 r1 - S1 T^-1 r2`` (N/m), and `start` with the interface's
+    displacement ``T^-1 (r1 + r2)`` (m). `compliance` is T^-1: xx, xy, yy; `forces` is S1 T^-1 and
+    S2 T^-1: xx, xy, yx, yy of each. The lower body is mirrored.
     """
     for m in range(upper.shape[1]):
         x1 = upper[0, m]
@@ -244,3 +171,79 @@ def load_couple(
         y = y1 + y2
         start[0, m] = compliance[0, m] * x + compliance[1, m] * y
         start[1, m] = compliance[1, m] * x + compliance[2, m] * y
+
+
+@compiled_loop
+def add_inertia(
+    mass,
+    weight,
+    edge_mass,
+    edge_weight,
+    scale,
+    coefficients,
+    fields,
+    edges,
+    load,
+    edge_load,
+    out,
+    edge_out,
+):
+    """Fill `out` with ``load + M f``, ``f = sum_i c_i f_i`` of four fields with edge values.
+
+    The mass of a mode is its `weight` times the matrix `mass` along y. That of an edge value is
+    twice `edge_mass` times the matrix; between the edge and the modes it is once `edge_mass` times
+    the modes' `edge_weight`.
+    """
+    levels = mass.shape[1]
+    modes = load.shape[2]
+    c0, c1, c2, c3 = coefficients
+    near = np.empty(levels)
+    edge = (c0 * edges[0] + c1 * edges[1]) + (c2 * edges[2] + c3 * edges[3])
+    stacked = mass.reshape(1, 3, levels)
+    edge_inertia = (edge_mass * scale) * products(stacked, edge)[0]
+    rows = np.zeros((3, 2, modes))  # f at the levels j - 1, j, j + 1, each at its level modulo 3
+    for level in range(levels + 1):
+        if level < levels:
+            for c in range(2):
+                row = rows[level % 3, c]
+                f0 = fields[0][level, c]
+                f1 = fields[1][level, c]
+                f2 = fields[2][level, c]
+                f3 = fields[3][level, c]
+                for m in range(modes):
+                    row[m] = (c0 * f0[m] + c1 * f1[m]) + (c2 * f2[m] + c3 * f3[m])
+            total = 0.0
+            for m in range(modes):
+                total += edge_weight[m] * row[m]
+            near[level] = total
+        if level == 0:
+            continue
+        j = level - 1
+        lo = mass[0, j]  # zero where there is no neighbour
+        di = mass[1, j]
+        up = mass[2, j]
+        for c in range(2):
+            below = rows[(j + 2) % 3, c]
+            here = rows[j % 3, c]
+            above = rows[(j + 1) % 3, c]
+            r = load[j, c]
+            to = out[j, c]
+            by_edge = edge_inertia[j] * c  # it acts along y
+            for m in range(modes):
+                inertia = weight[m] * (lo * below[m] + di * here[m] + up * above[m])
+                to[m] = r[m] + (inertia + by_edge * edge_weight[m])
+    edge_out[:] = edge_load + edge_mass * products(stacked, near + 2.0 * edge)[0]
+
+
+@compiled_loop
+def rate_of_change(c1, c2, beta, new, u, u_past, out):
+    """Fill `out` with the rate (m/s) by ``new = c1 u + c2 u_past + beta rate``."""
+    scale = 1.0 / beta
+    for j in range(u.shape[0]):
+        for c in range(2):
+            x = new[j, c]
+            u1 = u[j, c]
+            u2 = u_past[j, c]
+            rate = out[j, c]
+            for m in range(x.size):
+                rate[m] = scale * (x[m] - c1 * u1[m] - c2 * u2[m])

@@ -11,61 +11,29 @@ from ..types import Array
 
 
 def element_matrices(nodes: Array) -> tuple[Array, Array, Array]:
-    """Integrate products of the hat functions psi_i of a line of nodes.
+    """Integrals of products of the hat functions psi_i of a line of nodes (m).
 
-    Parameters
-    ----------
-    nodes : ndarray
-        Positions of the nodes (m), shape (n,).
-
-    Returns
-    -------
-    mass, stiffness, derivative : ndarray
-        ``int psi_i psi_j`` (m), ``int psi_i' psi_j'`` (1/m) and ``int psi_i psi_j'``
-        (dimensionless), shape (3, n) each.
+    ``int psi_i psi_j`` (m), ``int psi_i' psi_j'`` (1/m) and ``int psi_i psi_j'``.
     """
     h = np.diff(nodes)
     left, right = _beside_nodes(h)
-    mass = np.array(
-        [
-            left / 6.0,
-            (left + right) / 3.0,
-            right / 6.0,
-        ]
-    )
+    mass = np.array([left / 6.0, (left + right) / 3.0, right / 6.0])
     left, right = _beside_nodes(1.0 / h)
     stiffness = np.array([-left, left + right, -right])
-    halves = np.full(h.size, 0.5)
-    left, right = _beside_nodes(halves)
+    left, right = _beside_nodes(np.full(h.size, 0.5))
     diagonal = np.zeros(nodes.size)
     diagonal[0] = -0.5
     diagonal[-1] = 0.5
-    derivative = np.array([-left, diagonal, right])
-    return mass, stiffness, derivative
+    return mass, stiffness, np.array([-left, diagonal, right])
 
 
 def _beside_nodes(values: Array) -> tuple[Array, Array]:
     """Values of the elements on the left and on the right of each node, zero without one."""
-    left = np.concatenate(([0.0], values))
-    right = np.concatenate((values, [0.0]))
-    return left, right
+    return np.append(0.0, values), np.append(values, 0.0)
 
 
 def product(matrix: Array, values: Array) -> Array:
-    """Multiply a tridiagonal matrix with an array along its first axis.
-
-    Parameters
-    ----------
-    matrix : ndarray
-        Diagonals, shape (3, n).
-    values : ndarray
-        Shape (n, ...).
-
-    Returns
-    -------
-    ndarray
-        Shape (n, ...).
-    """
+    """Product of a tridiagonal matrix with an array along its first axis, (n, ...)."""
     further_axes = [1] * (values.ndim - 1)
     lower, diagonal, upper = matrix.reshape(3, -1, *further_axes)
     out = diagonal * values
@@ -75,21 +43,11 @@ def product(matrix: Array, values: Array) -> Array:
 
 
 def transposed(matrix: Array) -> Array:
-    """Return the diagonals of the transposed matrix, (3, n)."""
+    """The diagonals of the transposed matrix."""
     lower, diagonal, upper = matrix
-    return np.array(
-        [
-            np.roll(upper, 1),
-            diagonal,
-            np.roll(lower, -1),
-        ]
-    )
+    return np.array([np.roll(upper, 1), diagonal, np.roll(lower, -1)])
 
 
 def dense(matrix: Array) -> Array:
-    """Return a tridiagonal matrix as a dense array, (n, n)."""
-    lower, diagonal, upper = matrix
-    out = np.diag(diagonal)
-    out += np.diag(lower[1:], -1)
-    out += np.diag(upper[:-1], 1)
-    return out
+    """The matrix as a dense array, (n, n)."""
+    return product(matrix, np.eye(matrix.shape[1]))

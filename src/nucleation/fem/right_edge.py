@@ -5,87 +5,208 @@ displacement of the interface leaves a small dense system, their Schur complemen
 the interface decays exponentially over some heights of the block.
 """
 
-from abc import ABC, abstractmethod
+from __future__ import annotations
+
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from ..types import Array
-from . import edge_kernels, field_kernels, kernels
-from .condensed import Expectation
+from . import edge_kernels, kernels
 from .grid import Components, Field
 from .matrices import dense, product, transposed
-from .separable import SeparableBody
+from .modes import BlockModes
+
+if TYPE_CHECKING:
+    from .layer import LayerFactors
+    from .operator import Operator
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
-
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 
 
-class EdgeValues(ABC):
-    """The edge values of ``u_y`` of one block or a pair, all other unknowns in balance."""
+class RightEdge:
+    """The rows of the edge values of one layer in ``K + s M``."""
 
-    @property
-    @abstractmethod
-    def schur(self) -> Array:
-        """Stiffness of the edge values (N/m per m), all other unknowns eliminated at fixed w.
+    def __init__(self, factors: LayerFactors, s: float) -> None:
+        self._factors = factors
+        layer = factors.layer
+        dx = layer.grid.dx
+        material = layer.material
+        density = s * material.density
+        shear = material.shear_modulus
+        stretch = material.p_wave_modulus
+        against_x = material.lame_modulus * transposed(layer.derivative)
+        against_slope = material.coupling_modulus * layer.derivative
+        against_y = (stretch * dx / 6.0) * layer.stiffness
+        against_y = against_y + (density * dx / 6.0 - shear / dx) * layer.mass
+        own = (stretch * dx / 3.0) * layer.stiffness
+        own = own + (density * dx / 3.0 + shear / dx) * layer.mass
+        self._rows = np.array([against_x, against_slope, against_y, own])
+        self._transposed = np.array([transposed(matrix) for matrix in self._rows[:3]])
 
-        Its first row and column belong to the upper body's corner: they give its normal force on
-        the interface.
-        """
+    def profiles(self, edge: Array) -> Array:
+        """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
+        return edge_kernels.products(self._transposed, edge)
 
-    @property
-    @abstractmethod
-    def compliance(self) -> Array:
-        """Inverse of :attr:`schur` on the free values (m per N/m), zero on those held fixed."""
+    def residual(self, load: Field, modes: Array, edge: Array, levels: int | None = None) -> Array:
+        """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
+        weights = self._factors.layer.modes.edge_weights
+        levels = levels or edge.size
+        return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge, levels)
 
-    @property
-    @abstractmethod
-    def to_interface(self) -> Components:
-        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
-
-        Tangential at the nodes 1..n_x and normal at 0..n_x - 1 (N/m per m), a row for each edge
-        value. The tangential ones are also the forces on the edge values per unit of w.
-        """
-
-    @property
-    @abstractmethod
+    @cached_property
     def round_off(self) -> float:
         """Relative error of the edge values in any solve."""
+        grid = self._factors.layer.grid
+        condition = (grid.height / np.diff(grid.y).min()) ** 2
+        return ROUND_OFF * np.finfo(float).eps * condition
 
-    @abstractmethod
-    def residual(
-        self,
-        load: Field,
-        modes: Array,
-        edge: Array,
-    ) -> Array:
-        """Return the unbalanced force on the edge values.
+    @cached_property
+    def schur(self) -> Array:
+        """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
+        sums = self._sums_of_unit_values()
+        rows = np.zeros_like(sums[0])
+        for matrix, by_value in zip(self._rows[:3], sums, strict=True):
+            rows += product(matrix, by_value.T).T
+        # the sums begin at the level of each edge value: the other half follows by symmetry
+        lower = np.tril(dense(self._rows[3]) - rows.T)
+        return lower + np.tril(lower, -1).T
 
-        Parameters
-        ----------
-        load : Field
-            The load (N/m).
-        modes : ndarray
-            Amplitudes of the displacement (m), shape (levels, 2, modes).
-        edge : ndarray
-            Edge values (m), shape (levels,).
+    def _sums_of_unit_values(self) -> Array:
+        """Sums of the bulk's response over the modes, (edge weight, edge value, level)."""
+        factors = self._factors
+        modes = factors.layer.modes
+        levels = factors.layer.levels
+        diagonal = np.empty_like(factors.inverse)
+        edge_kernels.diagonal_inverse(factors.inverse, factors.lower, diagonal)
+        solution = np.zeros((levels, 2, modes.n_x))
+        sums = np.zeros((levels, 3, levels))
+        for i, unit in enumerate(np.eye(levels)):
+            first = max(i, 1)
+            profiles = self.profiles(unit)[:, first - 1 : first + 2]
+            if first == 1:
+                profiles[:, 0] = 0.0  # the interface is held fixed
+            edge_kernels.respond(
+                factors.inverse,
+                factors.lower,
+                diagonal,
+                profiles,
+                modes.edge_weights,
+                modes.scale,
+                first,
+                solution,
+            )
+            edge_kernels.edge_sums(modes.edge_weights, solution, first - 1, sums[i])
+        return np.moveaxis(sums, 1, 0)
 
-        Returns
-        -------
-        ndarray
-            The force (N/m), shape (levels,).
+    def to_modes(self) -> Array:
+        """Forces on the interface's modes along x and y per edge value, bulk eliminated.
+
+        In N/m per m, (2, n_y + 1, n_x); also the forces on the edge values per unit of amplitude.
         """
+        factors = self._factors
+        weights = factors.layer.modes.edge_weights
+        against_x, against_slope, against_y, _ = self._rows
+        forces = np.empty((2, factors.layer.levels, weights.shape[1]))
+        for component in (0, 1):
+            modes = factors.layer.zero_field().modes
+            modes[0, component] = 1.0
+            kernels.substitute(factors.inverse, factors.lower, modes)
+            x = modes[:, 0]
+            y = modes[:, 1]
+            forces[component] = weights[0] * product(against_x, x)
+            forces[component] += weights[1] * product(against_slope, x)
+            forces[component] += weights[2] * product(against_y, y)
+        return forces
+
+
+class EdgeValues:
+    """The edge values of a block or a pair, stacked, with all other unknowns in balance at given w.
+
+    A pair has its corner twice: the lower body is mirrored.
+    """
+
+    def __init__(self, operator: Operator) -> None:
+        self._operator = operator
+        self.rows = [factors.edge for factors in operator.factors if factors.edge is not None]
+        modes = operator.body.modes
+        assert isinstance(modes, BlockModes)
+        self._modes = modes
+        self.round_off = max(rows.round_off for rows in self.rows)
+
+    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+        """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
+        body = self._operator.body
+        parts = zip(self.rows, body.parts(load), body.parts(Field(modes, edge)), strict=True)
+        found = [rows.residual(own, part.modes, part.edge) for rows, own, part in parts]
+        return found[0] if len(found) == 1 else np.concatenate(found)
 
     def change(self, w: Array) -> Array:
-        """Return the change of the edge values (m) for a change of w at the nodes 1..n_x (m)."""
+        """Change of the edge values (m) for a change of w at the nodes 1..n_x (m)."""
         near = self.response_near
         return near @ w[-near.shape[1] :]
 
-    def correction(self, residual: Array) -> Array:
-        """Return the change of the edge values (m) that balances a residual (N/m) at fixed w."""
-        return self.compliance @ residual
+    @cached_property
+    def _to_modes(self) -> tuple[Array, Array]:
+        """Forces of a pair on the modes of w1 and u_y, and on those of w2, per edge value."""
+        above, below = (rows.to_modes() for rows in self.rows)
+        mirror = np.array([1.0, -1.0])[:, None, None]
+        joint = np.concatenate((above, below * mirror), axis=1)
+        return joint, np.concatenate((np.zeros_like(above[0]), below[0]))
+
+    @cached_property
+    def schur(self) -> Array:
+        """Stiffness of the edge values (N/m per m), all other unknowns eliminated at fixed w.
+
+        Its first row and column belong to the upper body's corner: they give its normal force.
+        """
+        if len(self.rows) == 1:
+            return self.rows[0].schur
+        (x, y), _ = self._to_modes
+        n = len(self.rows[0].schur)
+        stiffness = np.zeros((len(x), len(x)))
+        stiffness[:n, :n] = self.rows[0].schur
+        stiffness[n:, n:] = self.rows[1].schur
+        xx, xy, yy = self._operator.compliance
+        moved_x = xx * x + xy * y
+        moved_y = xy * x + yy * y
+        return stiffness - self._modes.scale * (x @ moved_x.T + y @ moved_y.T)
+
+    @cached_property
+    def compliance(self) -> Array:
+        """Inverse of :attr:`schur` on the free values (m per N/m), zero on those held fixed."""
+        if len(self.rows) == 1:
+            return _inverse_within(self.schur, slice(1, None))
+        body = self._operator.body
+        independent = np.delete(np.eye(len(self.schur)), body.layers[0].levels, axis=1)
+        independent[body.layers[0].levels, 0] = -1.0  # the corner, mirrored
+        first = None if body.is_held_along_y or self._operator.moves else 1
+        last = -1 if body.is_held_along_y else None
+        stiffness = independent.T @ self.schur @ independent
+        inverse = _inverse_within(stiffness, slice(first, last))
+        return independent @ inverse @ independent.T
+
+    @cached_property
+    def to_interface(self) -> Components:
+        """Nodal forces (N/m per m) on the interface, bulk eliminated, a row for each edge value.
+
+        Tangential at the nodes 1..n_x and normal at 0..n_x - 1. The tangential ones are also the
+        forces on the edge values per unit of w.
+        """
+        if len(self.rows) == 1:
+            modal = self.rows[0].to_modes()
+        else:
+            (x, y), lower = self._to_modes
+            above = y.copy()
+            above[self._operator.body.layers[0].levels :] = 0.0  # the upper block's own
+            _, _, yx1, yy1, xx2, xy2, _, _ = self._operator.forces
+            from_below = xx2 * x + xy2 * y
+            from_above = yx1 * x + yy1 * y
+            modal = np.array([from_below - lower, above - from_above])
+        return self._modes.interface_forces(self._modes.scale * modal)
 
     @cached_property
     def response(self) -> Array:
@@ -96,8 +217,7 @@ class EdgeValues(ABC):
     @cached_property
     def response_near(self) -> Array:
         """:attr:`response` to the nodes of :attr:`felt`, (levels, nodes)."""
-        nodes = self.felt.shape[2]
-        return np.ascontiguousarray(self.response[:, -nodes:])
+        return np.ascontiguousarray(self.response[:, -self.felt.shape[2] :])
 
     @cached_property
     def diagonal(self) -> Array:
@@ -114,218 +234,9 @@ class EdgeValues(ABC):
         return np.ascontiguousarray(forces[..., first:])
 
 
-class RightEdge(EdgeValues):
-    """The rows of the edge values in ``K + s M`` of one block.
-
-    Parameters
-    ----------
-    body : SeparableBody
-        The block.
-    s : float
-        Factor of the mass matrix (1/s^2).
-    inverse, lower : ndarray
-        Factors of the bulk's elimination (:func:`.kernels.factorise`).
-    """
-
-    def __init__(
-        self,
-        body: SeparableBody,
-        s: float,
-        inverse: Array,
-        lower: Array,
-    ) -> None:
-        self.body = body
-        self._inverse = inverse
-        self._lower = lower
-        dx = body.grid.dx
-        material = body.material
-        density = s * material.density
-        shear = material.shear_modulus
-        stretch = material.p_wave_modulus
-        against_x = material.lame_modulus * transposed(body.derivative)
-        against_slope = material.coupling_modulus * body.derivative
-        against_y = (stretch * dx / 6.0) * body.stiffness
-        against_y = against_y + (density * dx / 6.0 - shear / dx) * body.mass
-        among_themselves = (stretch * dx / 3.0) * body.stiffness
-        among_themselves = among_themselves + (density * dx / 3.0 + shear / dx) * body.mass
-        self._to_modes = np.array([against_x, against_slope, against_y])
-        self._own = among_themselves
-        self._rows = np.array([*self._to_modes, self._own])
-        self._transposed = np.array([transposed(matrix) for matrix in self._to_modes])
-
-    def profiles(self, edge: Array) -> Array:
-        """Return the profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
-        return field_kernels.products(self._transposed, edge)
-
-    def residual(
-        self,
-        load: Field,
-        modes: Array,
-        edge: Array,
-    ) -> Array:
-        """Return the unbalanced force on the edge values (N/m), (n_y + 1,).
-
-        Parameters
-        ----------
-        load, modes, edge
-            As in :meth:`.right_edge.EdgeValues.residual`.
-        """
-        return self._residual(load, modes, edge, edge.size)
-
-    def corner_reaction(
-        self,
-        load: Field,
-        lowest: Array,
-        edge: Array,
-    ) -> float:
-        """Return the normal force on the corner's node.
-
-        Parameters
-        ----------
-        load : Field
-            The load (N/m).
-        lowest : ndarray
-            Amplitudes of the displacement (m) at the two lowest levels, (2, 2, modes).
-        edge : ndarray
-            Edge values (m), shape (n_y + 1,).
-
-        Returns
-        -------
-        float
-            The force (N/m).
-        """
-        corner = self._residual(load, lowest, edge, 1)
-        return -corner[0]
-
-    def _residual(
-        self,
-        load: Field,
-        modes: Array,
-        edge: Array,
-        levels: int,
-    ) -> Array:
-        return field_kernels.edge_residual(
-            self._rows,
-            self.body.edge_weights,
-            modes,
-            edge,
-            load.edge,
-            levels,
-        )
-
-    @cached_property
-    def round_off(self) -> float:
-        """Relative error of the edge values in any solve."""
-        grid = self.body.grid
-        condition = (grid.height / np.diff(grid.y).min()) ** 2
-        return ROUND_OFF * np.finfo(float).eps * condition
-
-    @cached_property
-    def schur(self) -> Array:
-        """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
-        sums = self._sums_of_unit_values()
-        rows = np.zeros_like(sums[0])
-        for matrix, by_value in zip(self._to_modes, sums, strict=True):
-            rows += product(matrix, by_value.T).T
-        # the sums begin at the level of each edge value: the other half follows by symmetry
-        lower = np.tril(dense(self._own) - rows.T)
-        return lower + np.tril(lower, -1).T
-
-    def _sums_of_unit_values(self) -> Array:
-        """Sums of the bulk's response over the modes, (edge weight, edge value, level)."""
-        body = self.body
-        levels = body.grid.n_y + 1
-        diagonal = np.empty_like(self._inverse)
-        edge_kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
-        solution = np.zeros((levels, 2, body.modes))
-        sums = np.zeros((levels, 3, levels))
-        for i, unit in enumerate(np.eye(levels)):
-            first = max(i, 1)
-            profiles = self.profiles(unit)[:, first - 1 : first + 2]
-            if first == 1:
-                profiles[:, 0] = 0.0  # the interface is held fixed
-            edge_kernels.respond(
-                self._inverse,
-                self._lower,
-                diagonal,
-                profiles,
-                body.edge_weights,
-                body.mode_scale,
-                first,
-                solution,
-            )
-            field_kernels.edge_sums(
-                body.edge_weights,
-                solution,
-                first - 1,
-                sums[i],
-            )
-        return np.moveaxis(sums, 1, 0)
-
-    @cached_property
-    def compliance(self) -> Array:
-        """Inverse of :attr:`schur` on its free values, zero at the corner."""
-        return inverse_within(self.schur, slice(1, None))
-
-    @cached_property
-    def to_interface(self) -> Components:
-        """Nodal forces on the interface, bulk eliminated, per unit of each edge value."""
-        return self.body.interface_forces(self.body.mode_scale * self.to_modes())
-
-    def to_modes(self) -> Array:
-        """Return the forces on the interface's modes along x and y, per unit of an edge value.
-
-        The bulk is eliminated. These are also the forces on the edge values per unit of amplitude.
-
-        Returns
-        -------
-        ndarray
-            Forces (N/m per m), shape (2, n_y + 1, modes).
-        """
-        body = self.body
-        weights = body.edge_weights
-        against_x, against_slope, against_y = self._to_modes
-        forces = np.empty((2, body.grid.n_y + 1, body.modes))
-        for component in (0, 1):
-            modes = body.zero_field().modes
-            modes[0, component] = 1.0
-            kernels.substitute(self._inverse, self._lower, modes)
-            x = modes[:, 0]
-            y = modes[:, 1]
-            forces[component] = weights[0] * product(against_x, x)
-            forces[component] += weights[1] * product(against_slope, x)
-            forces[component] += weights[2] * product(against_y, y)
-        return forces
-
-
-def inverse_within(stiffness: Array, free: slice) -> Array:
-    """Invert a stiffness on its free values.
-
-    Parameters
-    ----------
-    stiffness : ndarray
-        A symmetric positive definite matrix, shape (n, n).
-    free : slice
-        The free values.
-
-    Returns
-    -------
-    ndarray
-        The inverse, zero on the other values, shape (n, n).
-    """
+def _inverse_within(stiffness: Array, free: slice) -> Array:
+    """Inverse of a symmetric positive definite matrix on its free values, zero on the others."""
     compliance = np.zeros_like(stiffness)
     own = stiffness[free, free]
     compliance[free, free] = cho_solve(cho_factor(own), np.eye(own.shape[0]))
     return compliance
-
-
-def predicted(expected: Expectation) -> Array:
-    """Return the edge values (m) after a step with the acceleration of the last step."""
-    now = expected.motions[0]
-    before = expected.motions[-1]
-    step = expected.step
-    edge = now.displacement.edge + step * now.velocity.edge
-    if expected.last_step == 0.0:
-        return edge
-    change = now.velocity.edge - before.velocity.edge
-    return edge + (0.5 * step**2 / expected.last_step) * change

@@ -1,7 +1,7 @@
 """The loading of a fault, and the initial state of its interface (docs/loadings.md).
 
 The kind of loading determines the boundary conditions, the measured load and the ends of a patch.
-Each consequence is implemented in its own wing: the body in :mod:`nucleation.fem.bodies`, the
+Each consequence is implemented in its own wing: the body in :mod:`nucleation.fem.body`, the
 drive in :mod:`nucleation.simulation.drive`, the patch in :mod:`nucleation.simulation.patch`,
 the far side of the theory in :func:`nucleation.theory.of_runs.far_sides`.
 """

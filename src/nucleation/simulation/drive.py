@@ -65,7 +65,7 @@ class Steady:
     """An edge that moves at a constant velocity under a constant load."""
 
     velocity: float  # m/s
-    constant_load: Field  # N/m, as of a body's ``top_load``
+    constant_load: Field  # N/m, as of a body's ``far_load``
     moves: ClassVar[bool] = True
 
     def at(self, time: float) -> Imposed:
@@ -194,7 +194,7 @@ class _LoadedBody(Protocol):
         """The mesh; its lowest nodes are those of the interface."""
 
     @property
-    def top_load(self) -> Callable[..., Field]:
+    def far_load(self) -> Callable[..., Field]:
         """Load (N/m) of a normal stress (Pa), and in a period of a shear stress (Pa), on top."""
 
 
@@ -216,7 +216,7 @@ def drive_of(parameters: Parameters, body: _LoadedBody) -> Drive:
     near = _near_drive(parameters, body)
     if loading.kind != "remote":
         return near
-    shear = body.top_load(0.0, 1.0)
+    shear = body.far_load(0.0, 1.0)
     start = shear.times(loading.initial_shear_stress)
     per_displacement = loading.stress_rate / loading.velocity
     return _Remote(near, start, shear.times(per_displacement))
@@ -226,7 +226,7 @@ def _near_drive(parameters: Parameters, body: _LoadedBody) -> Steady:
     """The moving edge and the normal load, with their declared perturbation."""
     declared = parameters.perturbation
     velocity = parameters.loading.velocity
-    load = body.top_load(parameters.loading.normal_stress)
+    load = body.far_load(parameters.loading.normal_stress)
     if not declared.acts:
         return Steady(velocity, load)
     strength, seed = declared.strength, declared.seed

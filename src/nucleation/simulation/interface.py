@@ -6,7 +6,7 @@ At the new time the slip rate ``v``, the state ``psi = log(phi)``, the nodal tan
     p = p0 + D (w - w0),   R = R0 + N (w - w0),   w = w_past + beta (v - V)
     p + f(v, psi(v)) R = 0
 
-at the nodes 1..n_x, with the body's condensed operator D, N (:mod:`nucleation.fem.condensed`) and
+at the nodes 1..n_x, with the body's condensed operator D, N (:mod:`nucleation.fem.operator`) and
 the slip w less that of the driven edge. The state is eliminated by the closed form of its implicit
 step. Node 0 slips at the imposed velocity V.
 """
@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import lapack
 
-from ..fem.condensed import Operator, Response
+from ..fem.operator import Operator, Response
 from ..model.friction.law import Friction
 from ..types import Array
 from . import compiled_laws, passes
@@ -151,7 +151,7 @@ class Interface:
             If there is no convergence, a force is not finite, or a nodal normal force of the
             solution is tensile.
         """
-        law, body = self.friction, operator.body
+        law, modes = self.friction, operator.body.modes
         beta, velocity = past.beta, imposed.velocity
         strength = 1.0 if imposed.strength is None else imposed.strength
         elastic = beta * operator.diagonal
@@ -160,7 +160,7 @@ class Interface:
         v, w = guess, response.w
         p = response.tangential
         normal = response.normal + self.extra_normal
-        rates = body.on_all_nodes(v, velocity)
+        rates = modes.on_all_nodes(v, velocity)
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
             found = self._friction(rates[:anew], past.log_state[:anew], beta)
@@ -187,7 +187,7 @@ class Interface:
                 if normal.min() <= 0.0:
                     raise NewtonFailure("the interface is in tension", Outcome.TENSION)
                 # node 0 belongs to the driven edge; its friction follows from its rate V
-                tangential = body.on_all_nodes(p, -friction[0] * normal[0])
+                tangential = modes.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
             change = _newton_direction(operator, friction[1:], residual, damping, elastic, beta)
             if law.asinh_of_rate:
@@ -195,7 +195,7 @@ class Interface:
             else:
                 v = passes.updated(v, change, law.regularisation_slip_rate)
             before = rates
-            rates = body.on_all_nodes(v, velocity)
+            rates = modes.on_all_nodes(v, velocity)
             if self._even:
                 anew = passes.reach(rates, before, UNCHANGED * self.tolerance, least)
             w, change_of_w = passes.moved(v, velocity, beta, past.w, response.w)

@@ -172,7 +172,7 @@ class Recorder:
             "slip_rate": interface.slip_rate,
             "state": np.exp(interface.log_state),
             "sigma_yy": -interface.normal / lengths,
-            "slip": displacement + self._body.on_all_nodes(interface.w, 0.0),
+            "slip": displacement + self._body.modes.on_all_nodes(interface.w, 0.0),
             "shear_stress": -interface.tangential / lengths,
         }
         self._last_scaled = np.arcsinh(interface.slip_rate / self._velocity)

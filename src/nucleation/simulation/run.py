@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from ..fem.bodies import body_of
+from ..fem.body import body_of
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..model.stepping import FIRST_STEP

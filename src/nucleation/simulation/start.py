@@ -7,8 +7,8 @@ exceeds the strength, the interface has slipped already while the block was load
 
 import numpy as np
 
-from ..fem.condensed import Operator, Response
 from ..fem.grid import Field
+from ..fem.operator import Operator, Response
 from ..model.parameters import Loading
 from ..types import Array
 from .interface import InterfaceSolution
@@ -35,26 +35,25 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     imposed = dynamics.drive.at(0.0)
     load = dynamics.load(imposed)
     operator = body.operator(0.0)
-    response = operator.respond(load, np.zeros(body.free_nodes))
+    response = operator.respond(load, np.zeros(body.modes.n_x))
     if loading.initial_stress == "uniform_shear" and loading.kind != "remote":
         response = _in_uniform_shear(dynamics, loading, operator, load, response)
     else:
         response = _relaxed(dynamics, loading, operator, load, response)
-    balance = operator.balance(response, response.w)
-    slip_rate = body.on_all_nodes(np.zeros(body.free_nodes), imposed.velocity)
+    displacement, _ = operator.balance(response, response.w)
+    slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(loading.initial_state))
     state = State.beginning(
-        body.at_rest(balance.displacement, imposed.velocity),
+        body.at_rest(displacement, imposed.velocity),
         slip_rate,
         log_state,
         response.w,
-        balance.memory,
     )
     interface = InterfaceSolution(
         slip_rate,
         log_state,
         # at rest no friction acts on the driven edge's own node
-        tangential=body.on_all_nodes(response.tangential, 0.0),
+        tangential=body.modes.on_all_nodes(response.tangential, 0.0),
         normal=response.normal + dynamics.interface.extra_normal,
         w=response.w,
         iterations=0,
@@ -72,7 +71,7 @@ def _in_uniform_shear(
     response: Response,
 ) -> Response:
     """The response after the slip with which all nodes bear the initial shear stress."""
-    n = dynamics.body.free_nodes
+    n = dynamics.grid.n_x
     nodes = np.arange(1, n + 1)
     stiffness, _ = operator.tangent(nodes)
     forces = -loading.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
@@ -91,7 +90,7 @@ def _relaxed(
 
     These then bear their strength, that of sliding at V. Without such nodes it is `response`.
     """
-    n = dynamics.body.free_nodes
+    n = dynamics.grid.n_x
     friction = dynamics.interface.friction
     of_law = friction.coefficient(loading.velocity, loading.initial_state)
     on_all_nodes = np.broadcast_to(of_law, dynamics.grid.n_x + 1)

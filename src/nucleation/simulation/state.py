@@ -27,7 +27,7 @@ class State:
     past_slip_rates: Array  # m/s, (past, nodes 0..n_x)
     past_log_states: Array  # (past, nodes 0..n_x)
     past_w: Array  # m, slip less that of the driven edge, (past, nodes 1..n_x)
-    body_memory: Array  # the body's own, see nucleation.fem.condensed
+    edge_error: float = np.inf  # relative, of the right edge's values as foreseen
 
     @classmethod
     def beginning(
@@ -36,7 +36,6 @@ class State:
         slip_rate: Array,
         log_state: Array,
         w: Array,
-        body_memory: Array,
     ) -> State:
         """The state at time zero, without a past.
 
@@ -48,18 +47,16 @@ class State:
             Slip rates (m/s) and log(phi) at the nodes 0..n_x.
         w : ndarray, shape (n_x,)
             Slip less that of the driven edge (m), at the nodes 1..n_x.
-        body_memory : ndarray
-            Memory of the body.
 
         Returns
         -------
         State
         """
-        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory)
+        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None])
 
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
-        arrays = {name: np.asarray(getattr(self, name)) for name in _PLAIN}
+        arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}
         for i, motion in enumerate(self.motions):
             arrays |= motion.to_arrays(f"motion_{i}")
         return arrays
@@ -70,7 +67,8 @@ class State:
         motions: list[Motion] = []
         while f"motion_{len(motions)}_momentum" in arrays:
             motions.append(Motion.from_arrays(f"motion_{len(motions)}", arrays))
-        return cls(tuple(motions), **{name: arrays[name] for name in _PLAIN})
+        plain = {name: arrays[name] for name in _PLAIN}
+        return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
 
     @property
     def time(self) -> float:
@@ -99,7 +97,7 @@ class State:
         return self.motions[0].momentum
 
 
-_PLAIN = tuple(field.name for field in dataclasses.fields(State) if field.name != "motions")
+_PLAIN = ("past_times", "past_slip_rates", "past_log_states", "past_w")
 
 
 def pushed(

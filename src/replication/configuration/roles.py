@@ -61,7 +61,7 @@ class _Role(NamedTuple):
 
 ROLES = {
     OWN: _Role(
-        "a study of your own: lengths, a figure, its part of the report",
+        "a study of your own: lengths and a figure",
         several=True,
         one_by_one=False,
     ),

@@ -1,7 +1,7 @@
 """Growth of one wavenumber on homogeneous sliding, in the time integration.
 
 The time-dependent, nonlinear solver starts from homogeneous sliding on a periodic block
-(:mod:`nucleation.fem.periodic`) with a small perturbation of the state variable at one wavenumber.
+(:mod:`nucleation.fem.body`) with a small perturbation of the state variable at one wavenumber.
 The amplitude of ``exp(-i k x)`` in log(v) then follows ``C1 exp(Lambda1 t) + C2 exp(Lambda2 t)``:
 its samples at equal intervals obey a linear recurrence, which gives both rates without any guess.
 """
@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from nucleation.fem.bodies import period_of
+from nucleation.fem.body import period_of
 from nucleation.model.parameters import Geometry, Mesh, Parameters
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
@@ -42,7 +42,7 @@ def sliding_period(parameters: Parameters) -> Dynamics:
     law = parameters.friction
     loading = parameters.loading
     steady = float(law.steady_coefficient(loading.velocity))
-    load = body.top_load(loading.normal_stress, loading.normal_stress * steady)
+    load = body.far_load(loading.normal_stress, loading.normal_stress * steady)
     interface = Interface(law, NEWTON_TOLERANCE)
     drive = Steady(loading.velocity, load)
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
@@ -57,13 +57,9 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     load = dynamics.drive.load(0.0)
     operator = body.operator(0.0)
     response = operator.respond(load, np.zeros(n))
-    if body.far_side == "velocity":  # the interface lags behind the top that drags it
-        strength = friction.steady_coefficient(velocity) * response.normal[1:]
-        stiffness, _ = operator.apply(np.ones(n))
-        response = operator.respond(load, -strength / stiffness)
-    balance = operator.balance(response, response.w)
+    displacement, _ = operator.balance(response, response.w)
     # the driving traction moves the block at V: seen from there it is at rest
-    motion = body.at_rest(balance.displacement, 0.0)
+    motion = body.at_rest(displacement, 0.0)
     rates = np.full(n + 1, velocity)
     steady = float(np.log(friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
@@ -72,7 +68,6 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
         rates,
         log_state,
         response.w,
-        balance.memory,
     )
 
 

@@ -1,0 +1,209 @@
+"""The elastic body of a simulation: one block or two on their interface, finite or periodic.
+
+The displacement is ``u_x = U(t) + w_x`` and ``u_y``, with the displacement U of a block's driven
+left edge. On a grid that is uniform along x the matrices of bilinear elements are sums of Kronecker
+products of one-dimensional matrices, and the equations decouple in the modes of :mod:`.modes`. The
+paper's right edge is free of sigma_xy too: its values of u_y couple to all modes, and are
+eliminated last (:mod:`.right_edge`). The result is that of the assembled matrix to round-off
+(tests/fem/test_block.py).
+
+The lower body of two, ``-H2 <= y <= 0``, is stored mirrored, as if it were above the interface:
+``y -> -y`` and ``u_y -> -u_y``. The upper one is driven, so that ``w1 = u_x - U(t)`` above and
+``w2 = u_x`` below; ``w = w1 - w2`` is the slip less that of the driven edge. Both have the same
+``u_y`` on the interface (no opening); on a rigid base ``u_y = 0`` and ``w = w1``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from ..model.material import Material
+from ..model.parameters import Parameters
+from ..types import Array
+from .grid import Components, Field, Grid, Motion, Motions, Terms
+from .kernels import rate_of_change
+from .layer import Layer
+from .modes import BlockModes, PeriodModes
+from .operator import BlockOperator, Operator, PeriodOperator
+
+LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
+
+
+def body_of(parameters: Parameters) -> Body:
+    """The body of a run: pushed at its left edge, or periodic under a remote load."""
+    parameters.require_consistent()
+    return _of(parameters, periodic=parameters.loading.kind == "remote")
+
+
+def period_of(parameters: Parameters) -> Body:
+    """One period, as long as the block, of a run's body or bodies; ``mesh.n_x`` is odd."""
+    return _of(parameters, periodic=True)
+
+
+def _of(parameters: Parameters, periodic: bool) -> Body:
+    grid = Grid.of(parameters.geometry, parameters.mesh, periodic)
+    below = parameters.below
+    if below is None:
+        return Body((grid, parameters.material))
+    second = Grid.of(below.geometry, below.mesh, periodic)
+    return Body((grid, parameters.material), (second, below.material), below.far_side)
+
+
+class Body:
+    """One layer on a rigid base, or two on one another, each a grid and a material.
+
+    The far side of the first one is free; `far_side` is that of the second one. If both are free,
+    both bear the same normal stress.
+
+    Raises
+    ------
+    ValueError
+        If the elements of two layers along x differ, or n_x of a period is even.
+    """
+
+    def __init__(
+        self,
+        upper: tuple[Grid, Material],
+        lower: tuple[Grid, Material] | None = None,
+        far_side: str = "free",
+    ) -> None:
+        self.grid, _ = upper
+        self.modes = PeriodModes(self.grid) if self.grid.periodic else BlockModes(self.grid)
+        self.layers = [Layer(*upper, self.modes)]
+        if lower is not None:
+            one, other = self.grid, lower[0]
+            if (one.n_x, one.length) != (other.n_x, other.length):
+                raise ValueError(
+                    f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
+                    f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
+                )
+            self.layers.append(Layer(*lower, self.modes, far_side))
+        self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
+        self.total_mass = self.layers[0].total_mass  # kg/m, that moves with the driven edge
+
+    @property
+    def is_held_along_y(self) -> bool:
+        """Whether the base, or the lower far side, is held along y."""
+        return len(self.layers) == 1 or self.layers[1].held[1]
+
+    def operator(self, s: float) -> Operator:
+        """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2); zero is statics."""
+        return BlockOperator(self, s) if self.modes.has_edge else PeriodOperator(self, s)
+
+    def split(self, values: Array) -> list[Array]:
+        """Views of an array over levels: each layer's."""
+        above = self.layers[0].levels
+        return [values] if len(self.layers) == 1 else [values[:above], values[above:]]
+
+    def parts(self, field: Field) -> list[Field]:
+        """Views of a field: each layer's, the lower one's mirrored."""
+        return list(map(Field, self.split(field.modes), self.split(field.edge)))
+
+    def joined(self, *parts: Field) -> Field:
+        """The field of the fields of each layer."""
+        if len(parts) == 1:
+            return parts[0]
+        modes = np.concatenate([part.modes for part in parts])
+        return Field(modes, np.concatenate([part.edge for part in parts]))
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        return self.joined(*(layer.zero_field() for layer in self.layers))
+
+    def far_load(self, normal: float, shear: float = 0.0) -> Field:
+        """Nodal forces (N/m) of a compressive and, in a period, a shear stress (Pa).
+
+        They act on the far sides that are free, the shear stress in opposite directions.
+        """
+        shears = (shear, -shear)
+        loads = [layer.far_load(normal, x) for layer, x in zip(self.layers, shears, strict=False)]
+        return self.joined(*loads)
+
+    def _of_the_first(self, field: Field) -> Field:
+        """A field of the body from one of its first layer, which the driven edge belongs to."""
+        return self.joined(field, *(layer.zero_field() for layer in self.layers[1:]))
+
+    def translation_load(self, acceleration: float) -> Field:
+        """Inertia (N/m) against an acceleration (m/s^2) along x of all that moves with the edge."""
+        return self._of_the_first(self.layers[0].translation_load(acceleration))
+
+    def at_rest(self, displacement: Field, velocity: float) -> Motion:
+        """The motion of the body at rest, seen from an edge that moves at a velocity (m/s)."""
+        rates = self.layers[0].zero_field()
+        ones = np.ones(self.modes.n_x)
+        rates.modes[:, 0] = -velocity * self.modes.sine_amplitudes(ones)
+        field = self._of_the_first(rates)
+        return Motion(displacement, field, self.momentum_x(field))
+
+    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+        """``load + s M sum_i c_i f_i`` (N/m) of at most four terms; `s` in 1/s^2, f_i in m."""
+        load = self.zero_field() if load is None else load
+        found = Field(np.empty_like(load.modes), np.empty_like(load.edge))
+        split = [(coefficient, self.parts(field)) for coefficient, field in terms]
+        outputs = zip(self.layers, self.parts(load), self.parts(found), strict=True)
+        for i, (layer, own, out) in enumerate(outputs):
+            layer.add_inertia(s, [(c, parts[i]) for c, parts in split], own, out)
+        return found
+
+    def motion(
+        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+    ) -> Motion:
+        """The motion at a new displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt`` (beta in s).
+
+        If there is one past motion only, it is both u_1 and u_2.
+        """
+        c1, c2 = past
+        newest = motions[0].displacement
+        oldest = motions[-1].displacement
+        modes = np.empty_like(displacement.modes)
+        rate_of_change(c1, c2, beta, displacement.modes, newest.modes, oldest.modes, modes)
+        edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
+        velocity = Field(modes, edge)
+        return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def momentum_x(self, velocity: Field) -> float:
+        """Momentum along x (kg/s per unit depth), at w_t (m/s), of what moves with the edge."""
+        return self.layers[0].momentum_x(self.parts(velocity)[0])
+
+    def nodal_values(self, field: Field, number: int = 0) -> Components:
+        """Nodal w_x and u_y of a layer, by its number, levels from the interface on.
+
+        Each has the shape (n_y + 1, n_x + 1).
+        """
+        x, y = self.layers[number].nodal_values(self.parts(field)[number])
+        return x, -y if number else y
+
+    @cached_property
+    def _risen(self) -> Field:
+        """Both blocks moved up by one metre."""
+        assert isinstance(self.modes, BlockModes)
+        field = self.zero_field()
+        level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
+        for part, up in zip(self.parts(field), (1.0, -1.0), strict=True):
+            part.modes[:, 1] = up * level
+            part.edge[:] = up
+        return field
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """Remove a translation of two blocks along y that has grown from round-off.
+
+        If no far side is held, no force acts on such a translation but round-off, which makes it
+        grow without bound over minutes. Once it exceeds :data:`LIFTED` times the slip `slid` (m),
+        it is removed with its velocity: the motions, the newest first and `step` (s) apart, are
+        seen from a corner that does not rise.
+        """
+        if self.is_held_along_y or not self.modes.has_edge:
+            return motions
+        rise = float(motions[0].displacement.edge[0])
+        rate = float(motions[0].velocity.edge[0])
+        if not abs(rise) > LIFTED * slid:
+            return motions
+        settled = []
+        for motion, age in zip(motions, (0.0, step), strict=False):
+            displacement = motion.displacement.plus(self._risen.times(age * rate - rise))
+            velocity = motion.velocity.plus(self._risen.times(-rate))
+            settled.append(Motion(displacement, velocity, motion.momentum))
+        return tuple(settled)

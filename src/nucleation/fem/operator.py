@@ -1,0 +1,355 @@
+"""``K + s M`` of a body for one s, condensed on the nodes of its interface.
+
+A load is swept down to the interface; once the interface's displacement is known, the way back
+gives that of the bulk. The friction sees how the forces of the body follow the displacement ``w``
+(m) at the nodes 1..n_x, the slip less that of the driven edge:
+
+    p = p0 + D w,    R = R0 + N w
+
+with the nodal tangential force p (N/m) at the nodes 1..n_x and the nodal normal force R at 0..n_x,
+both on the upper body, R > 0 in compression; D is symmetric positive definite. Between modes D and
+N are diagonal; a free right edge adds a term of low rank.
+
+Two bodies are put in series mode by mode. Each has a stiffness ``S = [[a, b], [b, c]]`` and a
+reduced load r; the mirror changes the signs of b2 and of the y component of r2. Then
+
+    (w1, u_y) = T^-1 [S2 (w, 0) + r1 + r2],    T = S1 + S2,
+    (p, R) = S1 (w1, u_y) - r1 .
+
+So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / det T`` per mode; N
+of identical bodies vanishes exactly. If no far side is held, all of ``u_y`` may shift: in motion
+inertia determines the shift; in statics, where no force acts on it, the corner of blocks and the
+mean of a period stay.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import circulant
+
+from ..types import Array
+from . import edge_kernels, kernels
+from .grid import Components, Field, Motion
+from .layer import LayerFactors
+from .right_edge import EdgeValues
+
+if TYPE_CHECKING:
+    from .body import Body
+
+Blocks = tuple[NDArray, NDArray]
+"""D and N between some nodes."""
+
+EDGE_FELT = 1e-16  # of a node's own stiffness, squared coupling: 1e-8 in the coupling
+
+
+@dataclasses.dataclass(frozen=True)
+class Response:
+    """Nodal forces that hold the interface at a given displacement, the bulk in balance."""
+
+    w: Array  # m, at the nodes 1..n_x
+    tangential: Array  # N/m, at the nodes 1..n_x
+    normal: Array  # N/m, at the nodes 0..n_x
+    load: Field  # N/m, of the body
+    edge: Array  # m, the edge values
+    swept: Array | None = None  # N/m, the load swept down to the interface with these edge values,
+    start: Array | float = 0.0  # m, and the displacement of a pair's interface under it at w = 0
+
+
+def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> Array:
+    """Edge values (m) after a step (s) with the acceleration of the last step."""
+    now = motions[0]
+    before = motions[-1]
+    edge = now.displacement.edge + step * now.velocity.edge
+    if last_step == 0.0:
+        return edge
+    change = now.velocity.edge - before.velocity.edge
+    return edge + (0.5 * step**2 / last_step) * change
+
+
+class Operator(ABC):
+    """``K + s M`` of a body for one ``s`` (1/s^2), with ``s = 0`` for statics.
+
+    `modal` has D and N per mode, a right edge held, times 2/n_x (N/m per m), (2, n_x). For a pair
+    `compliance` is T^-1 (xx, xy, yy), `forces` S1 T^-1 and S2 T^-1 (xx, xy, yx, yy of each), and
+    `by_slip` has (w1, u_y) per unit of w.
+    """
+
+    def __init__(self, body: Body, s: float) -> None:
+        self.body = body
+        self.s = s
+        self.factors = [LayerFactors(layer, s) for layer in body.layers]
+        self.moves = s * sum(layer.material.density for layer in body.layers) > 0.0
+        if len(self.factors) == 2:
+            with np.errstate(invalid="ignore", divide="ignore"):
+                self._put_in_series()
+        else:
+            self.modal = self.factors[0].pivot[:2]  # the first row, as u_y is zero
+            self.by_slip = np.array([[1.0], [0.0]])
+        self._no_load = np.zeros(self.modal.shape)
+
+    def _put_in_series(self) -> None:
+        (a1, b1, c1), (a2, b2, c2) = (factors.pivot for factors in self.factors)
+        b2 = -b2  # by the mirror
+        # not compiled: with fused products, identical bodies would not decouple exactly
+        det1 = a1 * c1 - b1 * b1
+        det2 = a2 * c2 - b2 * b2
+        det = det1 + det2 + a1 * c2 + a2 * c1 - 2.0 * (b1 * b2)
+        self.modal = np.array([det2 * a1 + det1 * a2, det2 * b1 + det1 * b2]) / det
+        self.compliance = np.array([c1 + c2, -(b1 + b2), a1 + a2]) / det
+        xx, xy, yy = self.compliance
+        products = []
+        for a, b, c in ((a1, b1, c1), (a2, b2, c2)):
+            products += [a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy]
+        self.forces = np.array(products)
+        self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
+
+    @property
+    def megabytes(self) -> float:
+        """Memory that the operator holds once all of its parts are in use (MB)."""
+        own = sum(factors.megabytes for factors in self.factors)
+        levels = sum(layer.levels for layer in self.body.layers)
+        pairs = 13 * self.body.modes.n_x + 2 * levels**2 if len(self.factors) == 2 else 0
+        return own + 8e-6 * pairs
+
+    @property
+    @abstractmethod
+    def diagonal(self) -> Array:
+        """Diagonal of D (N/m per m) at the nodes 1..n_x."""
+
+    @abstractmethod
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
+        """Dense blocks of D and N (N/m per m) between some of the nodes 1..n_x, sorted."""
+
+    @abstractmethod
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+        """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
+
+        Edge values (m) that are given are assumed to be in balance; this saves half of the work.
+        """
+
+    @abstractmethod
+    def balance(
+        self, response: Response, w: Array, foreseen: Array | None = None
+    ) -> tuple[Field, float]:
+        """The displacement (m) for w (m) after a response, which must not be used again.
+
+        Also the relative error of edge values that were foreseen; above :meth:`tolerates` a
+        response with given edge values was not accurate enough.
+        """
+
+    def tolerates(self, error: float) -> bool:
+        """Whether a relative error of the edge values is round-off."""
+        return False
+
+    def apply(self, w: Array) -> Components:
+        """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        return self.body.modes.forces(self.modal, amplitudes, self._no_load)
+
+    def swept_down(self, load: Field, edge: Array) -> Array:
+        """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
+        modes = np.empty_like(load.modes)
+        loads = self.body.parts(load)
+        into = self.body.parts(Field(modes, edge))
+        for factors, own, part in zip(self.factors, loads, into, strict=True):
+            factors.sweep_down(own, part.edge, part.modes)
+        return modes
+
+    def reduced(self, swept: Array) -> tuple[Array, Array | float]:
+        """The load per mode that is held (N/m), and the interface's displacement (m), at w = 0."""
+        if len(self.factors) == 1:
+            return swept[0].copy(), 0.0
+        held = np.empty_like(self.modal)
+        start = np.empty_like(self.modal)
+        lower = swept[self.body.layers[0].levels]
+        kernels.load_couple(self.compliance, self.forces, swept[0], lower, held, start)
+        return held, start
+
+    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | float) -> None:
+        """Replace a swept load by the displacement (m), given w per mode and :meth:`reduced`."""
+        above, *below = self.body.split(swept)
+        above[0] = start + self.by_slip * amplitudes
+        for part in below:
+            part[0, 0] = above[0, 0] - amplitudes
+            part[0, 1] = -above[0, 1]
+        for factors, part in zip(self.factors, (above, *below), strict=True):
+            factors.substitute(part)
+
+
+class BlockOperator(Operator):
+    """The operator of blocks with a free right edge."""
+
+    def __init__(self, body: Body, s: float) -> None:
+        super().__init__(body, s)
+        self.edge = EdgeValues(self)
+        self._last_key: tuple[bytes, type] | None = None
+        self._last_blocks: Blocks
+
+    def tolerates(self, error: float) -> bool:
+        return error < self.edge.round_off
+
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        given = np.zeros_like(load.edge) if edge is None else edge
+        swept = self.swept_down(load, given)
+        reduced, start = self.reduced(swept)
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
+        if edge is not None:
+            normal[-1] = self._corner_reaction(load, swept, edge, amplitudes, start)
+            return Response(w, tangential, normal, load, edge, swept, start)
+        self.substitute_up(swept, amplitudes, start)
+        residual = self.edge.residual(load, swept, given)
+        found = self.edge.compliance @ residual
+        edge_kernels.add_edge(found, self.edge.felt, tangential, normal)
+        normal[-1] = self.edge.schur[0] @ found - residual[0]
+        return Response(w, tangential, normal, load, found)
+
+    def _corner_reaction(
+        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | float
+    ) -> float:
+        """Normal force (N/m) on the corner of the upper body, from its two lowest levels alone."""
+        lowest = swept[:2].copy()
+        lowest[0] = start + self.by_slip * amplitudes
+        self.factors[0].substitute(lowest)
+        load_above, *_ = self.body.parts(load)
+        edge_above = edge[: self.body.layers[0].levels]
+        return -self.edge.rows[0].residual(load_above, lowest, edge_above, 1)[0]
+
+    def balance(
+        self, response: Response, w: Array, foreseen: Array | None = None
+    ) -> tuple[Field, float]:
+        given = response.edge
+        edge = given if w is response.w else given + self.edge.change(w - response.w)
+        modes, start = response.swept, response.start
+        solved = modes is None
+        if modes is None:
+            modes = self.swept_down(response.load, edge)
+            _, start = self.reduced(modes)
+        self.substitute_up(modes, self.body.modes.sine_amplitudes(w), start)
+        own = edge
+        if not solved:
+            residual = self.edge.residual(response.load, modes, given)
+            own = given + self.edge.compliance @ residual
+        if foreseen is None:
+            return Field(modes, own), np.inf
+        largest = np.abs(own).max()
+        error = max(np.abs(foreseen - own).max(), np.abs(edge - own).max())
+        return Field(modes, own), float(error / largest) if largest > 0.0 else np.inf
+
+    def apply(self, w: Array) -> Components:
+        tangential, normal = super().apply(w)
+        edge_kernels.add_edge_in_balance(
+            w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
+        )
+        return tangential, normal
+
+    @cached_property
+    def _toeplitz(self) -> tuple[Array, Array]:
+        """Kernels d and h with ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)``.
+
+        Both hold the arguments 0..2 n_x; d is even and h is odd.
+        """
+        n = self.body.modes.n_x
+        d = self.body.modes.cosine_values(self.modal[0]) / n
+        h = np.append(0.0, self.body.modes.sine_values(self.modal[1])) / n
+        # about the right edge i = n_x, the cosine modes are odd and the sine modes even
+        d = np.concatenate((d, [0.0], -d[:0:-1], [-d[0]]))
+        return d, np.concatenate((h, h[-2::-1]))
+
+    @cached_property
+    def diagonal(self) -> Array:
+        return self._diagonal_of_modes + self.edge.diagonal
+
+    @cached_property
+    def _diagonal_of_modes(self) -> Array:
+        d, _ = self._toeplitz
+        diagonal = d[0] - d[2::2]
+        diagonal[-1] *= 0.25
+        return diagonal
+
+    @cached_property
+    def _edge_reach(self) -> int:
+        """The first node (1..n_x) on which the right edge acts beyond round-off."""
+        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self._diagonal_of_modes
+        return int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
+
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
+        key = (nodes.tobytes(), dtype)
+        if key != self._last_key:  # mostly the same nodes slip in the next step
+            self._last_key = key
+            self._last_blocks = self._between(nodes, dtype)
+        return self._last_blocks
+
+    def _between(self, nodes: NDArray[np.intp], dtype: type) -> Blocks:
+        n = self.body.modes.n_x
+        blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+        stiffness, coupling = blocks
+        d, h = self._toeplitz
+        edge_kernels.interface_blocks(d, h, n, nodes, stiffness, coupling)
+        near = int(np.searchsorted(nodes, self._edge_reach))
+        if near == nodes.size:
+            return stiffness, coupling
+        own = nodes[near:]
+        tangential, normal = self.edge.to_interface
+        tangential = tangential[:, own - 1]
+        normal = np.append(normal, self.edge.schur[:, :1], axis=1)[:, own]
+        edge = self.edge.response[:, own - 1]
+        stiffness[near:, near:] += tangential.T @ edge
+        coupling[near:, near:] += normal.T @ edge
+        if own[-1] == n:
+            coupling[-1, near:] += tangential[0]
+        return stiffness, coupling
+
+
+class PeriodOperator(Operator):
+    """The operator of a period, where D and N between nodes are circulant matrices."""
+
+    def _put_in_series(self) -> None:
+        super()._put_in_series()
+        if not (self.body.is_held_along_y or self.moves):
+            # the mean: both layers transmit the forces in balance, and do not move
+            self.modal[:, 0] = 0.0
+            self.compliance[:, 0] = 0.0
+            self.forces[:, 0] = np.tile(0.5 * np.eye(2).ravel(), 2)
+            self.by_slip[:, 0] = 0.5, 0.0
+
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+        swept = self.swept_down(load, np.zeros_like(load.edge))
+        reduced, start = self.reduced(swept)
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
+        return Response(w, tangential, normal, load, np.zeros_like(load.edge), swept, start)
+
+    def balance(
+        self, response: Response, w: Array, foreseen: Array | None = None
+    ) -> tuple[Field, float]:
+        modes = response.swept
+        assert modes is not None
+        self.substitute_up(modes, self.body.modes.sine_amplitudes(w), response.start)
+        return Field(modes, response.edge), np.inf
+
+    @cached_property
+    def _dense(self) -> Components:
+        unit = np.zeros(self.body.modes.n_x)
+        unit[0] = 1.0
+        tangential, normal = self.apply(unit)
+        return circulant(tangential), circulant(normal[1:])
+
+    @property
+    def diagonal(self) -> Array:
+        stiffness, _ = self._dense
+        return np.ascontiguousarray(stiffness.diagonal())
+
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
+        stiffness, coupling = self._dense
+        if nodes.size < len(stiffness):
+            block = np.ix_(nodes - 1, nodes - 1)
+            stiffness, coupling = stiffness[block], coupling[block]
+        return stiffness.astype(dtype), coupling.astype(dtype)
