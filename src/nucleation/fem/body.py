@@ -15,7 +15,6 @@ The lower body of two, ``-H2 <= y <= 0``, is stored mirrored, as if it were abov
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -24,7 +23,6 @@ from ..model.material import Material
 from ..model.parameters import Parameters
 from ..types import Array
 from .grid import Components, Field, Grid, Motion, Motions, Terms
-from .kernels import rate_of_change
 from .layer import Layer
 from .modes import BlockModes, PeriodModes
 from .operator import BlockOperator, Operator, PeriodOperator
@@ -100,6 +98,8 @@ class Body:
 
     def parts(self, field: Field) -> list[Field]:
         """Views of a field: each layer's, the lower one's mirrored."""
+        if len(self.layers) == 1:
+            return [field]
         return list(map(Field, self.split(field.modes), self.split(field.edge)))
 
     def joined(self, *parts: Field) -> Field:
@@ -147,22 +147,6 @@ class Body:
         for i, (layer, own, out) in enumerate(outputs):
             layer.add_inertia(s, [(c, parts[i]) for c, parts in split], own, out)
         return found
-
-    def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
-    ) -> Motion:
-        """The motion at a new displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt`` (beta in s).
-
-        If there is one past motion only, it is both u_1 and u_2.
-        """
-        c1, c2 = past
-        newest = motions[0].displacement
-        oldest = motions[-1].displacement
-        modes = np.empty_like(displacement.modes)
-        rate_of_change(c1, c2, beta, displacement.modes, newest.modes, oldest.modes, modes)
-        edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
-        velocity = Field(modes, edge)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x (kg/s per unit depth), at w_t (m/s), of what moves with the edge."""

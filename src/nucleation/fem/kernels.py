@@ -128,24 +128,44 @@ def eliminate(lower, load, profiles, weights, scale, out):
 
 
 @compiled_loop
+def _up(q, t, below, here):
+    """The displacement of one level from that of the level below, in place of the swept load."""
+    x = here[0]
+    y = here[1]
+    px = below[0]
+    py = below[1]
+    for m in range(x.size):
+        rx = x[m]
+        ry = y[m]
+        own_x = q[0, m] * rx + q[1, m] * ry
+        below_x = t[0, m] * px[m] + t[2, m] * py[m]
+        x[m] = own_x - below_x
+        own_y = q[1, m] * rx + q[2, m] * ry
+        below_y = t[1, m] * px[m] + t[3, m] * py[m]
+        y[m] = own_y - below_y
+
+
+@compiled_loop
 def substitute(inverse, lower, rhs):
     """Sweep back from the interface, whose displacement (m) is in level 0, to the top, in place."""
     for j in range(1, rhs.shape[0]):
-        x = rhs[j, 0]
-        y = rhs[j, 1]
-        px = rhs[j - 1, 0]
-        py = rhs[j - 1, 1]
-        t = lower[j - 1]
-        q = inverse[j]
-        for m in range(x.size):
-            rx = x[m]
-            ry = y[m]
-            own_x = q[0, m] * rx + q[1, m] * ry
-            below_x = t[0, m] * px[m] + t[2, m] * py[m]
-            x[m] = own_x - below_x
-            own_y = q[1, m] * rx + q[2, m] * ry
-            below_y = t[1, m] * px[m] + t[3, m] * py[m]
-            y[m] = own_y - below_y
+        _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
+
+
+@compiled_loop
+def move(inverse, lower, rhs, c1, c2, beta, u, u_past, rate):
+    """As :func:`substitute`, and fill the rate (m/s) by ``rhs = c1 u + c2 u_past + beta rate``."""
+    scale = 1.0 / beta
+    for j in range(rhs.shape[0]):
+        if j > 0:
+            _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
+        for c in range(2):
+            x = rhs[j, c]
+            u1 = u[j, c]
+            u2 = u_past[j, c]
+            out = rate[j, c]
+            for m in range(x.size):
+                out[m] = scale * (x[m] - c1 * u1[m] - c2 * u2[m])
 
 
 @compiled_loop
@@ -233,17 +253,3 @@ def add_inertia(
                 inertia = weight[m] * (lo * below[m] + di * here[m] + up * above[m])
                 to[m] = r[m] + (inertia + by_edge * edge_weight[m])
     edge_out[:] = edge_load + edge_mass * products(stacked, near + 2.0 * edge)[0]
-
-
-@compiled_loop
-def rate_of_change(c1, c2, beta, new, u, u_past, out):
-    """Fill `out` with the rate (m/s) by ``new = c1 u + c2 u_past + beta rate``."""
-    scale = 1.0 / beta
-    for j in range(u.shape[0]):
-        for c in range(2):
-            x = new[j, c]
-            u1 = u[j, c]
-            u2 = u_past[j, c]
-            rate = out[j, c]
-            for m in range(x.size):
-                rate[m] = scale * (x[m] - c1 * u1[m] - c2 * u2[m])

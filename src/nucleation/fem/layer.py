@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 
 from ..model.material import Material
@@ -93,6 +96,15 @@ class Layer:
         return np.hstack((left, x)), np.hstack((y, field.edge[:, None]))
 
 
+class Before(NamedTuple):
+    """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
+
+    coefficients: Sequence[float]  # c1 and c2
+    beta: float  # s
+    newest: Field
+    oldest: Field
+
+
 class LayerFactors:
     """``K + s M`` of a layer for one ``s`` (1/s^2), eliminated mode by mode down to its interface.
 
@@ -144,3 +156,10 @@ class LayerFactors:
         """
         levels = len(modes)
         kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
+
+    def move(self, modes: Array, before: Before, rate: Array) -> None:
+        """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
+        (c1, c2), beta, newest, oldest = before
+        kernels.move(
+            self.inverse, self.lower, modes, c1, c2, beta, newest.modes, oldest.modes, rate
+        )

@@ -28,7 +28,7 @@ import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,7 @@ from scipy.linalg import circulant
 from ..types import Array
 from . import edge_kernels, kernels
 from .grid import Components, Field, Motion
-from .layer import LayerFactors
+from .layer import Before, LayerFactors
 from .right_edge import EdgeValues
 
 if TYPE_CHECKING:
@@ -71,6 +71,14 @@ def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> A
         return edge
     change = now.velocity.edge - before.velocity.edge
     return edge + (0.5 * step**2 / last_step) * change
+
+
+class Balance(NamedTuple):
+    """A body in balance at the end of a step."""
+
+    displacement: Field  # m
+    velocity: Field  # m/s, by the step's formula; zero in statics
+    edge_error: float  # relative, of edge values that were foreseen
 
 
 class Operator(ABC):
@@ -136,12 +144,16 @@ class Operator(ABC):
 
     @abstractmethod
     def balance(
-        self, response: Response, w: Array, foreseen: Array | None = None
-    ) -> tuple[Field, float]:
-        """The displacement (m) for w (m) after a response, which must not be used again.
+        self,
+        response: Response,
+        w: Array,
+        before: Before | None = None,
+        foreseen: Array | None = None,
+    ) -> Balance:
+        """The body for w (m) after a response, which must not be used again.
 
-        Also the relative error of edge values that were foreseen; above :meth:`tolerates` a
-        response with given edge values was not accurate enough.
+        If :meth:`tolerates` denies the error of the edge values (m) that were `foreseen`, a
+        response with these was not accurate enough.
         """
 
     def tolerates(self, error: float) -> bool:
@@ -172,15 +184,41 @@ class Operator(ABC):
         kernels.load_couple(self.compliance, self.forces, swept[0], lower, held, start)
         return held, start
 
-    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | float) -> None:
-        """Replace a swept load by the displacement (m), given w per mode and :meth:`reduced`."""
+    def substitute_up(
+        self,
+        swept: Array,
+        amplitudes: Array,
+        start: Array | float,
+        before: Before | None = None,
+    ) -> Array | None:
+        """Replace a swept load by the displacement (m), given w per mode and :meth:`reduced`.
+
+        Returns the rate (m/s), if the displacements before are known.
+        """
         above, *below = self.body.split(swept)
         above[0] = start + self.by_slip * amplitudes
         for part in below:
             part[0, 0] = above[0, 0] - amplitudes
             part[0, 1] = -above[0, 1]
-        for factors, part in zip(self.factors, (above, *below), strict=True):
-            factors.substitute(part)
+        if before is None:
+            for factors, part in zip(self.factors, (above, *below), strict=True):
+                factors.substitute(part)
+            return None
+        rate = np.empty_like(swept)
+        newest, oldest = self.body.parts(before.newest), self.body.parts(before.oldest)
+        for i, (factors, into) in enumerate(zip(self.factors, self.body.split(rate), strict=True)):
+            own = before._replace(newest=newest[i], oldest=oldest[i])
+            factors.move((above, *below)[i], own, into)
+        return rate
+
+    def _with_velocity(
+        self, displacement: Field, rate: Array | None, before: Before | None, edge_error: float
+    ) -> Balance:
+        if before is None or rate is None:
+            return Balance(displacement, displacement.times(0.0), edge_error)
+        (c1, c2), beta, newest, oldest = before
+        edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
+        return Balance(displacement, Field(rate, edge), edge_error)
 
 
 class BlockOperator(Operator):
@@ -223,8 +261,12 @@ class BlockOperator(Operator):
         return -self.edge.rows[0].residual(load_above, lowest, edge_above, 1)[0]
 
     def balance(
-        self, response: Response, w: Array, foreseen: Array | None = None
-    ) -> tuple[Field, float]:
+        self,
+        response: Response,
+        w: Array,
+        before: Before | None = None,
+        foreseen: Array | None = None,
+    ) -> Balance:
         given = response.edge
         edge = given if w is response.w else given + self.edge.change(w - response.w)
         modes, start = response.swept, response.start
@@ -232,16 +274,16 @@ class BlockOperator(Operator):
         if modes is None:
             modes = self.swept_down(response.load, edge)
             _, start = self.reduced(modes)
-        self.substitute_up(modes, self.body.modes.sine_amplitudes(w), start)
+        rate = self.substitute_up(modes, self.body.modes.sine_amplitudes(w), start, before)
         own = edge
         if not solved:
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
-        if foreseen is None:
-            return Field(modes, own), np.inf
-        largest = np.abs(own).max()
-        error = max(np.abs(foreseen - own).max(), np.abs(edge - own).max())
-        return Field(modes, own), float(error / largest) if largest > 0.0 else np.inf
+        error = np.inf
+        if foreseen is not None and own.any():
+            largest = max(np.abs(foreseen - own).max(), np.abs(edge - own).max())
+            error = float(largest / np.abs(own).max())
+        return self._with_velocity(Field(modes, own), rate, before, error)
 
     def apply(self, w: Array) -> Components:
         tangential, normal = super().apply(w)
@@ -328,12 +370,17 @@ class PeriodOperator(Operator):
         return Response(w, tangential, normal, load, np.zeros_like(load.edge), swept, start)
 
     def balance(
-        self, response: Response, w: Array, foreseen: Array | None = None
-    ) -> tuple[Field, float]:
+        self,
+        response: Response,
+        w: Array,
+        before: Before | None = None,
+        foreseen: Array | None = None,
+    ) -> Balance:
         modes = response.swept
         assert modes is not None
-        self.substitute_up(modes, self.body.modes.sine_amplitudes(w), response.start)
-        return Field(modes, response.edge), np.inf
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        rate = self.substitute_up(modes, amplitudes, response.start, before)
+        return self._with_velocity(Field(modes, response.edge), rate, before, np.inf)
 
     @cached_property
     def _dense(self) -> Components:

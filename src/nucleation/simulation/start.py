@@ -40,7 +40,7 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
         response = _in_uniform_shear(dynamics, loading, operator, load, response)
     else:
         response = _relaxed(dynamics, loading, operator, load, response)
-    displacement, _ = operator.balance(response, response.w)
+    displacement = operator.balance(response, response.w).displacement
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(loading.initial_state))
     state = State.beginning(

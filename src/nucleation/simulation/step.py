@@ -16,6 +16,7 @@ import numpy as np
 
 from ..fem.body import Body
 from ..fem.grid import Field, Motion
+from ..fem.layer import Before
 from ..fem.operator import Operator, foreseen_edge
 from ..types import Array
 from . import passes
@@ -106,17 +107,19 @@ class Dynamics:
         rates = guess.slip_rate[1:]
         w = past.w + past.beta * (rates - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
+        fields = [motion.displacement for motion in state.motions]
+        before = Before(step.body.past, step.body.beta, fields[0], fields[-1])
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
             response = operator.respond(load, w, edge)
             solution = self.interface.solve(operator, response, past, imposed, rates)
-            displacement, edge_error = operator.balance(response, solution.w, foreseen)
-            if operator.tolerates(edge_error):
+            balance = operator.balance(response, solution.w, before, foreseen)
+            if operator.tolerates(balance.edge_error):
                 break
-        formula = step.body
-        motion = self.body.motion(formula.past, formula.beta, displacement, state.motions)
-        new = self._pushed(state, time, solution, motion, edge_error)
+        momentum = self.body.momentum_x(balance.velocity)
+        motion = Motion(balance.displacement, balance.velocity, momentum)
+        new = self._pushed(state, time, solution, motion, balance.edge_error)
         force = self._driving_force(state, step, imposed, solution, motion)
         return new, StepReport(solution, force, step.error(guess.distance(solution)))
 
