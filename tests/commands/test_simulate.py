@@ -79,6 +79,20 @@ def planned(ended):
     return {name: value for _, name, value, _ in rows}
 
 
+def test_surroundings_of_a_patch_are_named(nucleation, tmp_path):
+    """What is stable at every wavelength are the surroundings of a weakening patch."""
+    words = ["--loading", "remote", "--stress-rate", "1", "--n-x", "101", "--a", "0.0068"]
+    words += ["--zeta", "-0.0034", "--block-length", "12m", "--height", "6m", "--friction", "0.4"]
+    words += ["--second-body", "deformable"]
+    alone = nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run").out
+    assert "theory: sliding is stable at every wavelength" in " ".join(alone.split())
+    words += ["--varies", "zeta", "--shape", "step", "--width", "1.2m", "--change", "-2"]
+    patch = nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run").out
+    assert "sliding outside the step or bump is stable at every wavelength" in " ".join(
+        patch.split()
+    )
+
+
 def test_dry_run_writes_nothing(nucleation, tmp_path):
     ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
     assert ended.code == 0 and "theory: critical length 0.238 m" in ended.out

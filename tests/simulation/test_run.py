@@ -115,6 +115,14 @@ def test_step_underflow_is_a_named_failure():
     assert dataset.attrs["status"] == Outcome.STEP_UNDERFLOW.value
 
 
+def test_steps_below_the_round_off_of_time_are_a_named_failure():
+    """Steps of 1e-7 s after 1e9 s would leave the time as it is."""
+    first = next(run(COARSE))
+    late = dataclasses.replace(first.state, past_times=first.state.past_times + 1e9)
+    with pytest.raises(SimulationFailure, match="fell below the shortest step"):
+        list(itertools.islice(run(COARSE, (late, first.control)), 3))
+
+
 def test_tension_is_a_named_failure(monkeypatch):
     """However short the step: as in the slip law's event on fine meshes."""
     solved = Interface.solve

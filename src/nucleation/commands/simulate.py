@@ -112,7 +112,9 @@ def _plan_lines(run: Run) -> list[str]:
     element = run.parameters.geometry.length / mesh.n_x
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
-        theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
+        uniform = run.parameters.heterogeneity.varies == "none"
+        whose = "sliding" if uniform else "sliding outside the step or bump"
+        theory = f"{whose} is stable at every wavelength, no critical length; {mesh.n_x}"
     lines = [f"theory: {theory} elements of {in_unit(element, 'm')}"]
     patch = stability_length_of(run.parameters, critical)
     if not math.isnan(patch):

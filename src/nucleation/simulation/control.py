@@ -13,6 +13,7 @@ from .stepping import BDF, rung_below, rung_value
 
 SAFETY = 0.85  # of the step size against the estimated error
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
+RESOLVED = 16.0  # shortest step over the round-off of the time
 
 
 class SimulationFailure(RuntimeError):
@@ -83,17 +84,19 @@ def accepted_step(
     Raises
     ------
     SimulationFailure
-        If the step would have to be shorter than ``stepping.shortest_step``.
+        If the step would have to be shorter than ``stepping.shortest_step``, or than the time's
+        round-off.
     """
     scheme = dynamics.scheme
     wanted = control.wanted
     rejected = control.rejected
     growth = scheme.largest_growth
     cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
+    shortest = max(stepping.shortest_step, RESOLVED * float(np.spacing(state.time)))
     while True:
         rung = rung_below(min(wanted, longest))
         beta = rung_value(rung)
-        if beta < stepping.shortest_step:
+        if beta < shortest:
             outcome = Outcome.STEP_UNDERFLOW if cause is None else cause.outcome
             raise SimulationFailure(outcome, state, f"step {beta:.3g} s; {cause}")
         try:
