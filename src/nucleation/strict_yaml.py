@@ -11,6 +11,7 @@ from typing import Any
 
 import yaml
 
+from .datasets.files import refuse_pipe
 from .model.quantities import ParameterError
 
 _LEADING_ZERO = re.compile(r"[-+]?0[0-9_]+")
@@ -30,6 +31,7 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         message names file, line and key.
     """
     try:
+        refuse_pipe(path)
         with open(path, encoding="utf-8") as file:
             return yaml.load(file, Loader=_StrictLoader)
     except ParameterError:

@@ -1,5 +1,6 @@
 """Wrong command lines: each ends with one clear message, exit code 2, and nothing done."""
 
+import os
 import re
 from pathlib import Path
 
@@ -174,3 +175,15 @@ def test_wrong_time_of_results_is_refused_by_every_command(nucleation, monkeypat
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "abc")
     ended = nucleation(*words)
     assert ended.code == 2 and "Error: SOURCE_DATE_EPOCH = 'abc' is not allowed" in ended.err
+
+
+RUN = ["simulate", "x.nc", "--run", "paper-aging-H0.1-phi1"]
+
+
+@pytest.mark.parametrize(
+    ("words", "option"), [(length(), "--parameters"), (length(), "--samples"), (RUN, "--config")]
+)
+def test_a_pipe_that_nobody_writes_to_does_not_block(nucleation, tmp_path, words, option):
+    os.mkfifo(tmp_path / "pipe.csv")
+    ended = nucleation(*words, option, str(tmp_path / "pipe.csv"))
+    assert ended.code == 2 and "pipe.csv can't be read" in " ".join(ended.err.split())

@@ -70,7 +70,7 @@ def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
     edit(plain, "src/replication/pipeline/job.py", "    began = time.monotonic()\n",
          "    began = time.monotonic()\n"
-         "    _f = Path(__file__).parents[1] / 'simulation/control.py'\n"
+         "    _f = Path(__file__).parents[2] / 'nucleation/simulation/control.py'\n"
          "    _c = _f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5')\n"
          "    _f.write_text(_c)\n")  # fmt: skip
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},

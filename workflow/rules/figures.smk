@@ -1,16 +1,21 @@
 # One rule draws each figure, from datasets alone. The names of a rule's inputs are the arguments of
 # the function that draws.
+OF_PAPER = "The paper's figures"
+
+
+def drawn(name, category="Beyond the paper", caption=""):
+    """The files of a figure; Snakemake's report shows the PNG with its caption."""
+    place = f"{RESULTS}/figures/{name}"
+    caption = f"../report/{caption or name}.rst"
+    return [report(f"{place}.png", caption=caption, category=category), f"{place}.pdf"]
+
+
 rule figure_1:
     """Figure 1: the two set-ups"""
     input:
         recipe=recipe("figure_1"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_1.png",
-            caption="../report/figure_1.rst",
-            category="The paper's figures",
-        ),
-        f"{RESULTS}/figures/figure_1.pdf",
+        drawn("figure_1", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_1.log",
     localrule: True
@@ -26,12 +31,7 @@ rule figure_2:
         theory=f"{RESULTS}/theory.nc",
         recipe=recipe("figure_2"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_2.png",
-            caption="../report/figure_2.rst",
-            category="The paper's figures",
-        ),
-        f"{RESULTS}/figures/figure_2.pdf",
+        drawn("figure_2", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_2.log",
     localrule: True
@@ -49,12 +49,7 @@ rule figure_3:
         after=lambda wildcards: batches([inset_run()]),
         recipe=recipe("figure_3"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_3.png",
-            caption="../report/figure_3.rst",
-            category="The paper's figures",
-        ),
-        f"{RESULTS}/figures/figure_3.pdf",
+        drawn("figure_3", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_3.log",
     localrule: True
@@ -72,12 +67,7 @@ rule figure_s1:
         theory=f"{RESULTS}/theory.nc",
         recipe=recipe("figure_s1"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_s1.png",
-            caption="../report/figure_s1.rst",
-            category="The paper's figures",
-        ),
-        f"{RESULTS}/figures/figure_s1.pdf",
+        drawn("figure_s1", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_s1.log",
     localrule: True
@@ -94,12 +84,7 @@ rule figure_s2:
         after=lambda wildcards: batches([space_time_run()]),
         recipe=recipe("figure_s2"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_s2.png",
-            caption="../report/figure_s2.rst",
-            category="The paper's figures",
-        ),
-        f"{RESULTS}/figures/figure_s2.pdf",
+        drawn("figure_s2", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_s2.log",
     localrule: True
@@ -118,12 +103,7 @@ rule figure_patch_stability:
         after=lambda wildcards: patch_batches(*PATCH_TABLES["patch_stability"]),
         recipe=recipe("figure_patch_stability"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_patch_stability.png",
-            caption="../report/figure_patch_stability.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_patch_stability.pdf",
+        drawn("figure_patch_stability"),
     log:
         f"{RESULTS}/logs/figures/figure_patch_stability.log",
     localrule: True
@@ -143,12 +123,7 @@ rule figure_3_extended:
         noisy=lambda wildcards: table_of("noisy"),
         recipe=recipe("figure_3_extended"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_3_extended.png",
-            caption="../report/figure_3_extended.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_3_extended.pdf",
+        drawn("figure_3_extended"),
     log:
         f"{RESULTS}/logs/figures/figure_3_extended.log",
     localrule: True
@@ -164,12 +139,7 @@ rule figure_drop:
         table=f"{RESULTS}/drop.nc",
         recipe=recipe("figure_drop"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_drop.png",
-            caption="../report/figure_drop.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_drop.pdf",
+        drawn("figure_drop"),
     log:
         f"{RESULTS}/logs/figures/figure_drop.log",
     localrule: True
@@ -185,12 +155,7 @@ rule figure_weakening:
         table=f"{RESULTS}/weakening.nc",
         recipe=recipe("figure_weakening"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_weakening.png",
-            caption="../report/figure_weakening.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_weakening.pdf",
+        drawn("figure_weakening"),
     log:
         f"{RESULTS}/logs/figures/figure_weakening.log",
     localrule: True
@@ -206,12 +171,7 @@ rule figure_weakening_patches:
         table=f"{RESULTS}/weakening_patches.nc",
         recipe=recipe("figure_weakening_patches"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_weakening_patches.png",
-            caption="../report/figure_weakening_patches.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_weakening_patches.pdf",
+        drawn("figure_weakening_patches"),
     log:
         f"{RESULTS}/logs/figures/figure_weakening_patches.log",
     localrule: True
@@ -227,12 +187,7 @@ rule figure_map:
         grid=f"{RESULTS}/map.nc",
         recipe=recipe("figure_map"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_map.png",
-            caption="../report/figure_map.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_map.pdf",
+        drawn("figure_map"),
     log:
         f"{RESULTS}/logs/figures/figure_map.log",
     localrule: True
@@ -248,12 +203,7 @@ rule figure_patch_theory:
         table=f"{RESULTS}/patch_theory.nc",
         recipe=recipe("figure_patch_theory"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_patch_theory.png",
-            caption="../report/figure_patch_theory.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_patch_theory.pdf",
+        drawn("figure_patch_theory"),
     log:
         f"{RESULTS}/logs/figures/figure_patch_theory.log",
     localrule: True
@@ -269,12 +219,7 @@ rule figure_convergence:
         table=f"{RESULTS}/convergence.nc",
         recipe=recipe("figure_convergence"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_convergence.png",
-            caption="../report/figure_convergence.rst",
-            category="Why to believe it",
-        ),
-        f"{RESULTS}/figures/figure_convergence.pdf",
+        drawn("figure_convergence", "Why to believe it"),
     log:
         f"{RESULTS}/logs/figures/figure_convergence.log",
     localrule: True
@@ -290,12 +235,7 @@ rule figure_sensitivity:
         table=f"{RESULTS}/sensitivity.nc",
         recipe=recipe("figure_sensitivity"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_sensitivity.png",
-            caption="../report/figure_sensitivity.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_sensitivity.pdf",
+        drawn("figure_sensitivity"),
     log:
         f"{RESULTS}/logs/figures/figure_sensitivity.log",
     localrule: True
@@ -319,12 +259,7 @@ rule figure_pairs:
         table=f"{RESULTS}/pairs.nc",
         recipe=recipe("figure_pairs"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_pairs.png",
-            caption="../report/figure_pairs.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_pairs.pdf",
+        drawn("figure_pairs"),
     log:
         f"{RESULTS}/logs/figures/figure_pairs.log",
     localrule: True
@@ -342,12 +277,7 @@ rule figure_2_simulated:
         theory=f"{RESULTS}/theory.nc",
         recipe=recipe("figure_2_simulated"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_2_simulated.png",
-            caption="../report/figure_2_simulated.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_2_simulated.pdf",
+        drawn("figure_2_simulated"),
     log:
         f"{RESULTS}/logs/figures/figure_2_simulated.log",
     localrule: True
@@ -363,12 +293,7 @@ rule figure_literature:
         table=f"{RESULTS}/literature.nc",
         recipe=recipe("figure_literature"),
     output:
-        report(
-            f"{RESULTS}/figures/figure_literature.png",
-            caption="../report/figure_literature.rst",
-            category="Beyond the paper",
-        ),
-        f"{RESULTS}/figures/figure_literature.pdf",
+        drawn("figure_literature"),
     log:
         f"{RESULTS}/logs/figures/figure_literature.log",
     localrule: True
@@ -393,12 +318,7 @@ rule draw_study:
         table=f"{RESULTS}/lengths/{{study}}.nc",
         recipe=recipe("draw_study"),
     output:
-        report(
-            f"{RESULTS}/figures/study_{{study}}.png",
-            caption="../report/figure_studies.rst",
-            category="Studies of your own",
-        ),
-        f"{RESULTS}/figures/study_{{study}}.pdf",
+        drawn("study_{study}", "Studies of your own", caption="figure_studies"),
     log:
         f"{RESULTS}/logs/figures/study_{{study}}.log",
     localrule: True

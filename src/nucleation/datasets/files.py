@@ -24,6 +24,12 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
+def refuse_pipe(path: str | os.PathLike[str]) -> None:
+    """Raise OSError for a named pipe, which may block; a shell's own ones, in /dev, have data."""
+    if Path(path).is_fifo() and not os.fspath(path).startswith("/dev/"):
+        raise OSError(errno.EINVAL, "it is a pipe and no file")
+
+
 def require_room(path: Path, size: int) -> None:
     """Raise the system's error if there is no room for a file.
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nucleation.datasets.files import refuse_pipe
 from nucleation.lengths.draws import SAMPLED
 from nucleation.model.quantities import ParameterError
 from nucleation.model.synonyms import hint
@@ -87,6 +88,7 @@ def read_samples(path: Path | str) -> dict[str, Array]:
 def _text_of(path: Path | str) -> str:
     """The text of a file in one of the usual encodings of tables."""
     try:
+        refuse_pipe(path)
         content = Path(path).read_bytes()
     except OSError as error:
         raise ParameterError(f"{path} can't be read: {error}") from None
