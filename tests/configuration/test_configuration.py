@@ -208,9 +208,27 @@ def test_parameters_survive_the_way_through_a_rule():
         assert Parameters.from_dict(yaml.safe_load(as_text)) == run.parameters
 
 
-def test_unknown_run_is_named():
-    with pytest.raises(ParameterError, match="role: paper has a run with height 7 m"):
-        load(CONFIG / "quick.yaml").shown(7)
+def test_figures_show_the_nearest_height():
+    quick = load(CONFIG / "quick.yaml")
+    highest = max(run.labels["height"] for run in quick.runs_for("paper"))
+    assert quick.shown(7.0).labels["height"] == highest
+    old = study({"height": 0.1, "initial_state": 3.0}, role="paper")
+    with pytest.raises(ParameterError, match="has a run with evolution = aging and initial_state"):
+        configure(old).shown(0.1)
+
+
+def test_figure_3_with_other_heights_is_one_edit():
+    """The study keeps its role and mesh, and the theory's curve begins below the lowest point."""
+    made = configure({"studies": {"paper": {"runs": [{"height": [0.001, 0.2]}]}}})
+    assert made.studies_for("paper") == ["paper"]
+    low, high = made.runs
+    assert (low.parameters.mesh.n_y, low.parameters.geometry.height) == (150, 0.001)
+    assert made.shown(made.figures.inset_height) == high
+    assert made.shown(made.figures.space_time_height) == low
+    heights = made.drawn_curves().heights
+    assert heights[0] < 0.001 and heights[-1] > 0.2 and list(heights) == sorted(heights)
+    assert set(made.curves.heights) < set(heights)
+    assert papers().drawn_curves() == papers().curves  # whose heights suffice
 
 
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])

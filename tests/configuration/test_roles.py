@@ -41,16 +41,6 @@ BAD = {
         study(TALL, role="pairs"),
         ["second_body = rigid is not allowed with role = pairs: it must be deformable"],
     ),
-    "not the height of a figure": (
-        study(TALL, role="paper"),
-        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, "
-         "initial_state = 1 s",
-         "figures.space_time_height"],
-    ),
-    "not its state": (
-        study({"height": 0.005, "initial_state": 3.0}, TALL, role="paper"),
-        ["height = 0.005 m, evolution"],
-    ),
     "two maps": (
         {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",
                             "runs": [TALL]} for name in ("one", "other")}},

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from configurations import papers
 
+from replication.configuration.load import load
 from replication.figures.beyond import figure_patch_theory
 from replication.tables import theory as theory_table
 
@@ -33,6 +34,24 @@ def test_a_row_for_each_fault(table):
     assert table["front_frequency"].values == pytest.approx([13.15, 11.95], rel=0.03)
     assert (table["front_time"].values > 6.5).all()
     assert set(theory_table.COLUMNS) <= set(table)
+
+
+@pytest.mark.slow
+def test_the_stress_under_a_stiff_body_has_no_kinks():
+    """It falls ever less steeply from the pushed edge on; with 32 modes it had steps."""
+    stiff = load(lazy=True).runs_of("figure_2_simulated")
+    run = next(
+        run
+        for run in stiff
+        if run.labels["height"] == 1.0 and "phi1-shear_modulus120900000000" in run.id
+    )
+    row = {"id": run.id, "f_beta": -0.38, "front_length": 0.5 * run.critical_length}
+    drawn = theory_table._profiles([row], {run.id: run.to_dict()})
+    x, stress = drawn["shown_x"][1][0], drawn["shown_stress"][1][0]
+    slopes = np.diff(stress) / np.diff(x)
+    shown = (x[1:] > 0.1) & (x[1:] < 0.8)
+    assert slopes[shown].max() < 0.0
+    assert (np.diff(np.abs(slopes[shown])) > -0.02).all()  # from the front to the edge
 
 
 @pytest.mark.slow

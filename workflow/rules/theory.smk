@@ -14,7 +14,7 @@ rule theory:
         interface=asdict(settings.main_text_interface),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
-        curves=asdict(settings.curves),
+        curves=lambda wildcards: asdict(settings.drawn_curves()),
     shell:
         JOB
 

@@ -5,7 +5,10 @@ import difflib
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
+import numpy as np
+
 from nucleation.model.quantities import ParameterError
+from nucleation.theory.settings import Curves
 
 from .contradictions import run_problems
 from .refusals import stop_on
@@ -93,7 +96,7 @@ class Configuration(Settings):
         return list(_found("batch", name, batches, study))
 
     def shown(self, height: float) -> Run:
-        """The run with the role ``paper`` of a height (m) that figures show.
+        """The run with the role ``paper`` nearest to a height (m), which figures show.
 
         Raises
         ------
@@ -103,8 +106,22 @@ class Configuration(Settings):
         runs = self.runs_for(PAPERS)
         run = shown(runs, height, self.base)
         if run is None:
-            raise ParameterError(f"no study with role: paper has a run with height {height:g} m")
+            law = self.base.friction.evolution
+            age = self.base.loading.initial_state
+            raise ParameterError(
+                f"no study with role: paper has a run with evolution = {law} and initial_state = "
+                f"{age:g} s"
+            )
         return run
+
+    def drawn_curves(self) -> Curves:
+        """The theory's curves, with heights beyond either end of the runs in Figure 3."""
+        heights = self.curves.heights
+        simulated = [run.parameters.geometry.height for run in self.runs_for(PAPERS)]
+        low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
+        below = np.geomspace(low, min(heights), 20, endpoint=False) if low < min(heights) else []
+        above = np.geomspace(high, max(heights), 20, endpoint=False) if high > max(heights) else []
+        return dataclasses.replace(self.curves, heights=(*below, *heights, *above[::-1]))
 
     def problems_of(self, study: str) -> list[str]:
         """The problems with the runs of a study, one line for each."""
@@ -125,13 +142,7 @@ class Configuration(Settings):
         runs = [run for _, run in found if isinstance(run, Run)]
         problems = list(self._run_problems(found))
         if not problems:
-            problems += problems_of_runs(
-                study,
-                self.studies[study],
-                runs,
-                self.figures,
-                self.base,
-            )
+            problems += problems_of_runs(study, self.studies[study], runs)
         batches: dict[str, list[Run]] = {}
         for run in runs:
             if run.batch:

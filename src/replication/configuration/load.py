@@ -79,8 +79,10 @@ def completed(values: Any) -> Any:
     ParameterError
         If there is no default configuration, because the library is not in a checkout.
     """
-    if not isinstance(values, dict) or "studies" in values:
+    if not isinstance(values, dict):
         return values
+    if "studies" in values:
+        return {**values, "studies": _with_paper(values["studies"])}
     in_checkout = all(path.is_file() for path in DEFAULTS)
     if not in_checkout:
         raise ParameterError(
@@ -91,6 +93,20 @@ def completed(values: Any) -> Any:
     if "friction" in values or "loading" in values:
         del default["main_text_interface"]  # the rounded values of the paper's own friction law
     return _merged(default, values)
+
+
+def _with_paper(studies: Any) -> Any:
+    """Studies, where one that has a name of the paper's and no role is that study with changes."""
+    if not isinstance(studies, dict):
+        return studies
+    unnamed = []
+    for name, section in studies.items():
+        if isinstance(section, dict) and "role" not in section:
+            unnamed.append(name)
+    if not unnamed or not DEFAULTS[0].is_file():
+        return studies
+    papers = read_yaml(DEFAULTS[0])["studies"]
+    return studies | {name: papers[name] | studies[name] for name in unnamed if name in papers}
 
 
 def configure(

@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from nucleation.model.parameters import Parameters
-
 from .roles import ROLES
-from .runs import Run, shown
-from .settings import FigureSettings, StudySettings
+from .runs import Run
+from .settings import StudySettings
 
 _Problems = Iterator[str]
 
@@ -39,8 +37,6 @@ def problems_of_runs(
     name: str,
     settings: StudySettings,
     runs: Sequence[Run],
-    figures: FigureSettings,
-    base: Parameters,
 ) -> _Problems:
     """Runs of a study that contradict its role, and missing ones, a line for each.
 
@@ -52,10 +48,6 @@ def problems_of_runs(
         Its settings.
     runs : sequence of Run
         All runs of the study.
-    figures : FigureSettings
-        The heights (m) in figures.
-    base : Parameters
-        Values of the parameters that no study sets.
     """
     role = settings.role
     for need in ROLES[role].runs:
@@ -65,13 +57,3 @@ def problems_of_runs(
                 key = f"studies.{name}: {run.id}: {need.name}"
                 yield need.refusal(key, value, role)
                 break  # the first run shows the problem
-    law = base.friction.evolution
-    age = base.loading.initial_state
-    keys = ROLES[role].heights
-    for key in keys:
-        height = getattr(figures, key)
-        if shown(runs, height, base) is None:
-            yield (
-                f"studies.{name}.role = {role} needs a run with height = {height:g} m"
-                f", evolution = {law}, initial_state = {age:g} s: figures.{key} names it"
-            )

@@ -56,7 +56,6 @@ class _Role(NamedTuple):
     one_by_one: bool = True  # whether other results use single simulations of the study
     study: tuple[_Need, ...] = ()
     runs: tuple[_Need, ...] = ()
-    heights: tuple[str, ...] = ()  # keys of the section figures: each height needs a run
 
 
 ROLES = {
@@ -69,7 +68,6 @@ ROLES = {
         "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts",
         study=(_LENGTHS,),
         runs=(_INTERFACE,),
-        heights=("inset_height", "space_time_height"),
     ),
     JUDGED: _Role(
         "the runs for verdicts about lengths",

@@ -1,6 +1,7 @@
 """Simulations of studies, with the data that the study and the theory give for them."""
 
 import dataclasses
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -98,28 +99,14 @@ def first_realisations(runs: Iterable[Run]) -> list[Run]:
 
 
 def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
-    """The run of a height that figures show.
+    """The run that figures show: nearest to a height (m), with the configuration's law and state.
 
-    Parameters
-    ----------
-    runs : sequence of Run
-        Candidates.
-    height : float
-        Block height (m).
-    base : Parameters
-        The configuration's own values.
-
-    Returns
-    -------
-    Run or None
-        The first run with the configuration's own evolution law and initial state.
+    None if there is no run with its evolution law and initial state.
     """
     wanted = {
-        "height": height,
         "evolution": base.friction.evolution,
         "initial_state": base.loading.initial_state,
     }
-    for run in runs:
-        if wanted.items() <= run.labels.items():
-            return run
-    return None
+    usual = [run for run in runs if wanted.items() <= run.labels.items()]
+    distance = {run.id: abs(math.log(run.labels["height"] / height)) for run in usual}
+    return min(usual, key=lambda run: distance[run.id], default=None)

@@ -69,10 +69,16 @@ class FigureSettings(Checked):
     """Which simulations with the role ``paper`` the figures show."""
 
     inset_height: float = quantity(
-        "height of the simulation in the inset of Figure 3", "(0.0, 1e6) m", symbol="H", default=0.1
+        "height of the simulation in the inset of Figure 3, or the nearest",
+        "(0.0, 1e6) m",
+        symbol="H",
+        default=0.1,
     )
     space_time_height: float = quantity(
-        "height of the simulation in Figure S2", "(0.0, 1e6) m", symbol="H", default=0.005
+        "height of the simulation in Figure S2, or the nearest",
+        "(0.0, 1e6) m",
+        symbol="H",
+        default=0.005,
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline
 
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
@@ -60,6 +60,7 @@ DRAWN = {
 
 CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
 PLACES = 121  # along a patch, in its angle
+_SHOWN_MODES = 256  # with fewer, curves have kinks near a pushed edge under strong contrast
 PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 
 _PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
@@ -164,14 +165,15 @@ def _profiles(
     for row in shown:
         parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
         patches = Patches.of(parameters)
-        made = advance(patches, [row["front_length"]], parameters.loading.initial_state)
+        start = parameters.loading.initial_state
+        made = advance(patches, [row["front_length"]], start, number=_SHOWN_MODES)
         (creep,) = made.creeps
         contrasts.append(row["f_beta"])
         theta = creep.response.modes.theta
         angles = np.linspace(theta[0], theta[-1], PLACES)
         places.append(np.cos(angles))
-        rates.append(PchipInterpolator(theta, creep.slip_rate)(angles))
-        stresses.append(PchipInterpolator(theta, creep.normal_stress)(angles))
+        rates.append(CubicSpline(theta, creep.slip_rate)(angles))
+        stresses.append(CubicSpline(theta, creep.normal_stress)(angles))
     at = "case", "place"
     return {
         "shown_beta": ("case", contrasts),

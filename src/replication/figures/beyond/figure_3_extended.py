@@ -50,7 +50,7 @@ _STABILITY = _Series(
     "stability_length",
     _JUDGED,
     "patch turns unstable, $L_s$",
-    {"ms": 4.8, "color": style.GREEN},
+    {"ms": 4.8, "color": style.STABILITY},
 )
 
 

@@ -15,7 +15,7 @@ from .. import laws
 _SHOWN: dict[str, str | float] = {"evolution": USUAL_EVOLUTION, "height": 0.02}
 _KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
-    "state": ("s", style.GREEN, "state"),
+    "state": ("s", style.SKY_BLUE, "state"),
     "drive_velocity": ("^", style.PURPLE, "drive"),
     "strength": ("D", style.BLACK, "roughness"),
 }
@@ -114,7 +114,8 @@ def _draw_strengths(
         laws.draw_range(axes, runs["strength"].values[0], lengths, elinewidth=0.9, **look)
     _draw_floors(axes, fault, f"floor_{kind}", theory)
     stability = fault["stability_length"].values[0] / theory
-    style.level(axes, stability, ":", 1.0, label="patch turns unstable, $L_s$")
+    label = "patch turns unstable, $L_s$"
+    style.level(axes, stability, ":", 1.0, color=style.STABILITY, label=label)
     axes.set_title(f"fluctuating {label}", loc="center")
     axes.set(
         xscale="log",

@@ -15,7 +15,7 @@ from .figure_studies import Curves
 _SIDES = (
     ("free", "o", style.VERMILLION),
     ("clamped", "s", style.BLUE),
-    ("roller", "^", style.GREEN),
+    ("roller", "^", style.PURPLE),
 )
 """Boundary conditions of the second body's far side, with marker and colour."""
 
@@ -76,7 +76,7 @@ def _draw_heights(
     low = theory * rows["length_ratio_low"]
     high = theory * rows["length_ratio_high"]
     axes.vlines(height, low, high, color=style.VERMILLION)
-    look: style.Options = {"color": style.BLACK, "ms": 4.0, "mfc": "none"}
+    look: style.Options = {"color": style.STABILITY, "ms": 4.0, "mfc": "none"}
     label = "patch turns unstable, $L_s$"
     axes.plot(height, rows["stability_length"], "D", label=label, **look)
     if height.size:

@@ -40,7 +40,7 @@ def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     axes.semilogx(
         table["curve_ratio"],
         curve,
-        color=style.THEORY,
+        color=style.STABILITY,
         label="thin layers",
     )
     own = laws.where(table, f_beta=0.0)

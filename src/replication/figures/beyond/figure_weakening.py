@@ -10,7 +10,7 @@ from nucleation.pictures import style
 from .. import laws
 
 _LINES = {
-    "curve_stability": (r"$L_s$: the patch turns unstable", style.BLUE, "-"),
+    "curve_stability": (r"$L_s$: the patch turns unstable", style.STABILITY, "-"),
     "curve_runaway": (
         r"$L_{\mathrm{run}}$: slow slip has no end but an event",
         style.VERMILLION,
