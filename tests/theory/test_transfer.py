@@ -1,25 +1,17 @@
 import itertools
 import warnings
-from functools import cached_property
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from layer_problem import reference_stiffness, reference_transfer
 from two_bodies import RIGID, Body, transfer_functions
 
 from nucleation.model.material import Material
-from nucleation.theory.bounds import transfer_bounds, wave_bounds
-from nucleation.theory.pair import LayerPair
 from nucleation.theory.stiffness import FAR_SIDES
-from nucleation.theory.waves import Waves
 
 LAYER_NUMBERS = (1e-8, 3e-3, 0.4, 1.3, 6.0, 24.0, 26.0, 100.0)
 SOFT, STIFF, AUXETIC = Material(3.1e9, 1 / 3), Material(8.7e9, 0.21), Material(1e9, -0.6)
 KINDS = tuple(FAR_SIDES)
-WAVES = [name for name, value in vars(Waves).items() if isinstance(value, cached_property)]
 UPPER = [
     Body(SOFT, 0.02, "velocity"),
     Body(SOFT, 0.03, "traction"),
@@ -97,48 +89,6 @@ def test_any_layer_number_is_safe(upper, lower):
     assert np.all(g1 > 0) and np.all(np.isfinite(g2))
     mirrored = transfer_functions(-k, upper, lower)
     np.testing.assert_array_equal(mirrored, [-g1, g2])
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    q=st.floats(1e-8, 24.0),
-    width=st.floats(1e-6, 3.0),
-    nu=st.floats(-0.9, 0.4999),
-    far_side=st.sampled_from(KINDS),
-)
-def test_every_term_lies_between_its_extremes(q, width, nu, far_side):
-    """Of the whole interval, on a fine grid: monotonic where that is assumed."""
-    inside = np.minimum(np.linspace(q, q + width, 101), 25.0)
-    layers = Body(Material(1e9, nu), 1.0, far_side).layers
-    nothing = SimpleNamespace(**dict.fromkeys(WAVES, 0.0))
-
-    def parts(waves):
-        """All terms, with what is added to the coupling and what is subtracted from it apart."""
-        return *layers.terms(waves, nothing), -layers.terms(nothing, waves).xy
-
-    least, greatest = map(parts, wave_bounds(layers, inside[0], inside[-1]))
-    factor = 1.0 if inside[0] >= 1.0 else np.exp(2.0 * (inside - inside[-1]))
-    for low, value, high in zip(least, parts(Waves(inside)), greatest, strict=True):
-        scaled = value * factor
-        assert np.all(low * (1 - 1e-12) <= scaled) and np.all(scaled <= high * (1 + 1e-12))
-
-
-@pytest.mark.parametrize(("upper", "lower"), PAIRS)
-@pytest.mark.parametrize("width", [1e-5, 1e-3, 0.1, 1.0])
-def test_bounds_enclose_the_transfer_functions(upper, lower, width):
-    low = np.geomspace(1e-4, 1e4, 50)
-    upper, lower = or_rigid(upper), or_rigid(lower)
-    bounds = transfer_bounds(low, low * np.exp(width), LayerPair(upper.layers, lower.layers))
-    inside = low * np.exp(width * np.linspace(0.0, 1.0, 41))[:, None]
-    g1, g2 = transfer_functions(inside, upper, lower)
-    slack = 1 + 1e-13
-    assert np.all(g1.min(0) * slack >= bounds.g1_low)
-    assert np.all(g1.max(0) <= bounds.g1_high * slack)
-    coupling = np.abs(g2).max(0)
-    assert np.all(coupling <= bounds.g2_high * slack + 1e-15 * g1.max(0))
-    if width == 1e-5:
-        assert np.all(bounds.g1_high < 1.01 * bounds.g1_low)
-        assert np.all(bounds.g2_high < 1.01 * coupling + 0.01 * g1.max(0))
 
 
 def test_errors():

@@ -1,15 +1,11 @@
 """The largest marginal wavenumber of many systems at once (:mod:`.marginal`).
 
-The largest crossing is not missed:
-
-- ``g >= b`` is stable for any rho. Above ``k = SATURATION/H`` every layer is a half-space, G1
-  and G2 are constant and g is proportional to k; the larger of that k and of the one where the
-  half-spaces have ``g = b`` bounds k_c from above.
-- Below, an interval of log k is dropped only if bounds of G1 and G2 over all of it
-  (:mod:`.bounds`) prove it stable. The others are divided until an unstable point and a stable
-  one right above it are closer than :data:`RESOLUTION`, which is thus the narrowest unstable
-  band that is certainly found.
-- Where all ``Hk < 1e-3``, times the contrast of a zone with its body, G1 and G2 are powers of k.
+``g >= b`` is stable for any rho. Above ``k = SATURATION/H`` every layer is a half-space, G1 and G2
+are constant and g is proportional to k; the larger of that k and of the one where the half-spaces
+have ``g = b`` bounds k_c from above. Where all ``Hk < 1e-3``, times the contrast of a zone with its
+body, G1 and G2 are powers of k. Between these the margin of stability is computed at POINTS
+wavenumbers. Every dip of it above the last unstable point is searched for its minimum, so that no
+unstable band between two points is overlooked.
 """
 
 from typing import NamedTuple
@@ -17,48 +13,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .bounds import transfer_bounds
 from .marginal import marginal_stiffness, stability_margin
 from .spectrum import Systems
 from .stiffness import SATURATION, Array
 
-RESOLUTION = 1e-4  # an unstable band narrower than this in log k may be overlooked
+POINTS = 200  # of log k, at first
+PARTS = 16  # of the interval around a dip, in each of the ZOOMS
+ZOOMS = 4
 LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
 HALVINGS = 60  # of k, in the search among long waves
-INTERVALS = 64  # of log k at first
-PARTS = 16  # into which an undecided interval is divided
-TOGETHER = 1000  # systems that are searched at once, so that their arrays stay in the cache
+TOGETHER = 50  # systems that are searched at once, so that their arrays stay in the cache
 MOST_STEPS = 100  # of Ridders' method, which needs about ten
 ROUND_OFF = 1e-16  # change of log k at which it ends
-
-
-def certainly_stable(
-    systems: Systems,
-    k_low: Array,
-    k_high: Array,
-) -> NDArray[np.bool_]:
-    """Whether no mode in ``[k_low, k_high]`` grows, from rigorous bounds of g and rho.
-
-    Parameters
-    ----------
-    systems : Systems
-        Fields of shape (n,).
-    k_low, k_high : ndarray
-        Ends of the intervals of wavenumbers (1/m), shape (n,).
-
-    Returns
-    -------
-    ndarray
-        True where all of the interval is stable, shape (n,).
-    """
-    bounds = transfer_bounds(k_low, k_high, systems.pair)
-    zeta = systems.zeta
-    rho = systems.friction * bounds.g2_high / bounds.g1_low
-    minus, plus = marginal_stiffness(rho, systems.a, zeta)
-    high_enough = systems.softness * k_low * bounds.g1_low > plus
-    low_enough = systems.softness * k_high * bounds.g1_high < minus
-    without_roots = np.isnan(plus) & np.isfinite(rho)
-    return high_enough | ((zeta < 0.0) & (without_roots | low_enough))
 
 
 def largest_crossings(systems: Systems) -> Array:
@@ -72,8 +38,7 @@ def largest_crossings(systems: Systems) -> Array:
     for start in range(0, layered.size, TOGETHER):
         chosen = layered[start : start + TOGETHER]
         part = systems.at(chosen)
-        low, high = _brackets(part)
-        k[chosen] = _refined(part, low, high)
+        k[chosen] = _refined(part, *_brackets(part))
     return k
 
 
@@ -98,52 +63,50 @@ def _ends(systems: Systems) -> tuple[Array, Array]:
     return bottom, top
 
 
-def _brackets(systems: Systems) -> tuple[Array, Array]:
-    """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN.
-
-    Intervals of log k that are certainly stable are dropped, and so are those below a point known
-    to be unstable; the others are divided down to :data:`RESOLUTION`.
-    """
+def _brackets(systems: Systems) -> Array:
+    """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
     bottom, top = _ends(systems)
-    number = bottom.size
-    unstable = np.zeros(number)  # largest wavenumber known to be unstable
-    bracket = np.full((2, number), np.nan)
-    owner, low, high = _divided(np.arange(number), bottom, top, INTERVALS)
-    while owner.size:
-        growing = stability_margin(systems.at(owner), low) < 0.0
-        np.maximum.at(unstable, owner[growing], low[growing])
-        keep = low == unstable[owner]
-        above = np.flatnonzero(low > unstable[owner])
-        part = systems.at(owner[above])
-        keep[above] = ~certainly_stable(part, low[above], high[above])
-        owner = owner[keep]
-        low = low[keep]
-        high = high[keep]
-        narrow = np.log(high / low) < RESOLUTION
-        found = narrow & (low == unstable[owner])
-        bracket[:, owner[found]] = low[found], high[found]
-        wide = ~narrow
-        owner, low, high = _divided(owner[wide], low[wide], high[wide], PARTS)
+    rows = np.arange(bottom.size)
+    k = _spaced(bottom, top, POINTS)
+    margin = _margins(systems, k)
+    unstable = margin < 0.0
+    has_any = unstable.any(axis=1)
+    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
+    bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
+
+    before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
+    dips = (middle > 0.0) & (middle < before) & (middle < after)
+    owner, place = np.nonzero(dips & (np.arange(POINTS - 2) >= last[:, None]))
+    above = k[owner, place + 2]
+    lowest = _minima(systems.at(owner), k[owner, place], above)
+    found = stability_margin(systems.at(owner), lowest) < 0.0
+    bracket[:, owner[found]] = lowest[found], above[found]  # of several the last, the largest k
+
     missing = np.flatnonzero(np.isnan(bracket[0]))
     bracket[:, missing] = _brackets_of_long_waves(systems.at(missing), bottom[missing])
-    return bracket[0], bracket[1]
+    return bracket
 
 
-def _divided(
-    owner: NDArray,
-    low: Array,
-    high: Array,
-    parts: int,
-) -> tuple[NDArray, Array, Array]:
-    """Intervals of log k divided into equal parts, in their order."""
-    first = low[:, None]
-    last = high[:, None]
-    share = np.arange(1, parts) / parts
-    inner = first * (last / first) ** share
-    edges = np.concatenate([first, inner, last], axis=1)
-    lows = edges[:, :-1].ravel()
-    highs = edges[:, 1:].ravel()
-    return np.repeat(owner, parts), lows, highs
+def _minima(systems: Systems, low: Array, high: Array) -> Array:
+    """Wavenumbers (1/m) of the least margins between others, (n,)."""
+    rows = np.arange(low.size)
+    for _ in range(ZOOMS if low.size else 0):
+        k = _spaced(low, high, PARTS + 1)
+        least = np.argmin(_margins(systems, k), axis=1).clip(1, PARTS - 1)
+        low, high = k[rows, least - 1], k[rows, least + 1]
+    return np.sqrt(low * high)
+
+
+def _spaced(low: Array, high: Array, number: int) -> Array:
+    """Wavenumbers (1/m) with equal ratios between two others, (n, number)."""
+    share = np.linspace(0.0, 1.0, number)
+    return low[:, None] * (high / low)[:, None] ** share
+
+
+def _margins(systems: Systems, k: Array) -> Array:
+    """The margins of stability at wavenumbers of shape (n, m)."""
+    owner = np.broadcast_to(np.arange(k.shape[0])[:, None], k.shape)
+    return stability_margin(systems.at(owner), k)
 
 
 def _brackets_of_long_waves(
@@ -153,8 +116,7 @@ def _brackets_of_long_waves(
     """The same where all ``Hk`` are small: every quantity is a power of k."""
     k = bottom[:, None] * 0.5 ** np.arange(HALVINGS)  # at the first of them sliding is stable
     rows = np.arange(bottom.size)
-    index = np.broadcast_to(rows[:, None], k.shape)
-    growing = stability_margin(systems.at(index), k) < 0.0
+    growing = _margins(systems, k) < 0.0
     first = np.argmax(growing, axis=1)
     found = np.stack([k[rows, first], k[rows, first - 1]])
     return np.where(growing.any(axis=1), found, np.nan)

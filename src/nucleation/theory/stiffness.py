@@ -53,8 +53,7 @@ SATURATION = 25.0
 class StiffnessTerms(NamedTuple):
     """Numerators of ``A_xx, A_xy, A_yy, det A`` and their denominator, all times ``exp(-2q)``.
 
-    Each is a sum of :class:`~.waves.Waves` w with positive coefficients, less waves in ``A_xy``.
-    Both waves are the same but where :mod:`.bounds` looks for extremes.
+    Each but ``A_xy`` is a sum of :class:`~.waves.Waves` with positive coefficients.
     """
 
     denominator: Array
@@ -75,7 +74,6 @@ class Stiffness(NamedTuple):
 
 def _velocity_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
@@ -90,7 +88,6 @@ def _velocity_terms(
 
 def _roller_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
@@ -100,8 +97,7 @@ def _roller_terms(
     return StiffnessTerms(
         denominator=2.0 * (1.0 - 2.0 * nu) * w.sinh_2q + w.excess,
         xx=8.0 * (1.0 - nu) * w.sinh_squared,
-        xy=2.0 * (w.excess + 2.0 * np.maximum(-nu, 0.0) * w.sinh_2q)
-        - 4.0 * np.maximum(nu, 0.0) * less.sinh_2q,
+        xy=2.0 * (w.excess - 2.0 * nu * w.sinh_2q),
         yy=8.0 * (1.0 - nu) * w.cosh_squared,
         det=4.0 * (w.sinh_2q + w.linear),
     )
@@ -109,7 +105,6 @@ def _roller_terms(
 
 def _traction_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
@@ -126,7 +121,6 @@ def _traction_terms(
 
 def _clamped_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
@@ -142,14 +136,13 @@ def _clamped_terms(
     return StiffnessTerms(
         denominator=4.0 * (1.0 - nu) * kappa_less * w.sinh_squared + w.square_excess,
         xx=2.0 * (1.0 - nu) * (kappa_less * w.sinh_2q + w.excess),
-        xy=2.0 * (np.maximum(coupling, 0.0) * w.sinh_squared + w.square_excess)
-        - 2.0 * np.maximum(-coupling, 0.0) * less.sinh_squared,
+        xy=2.0 * (coupling * w.sinh_squared + w.square_excess),
         yy=2.0 * (1.0 - nu) * (kappa * w.sinh_2q + w.linear),
         det=4.0 * (kappa * w.sinh_squared + w.square + constant),
     )
 
 
-_Terms: TypeAlias = Callable[[Waves, Waves, Array], StiffnessTerms]
+_Terms: TypeAlias = Callable[[Waves, Array], StiffnessTerms]
 
 FAR_SIDES: dict[str, _Terms] = {
     "velocity": _velocity_terms,
@@ -163,7 +156,6 @@ FAR_SIDES: dict[str, _Terms] = {
 
 def _antiplane_free_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
@@ -172,7 +164,6 @@ def _antiplane_free_terms(
 
 def _antiplane_held_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
@@ -183,17 +174,7 @@ def antiplane_terms(
     numerator: Array,
     denominator: Array,
 ) -> StiffnessTerms:
-    """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``.
-
-    Parameters
-    ----------
-    numerator, denominator : ndarray
-        Times ``exp(-2q)``, shape of q.
-
-    Returns
-    -------
-    StiffnessTerms
-    """
+    """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
     return StiffnessTerms(
         denominator=denominator,
         xx=numerator,
@@ -217,22 +198,7 @@ def require_far_side(
     far_side: str,
     plane: str,
 ) -> None:
-    """Refuse a boundary condition that a plane of deformation does not have.
-
-    Parameters
-    ----------
-    name : str
-        Name of the parameter, for the message.
-    far_side : str
-        One of :data:`FAR_SIDES`.
-    plane : {"strain", "stress", "antiplane"}
-        Plane of deformation.
-
-    Raises
-    ------
-    ParameterError
-        If `far_side` is not allowed in this plane.
-    """
+    """Raise a ParameterError if a plane of deformation does not have the boundary condition."""
     if plane == ANTIPLANE and far_side not in OF_ANTIPLANE:
         allowed = ", ".join(OF_ANTIPLANE)
         raise ParameterError(
@@ -281,25 +247,9 @@ class Layers(NamedTuple):
         k = np.abs(np.asarray(wavenumber, dtype=float))
         return np.minimum(k * self.height, SATURATION)
 
-    def terms(self, waves: Waves, less: Waves) -> StiffnessTerms:
-        """Numerators and denominator of the stiffness, times ``exp(-2q)``.
-
-        Parameters
-        ----------
-        waves, less : Waves
-            Functions of q that are added, and those that are subtracted: the same ones, or bounds
-            on opposite sides.
-
-        Returns
-        -------
-        StiffnessTerms
-            Shape of q.
-        """
-        known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
-        return known[self.far_side](waves, less, self.poisson_ratio)
-
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness A at a wavenumber (1/m)."""
+        known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
         waves = Waves(self.layer_number(wavenumber))
-        below, *above = self.terms(waves, waves)
+        below, *above = known[self.far_side](waves, self.poisson_ratio)
         return Stiffness(*(numerator / below for numerator in above))

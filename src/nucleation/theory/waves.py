@@ -27,8 +27,7 @@ def _scaled_sinh_excess(x: Array) -> Array:
 class Waves:
     """The functions of ``q = |k| H`` in a layer's stiffness, times ``exp(-2q)``.
 
-    Each is computed when first used. All are positive. Without the factor all increase with q; with
-    it, each is monotonic for ``q >= 1``, since q exp(-2q) and q^2 exp(-2q) decrease there.
+    Each is computed when first used. All are positive.
     """
 
     def __init__(self, q: Array) -> None:

@@ -93,61 +93,33 @@ class Zone(NamedTuple):
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness at a wavenumber (1/m), over the body's modulus."""
         waves = Waves(self.layer.layer_number(wavenumber))
-        shares = self.shares(self.body.stiffness(wavenumber))
-        factors = self.factors(waves, waves)
-        terms = [share * np.stack(f) for share, f in zip(shares, factors, strict=True)]
+        behind = self.body.stiffness(wavenumber)
+        terms = [share * np.stack(of_layer) for share, of_layer in self._terms(waves, behind)]
         below, *above = np.add.reduce(terms)
-        return self.normalised(Stiffness(*(numerator / below for numerator in above)))
+        xx, xy, yy, det = (numerator / below for numerator in above)
+        scale = 1.0 / self.ratio  # from over the zone's modulus
+        return Stiffness(scale * xx, scale * xy, scale * yy, scale**2 * det)
 
-    def shares(self, behind: Stiffness) -> list[Array]:
-        """1, B_xx, B_yy, det B and B_xy, with the body's stiffness over its modulus given."""
+    def _terms(self, waves: Waves, behind: Stiffness) -> list[tuple[Array, StiffnessTerms]]:
+        """Shares 1, B_xx, B_yy, det B and B_xy, and the terms of the layer that each multiplies."""
+        nu = self.layer.poisson_ratio
         xx = self.ratio * behind.xx
         one = np.ones_like(xx)
         if self.layer.antiplane:
-            return [one, xx]
-        yy = self.ratio * behind.yy
-        compression = 1.0 - self.layer.poisson_ratio
-        det = 0.5 * self.ratio**2 * behind.det
-        return [one, compression * xx, compression * yy, det, self.ratio * behind.xy]
-
-    def factors(
-        self,
-        waves: Waves,
-        subtracted: Waves,
-    ) -> list[StiffnessTerms]:
-        """What multiplies each of the :meth:`shares`.
-
-        Parameters
-        ----------
-        waves, subtracted : Waves
-            Functions of kh, as in :meth:`.stiffness.Layers.terms`.
-
-        Returns
-        -------
-        list of StiffnessTerms
-            Times ``exp(-2 kh)``; shape of kh.
-        """
-        nu = self.layer.poisson_ratio
-        if self.layer.antiplane:
             held, free = 2.0 * waves.cosh_squared, waves.sinh_2q
-            return [antiplane_terms(free, held), antiplane_terms(held, free)]
-        known = [FAR_SIDES[name] for name in ("free", "velocity", "roller", "clamped")]
-        return [of_layer(waves, subtracted, nu) for of_layer in (*known, _mixed_terms)]
-
-    def normalised(self, over_zone: Stiffness) -> Stiffness:
-        """A stiffness over the body's modulus, from that over the zone's."""
-        scale = 1.0 / self.ratio
-        return Stiffness(
-            xx=scale * over_zone.xx,
-            xy=scale * over_zone.xy,
-            yy=scale * over_zone.yy,
-            det=scale**2 * over_zone.det,
-        )
+            return [(one, antiplane_terms(free, held)), (xx, antiplane_terms(held, free))]
+        shares = {
+            "free": one,
+            "velocity": (1.0 - nu) * xx,
+            "roller": (1.0 - nu) * self.ratio * behind.yy,
+            "clamped": 0.5 * self.ratio**2 * behind.det,
+        }
+        found = [(share, FAR_SIDES[name](waves, nu)) for name, share in shares.items()]
+        return [*found, (self.ratio * behind.xy, _mixed_terms(waves, nu))]
 
 
 def _mixed_terms(
     w: Waves,
-    less: Waves,
     nu: Array,
 ) -> StiffnessTerms:
     """The factor of ``B_xy``; its entries may be negative."""
@@ -156,9 +128,9 @@ def _mixed_terms(
     kappa = 3.0 - 4.0 * nu
     constant = 8.0 * compression**2 * w.decay
     return StiffnessTerms(
-        denominator=2.0 * (expansion * kappa * w.sinh_squared - less.square),
-        xx=4.0 * compression * (expansion * w.sinh_2q - less.linear),
-        xy=constant + 4.0 * (expansion**2 * w.sinh_squared - less.square),
+        denominator=2.0 * (expansion * kappa * w.sinh_squared - w.square),
+        xx=4.0 * compression * (expansion * w.sinh_2q - w.linear),
+        xy=constant + 4.0 * (expansion**2 * w.sinh_squared - w.square),
         yy=4.0 * compression * (expansion * w.sinh_2q + w.linear),
         det=8.0 * (expansion * w.sinh_squared + w.square),
     )
