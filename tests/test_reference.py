@@ -5,10 +5,9 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
-import xarray as xr
 from configurations import papers
+from reference_evidence import table as reference_table
 
 from nucleation.extraction.extraction import extract
 from nucleation.simulation.run import simulate
@@ -26,6 +25,8 @@ def table(name):
 
 
 LENGTHS = table("lengths.csv")
+for own, row in table("measures.csv").items():
+    LENGTHS[own] |= row
 
 
 def test_reference_has_the_runs_of_the_configuration():
@@ -52,8 +53,7 @@ def test_fresh_simulation_gives_the_reference(name, tolerance):
 
 def means():
     """The reference's lengths by fault, each the mean of its realisations."""
-    frame = pd.read_csv(REFERENCE / "lengths.csv")
-    faults = over_realisations(xr.Dataset({name: ("run", frame[name]) for name in frame}))
+    faults = over_realisations(reference_table("lengths.csv"))
     rows = faults.to_dataframe().to_dict("records")
     return {re.sub(r"-seed\d+$", "", row["id"]): row for row in rows}
 

@@ -13,6 +13,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
+from reference_evidence import table as reference_table
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -26,7 +27,7 @@ from replication.configuration.roles import LONGER
 
 RESULTS = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
-LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
+LENGTHS = reference_table("lengths.csv").to_dataframe()
 
 
 def realisations(study, law, height, initial_state=1.0):

@@ -26,6 +26,8 @@ def says(name, *sentences):
 def table(name):
     """A table of the reference, with L/L_c where it has lengths."""
     found = pd.read_csv(REFERENCE / f"{name}.csv")
+    if name == "lengths":
+        found = found.merge(pd.read_csv(REFERENCE / "measures.csv"), on="id")
     if "critical_length" in found and "length" in found:
         found["ratio"] = found["length"] / found["critical_length"]
     return found

@@ -10,6 +10,9 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.model.linearised import linearised
 from nucleation.model.parameters import Parameters
 from replication.tables.lengths import (
+    COMPARED,
+    files,
+    join,
     lengths_table,
     of_studies,
     over_realisations,
@@ -128,3 +131,14 @@ def test_the_columns_file_names_each_column_once():
     head, *lines = of_studies([joined])[".columns.csv"].splitlines()
     assert head == "column,units,meaning,symbol"
     assert len(lines) == len({line.partition(",")[0] for line in lines}) > 40
+
+
+def test_csv_has_what_people_compare():
+    """Results, and the parameters that vary; the netCDF has all."""
+    one = made_up_table(PARAMETERS, record())
+    two = join([one, one.assign(n_x=one["n_x"] + 1, seed=one["seed"] + 1)])
+    made = files(two)
+    listed = made[".csv"].splitlines()[0].split(",")
+    assert set(listed) == {*COMPARED, "n_x"} and len(listed) < 30
+    assert set(made[".nc"]) > set(listed)
+    assert len(made[".csv"].splitlines()) == 3

@@ -92,7 +92,7 @@ rule extract:
         f"{RESULTS}/logs/lengths/{{study}}.log",
     priority: 1
     params:
-        call="replication.tables.lengths:lengths_table",
+        call="replication.tables.lengths:of_study",
         reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
         runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
         settings=asdict(settings.extraction),

@@ -209,11 +209,10 @@ class _Maker:
 
 def _warn_of_unusual_runs(recipe: Recipe, made: Any) -> None:
     """Report the runs of a study's table without an event, or with a remark."""
-    if isinstance(made, xr.Dataset) and "onset_time" in made:
-        study = recipe.name.removeprefix(_LENGTHS)
-        rows = rows_of(made)
-        for line in (*without_event(rows), *remarked(rows)):
-            LOGGER.warning(f"Warning: study {study}: {line}")
+    study = recipe.name.removeprefix(_LENGTHS)
+    rows = rows_of(made[".nc"])
+    for line in (*without_event(rows), *remarked(rows)):
+        LOGGER.warning(f"Warning: study {study}: {line}")
 
 
 def _files_of(made: Any) -> Mapping[str, Any]:

@@ -116,6 +116,22 @@ GIVEN = {
 """Columns that are a parameter, by its full name."""
 
 
+COMPARED = (
+    *("id", "study", "role", "evolution", "height", "initial_state", "a", "zeta"),
+    *("kind", "strength", "seed"),
+    *("onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high"),
+    *("critical_length", "stability_length", "stability_status"),
+    *("status", "simulated_time", "reached_length"),
+)
+"""Columns of every CSV file."""
+
+PARAMETERS = (
+    *GIVEN,
+    *("friction", "far_side", "second_height", "second_shear_modulus", "second_poisson_ratio"),
+)
+"""Columns of a CSV file whose runs differ in them."""
+
+
 def lengths_table(
     runs: Iterable[Row],
     simulations: Iterable[xr.Dataset],
@@ -284,9 +300,27 @@ def row(table: xr.Dataset, id: str) -> xr.Dataset:
     return table.isel(run=int(index))
 
 
+def files(table: xr.Dataset) -> dict[str, Any]:
+    """A table as netCDF, and as CSV what people compare: results, and parameters that vary."""
+    frame = table.to_dataframe()
+    names = []
+    for name in map(str, table.data_vars):
+        varies = name in PARAMETERS and frame[name].nunique(dropna=False) > 1
+        if name in COMPARED or varies:
+            names.append(name)
+    return {".nc": table, ".csv": frame[names].to_csv(index=False)}
+
+
+def of_study(
+    runs: Iterable[Row], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
+) -> dict[str, Any]:
+    """:func:`lengths_table` as files."""
+    return files(lengths_table(runs, simulations, settings))
+
+
 def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
-    """The table of several studies, and unit and meaning of its columns, by the file's ending."""
+    """The table of several studies, and unit and meaning of all its columns."""
     columns = COLUMNS | MEASURES
     described = [{"column": name, **column._asdict()} for name, column in columns.items()]
     meanings = pd.DataFrame(described).rename(columns={"long_name": "meaning"})
-    return {".nc": join(tables), ".columns.csv": meanings.to_csv(index=False)}
+    return {**files(join(tables)), ".columns.csv": meanings.to_csv(index=False)}

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import xarray as xr
 
@@ -78,8 +78,8 @@ def _measured(
 def study_table(
     tables: Iterable[xr.Dataset],
     ids: Sequence[str],
-) -> xr.Dataset:
-    """The table of a study that was run in several batches.
+) -> dict[str, Any]:
+    """The table of a study that was run in several batches, as files.
 
     Parameters
     ----------
@@ -90,9 +90,9 @@ def study_table(
 
     Returns
     -------
-    Dataset
-        A row for each run, in this order.
+    dict
+        Of :func:`replication.tables.lengths.files`, a row for each run, in this order.
     """
     joined = lengths.join(tables)
     places = {name: i for i, name in enumerate(joined["id"].values.tolist())}
-    return joined.isel(run=[places[name] for name in ids])
+    return lengths.files(joined.isel(run=[places[name] for name in ids]))
