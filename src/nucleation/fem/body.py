@@ -19,12 +19,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..model.material import Material
 from ..model.parameters import Parameters
-from ..types import Array
 from .grid import Components, Field, Grid, Motion, Motions, Terms
-from .layer import Layer
-from .modes import BlockModes, PeriodModes
+from .layer import Layers
+from .modes import BlockModes
 from .operator import BlockOperator, Operator, PeriodOperator
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
@@ -50,68 +48,12 @@ def _of(parameters: Parameters, periodic: bool) -> Body:
     return Body((grid, parameters.material), (second, below.material), below.far_side)
 
 
-class Body:
-    """One layer on a rigid base, or two on one another, each a grid and a material.
-
-    The far side of the first one is free; `far_side` is that of the second one. If both are free,
-    both bear the same normal stress.
-
-    Raises
-    ------
-    ValueError
-        If the elements of two layers along x differ, or n_x of a period is even.
-    """
-
-    def __init__(
-        self,
-        upper: tuple[Grid, Material],
-        lower: tuple[Grid, Material] | None = None,
-        far_side: str = "free",
-    ) -> None:
-        self.grid, _ = upper
-        self.modes = PeriodModes(self.grid) if self.grid.periodic else BlockModes(self.grid)
-        self.layers = [Layer(*upper, self.modes)]
-        if lower is not None:
-            one, other = self.grid, lower[0]
-            if (one.n_x, one.length) != (other.n_x, other.length):
-                raise ValueError(
-                    f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
-                    f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
-                )
-            self.layers.append(Layer(*lower, self.modes, far_side))
-        self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
-        self.total_mass = self.layers[0].total_mass  # kg/m, that moves with the driven edge
-
-    @property
-    def is_held_along_y(self) -> bool:
-        """Whether the base, or the lower far side, is held along y."""
-        return len(self.layers) == 1 or self.layers[1].held[1]
+class Body(Layers):
+    """The layers as the elastic body of a run."""
 
     def operator(self, s: float) -> Operator:
         """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2); zero is statics."""
         return BlockOperator(self, s) if self.modes.has_edge else PeriodOperator(self, s)
-
-    def split(self, values: Array) -> list[Array]:
-        """Views of an array over levels: each layer's."""
-        above = self.layers[0].levels
-        return [values] if len(self.layers) == 1 else [values[:above], values[above:]]
-
-    def parts(self, field: Field) -> list[Field]:
-        """Views of a field: each layer's, the lower one's mirrored."""
-        if len(self.layers) == 1:
-            return [field]
-        return list(map(Field, self.split(field.modes), self.split(field.edge)))
-
-    def joined(self, *parts: Field) -> Field:
-        """The field of the fields of each layer."""
-        if len(parts) == 1:
-            return parts[0]
-        modes = np.concatenate([part.modes for part in parts])
-        return Field(modes, np.concatenate([part.edge for part in parts]))
-
-    def zero_field(self) -> Field:
-        """A field of zeros."""
-        return self.joined(*(layer.zero_field() for layer in self.layers))
 
     def far_load(self, normal: float, shear: float = 0.0) -> Field:
         """Nodal forces (N/m) of a compressive and, in a period, a shear stress (Pa).

@@ -1,9 +1,6 @@
-"""One elastic layer on a grid: its matrices along y, inertia and loads, and its factors."""
+"""Elastic layers on a grid: matrices along y, inertia and loads; one layer, or two."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,8 +9,7 @@ from ..types import Array
 from . import kernels
 from .grid import Components, Field, Grid, Terms
 from .matrices import element_matrices
-from .modes import Modes
-from .right_edge import RightEdge
+from .modes import BlockModes, Modes, PeriodModes
 
 HELD = {
     "free": (False, False),
@@ -96,70 +92,61 @@ class Layer:
         return np.hstack((left, x)), np.hstack((y, field.edge[:, None]))
 
 
-class Before(NamedTuple):
-    """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
+class Layers:
+    """One layer on a rigid base, or two on one another, each a grid and a material.
 
-    coefficients: Sequence[float]  # c1 and c2
-    beta: float  # s
-    newest: Field
-    oldest: Field
+    The far side of the first one is free; `far_side` is that of the second one. If both are free,
+    both bear the same normal stress.
 
-
-class LayerFactors:
-    """``K + s M`` of a layer for one ``s`` (1/s^2), eliminated mode by mode down to its interface.
-
-    `pivot` is the stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy.
+    Raises
+    ------
+    ValueError
+        If the elements of two layers along x differ, or n_x of a period is even.
     """
 
-    def __init__(self, layer: Layer, s: float) -> None:
-        self.layer = layer
-        modes = layer.modes
-        material = layer.material
-        density = s * material.density
-        self.pivot = np.empty((3, modes.n_x))
-        self.inverse = np.zeros((layer.levels, 3, modes.n_x))
-        self.lower = np.empty((layer.levels - 1, 4, modes.n_x))
-        kernels.factorise(
-            material.p_wave_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.shear_modulus * modes.x_mass,
-            material.shear_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.p_wave_modulus * modes.x_mass,
-            modes.sine,
-            layer.mass,
-            layer.stiffness,
-            layer.derivative,
-            material.lame_modulus,
-            material.coupling_modulus,
-            layer.held,
-            self.pivot,
-            self.inverse,
-            self.lower,
-        )
-        self.edge = RightEdge(self, s) if modes.has_edge else None
+    def __init__(
+        self,
+        upper: tuple[Grid, Material],
+        lower: tuple[Grid, Material] | None = None,
+        far_side: str = "free",
+    ) -> None:
+        self.grid, _ = upper
+        self.modes = PeriodModes(self.grid) if self.grid.periodic else BlockModes(self.grid)
+        self.layers = [Layer(*upper, self.modes)]
+        if lower is not None:
+            one, other = self.grid, lower[0]
+            if (one.n_x, one.length) != (other.n_x, other.length):
+                raise ValueError(
+                    f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
+                    f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
+                )
+            self.layers.append(Layer(*lower, self.modes, far_side))
+        self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
+        self.total_mass = self.layers[0].total_mass  # kg/m, that moves with the driven edge
 
     @property
-    def megabytes(self) -> float:
-        """Memory that the factors hold once all of their parts are in use (MB)."""
-        levels = self.layer.levels
-        return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
+    def is_held_along_y(self) -> bool:
+        """Whether the base, or the lower far side, is held along y."""
+        return len(self.layers) == 1 or self.layers[1].held[1]
 
-    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
-        """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
-        profiles = np.zeros((3, edge.size)) if self.edge is None else self.edge.profiles(edge)
-        modes = self.layer.modes
-        kernels.eliminate(self.lower, load.modes, profiles, modes.edge_weights, modes.scale, out)
+    def split(self, values: Array) -> list[Array]:
+        """Views of an array over levels: each layer's."""
+        above = self.layers[0].levels
+        return [values] if len(self.layers) == 1 else [values[:above], values[above:]]
 
-    def substitute(self, modes: Array) -> None:
-        """Sweep a swept load back from the interface's displacement in level 0, in place.
+    def parts(self, field: Field) -> list[Field]:
+        """Views of a field: each layer's, the lower one's mirrored."""
+        if len(self.layers) == 1:
+            return [field]
+        return list(map(Field, self.split(field.modes), self.split(field.edge)))
 
-        At least the two lowest levels are given.
-        """
-        levels = len(modes)
-        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
+    def joined(self, *parts: Field) -> Field:
+        """The field of the fields of each layer."""
+        if len(parts) == 1:
+            return parts[0]
+        modes = np.concatenate([part.modes for part in parts])
+        return Field(modes, np.concatenate([part.edge for part in parts]))
 
-    def move(self, modes: Array, before: Before, rate: Array) -> None:
-        """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
-        (c1, c2), beta, newest, oldest = before
-        kernels.move(
-            self.inverse, self.lower, modes, c1, c2, beta, newest.modes, oldest.modes, rate
-        )
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        return self.joined(*(layer.zero_field() for layer in self.layers))

@@ -28,7 +28,7 @@ import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,11 +37,8 @@ from scipy.linalg import circulant
 from ..types import Array
 from . import edge_kernels, kernels
 from .grid import Components, Field, Motion
-from .layer import Before, LayerFactors
-from .right_edge import EdgeValues
-
-if TYPE_CHECKING:
-    from .body import Body
+from .layer import Layer, Layers
+from .right_edge import EdgeValues, RightEdge
 
 Blocks = tuple[NDArray, NDArray]
 """D and N between some nodes."""
@@ -73,6 +70,74 @@ def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> A
     return edge + (0.5 * step**2 / last_step) * change
 
 
+class Before(NamedTuple):
+    """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
+
+    coefficients: Sequence[float]  # c1 and c2
+    beta: float  # s
+    newest: Field
+    oldest: Field
+
+
+class LayerFactors:
+    """``K + s M`` of a layer for one ``s`` (1/s^2), eliminated mode by mode down to its interface.
+
+    `pivot` is the stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy.
+    """
+
+    def __init__(self, layer: Layer, s: float) -> None:
+        self.layer = layer
+        modes = layer.modes
+        material = layer.material
+        density = s * material.density
+        self.pivot = np.empty((3, modes.n_x))
+        self.inverse = np.zeros((layer.levels, 3, modes.n_x))
+        self.lower = np.empty((layer.levels - 1, 4, modes.n_x))
+        kernels.factorise(
+            material.p_wave_modulus * modes.x_stiffness + density * modes.x_mass,
+            material.shear_modulus * modes.x_mass,
+            material.shear_modulus * modes.x_stiffness + density * modes.x_mass,
+            material.p_wave_modulus * modes.x_mass,
+            modes.sine,
+            layer.mass,
+            layer.stiffness,
+            layer.derivative,
+            material.lame_modulus,
+            material.coupling_modulus,
+            layer.held,
+            self.pivot,
+            self.inverse,
+            self.lower,
+        )
+        self.edge = RightEdge(layer, s, self.inverse, self.lower) if modes.has_edge else None
+
+    @property
+    def megabytes(self) -> float:
+        """Memory that the factors hold once all of their parts are in use (MB)."""
+        levels = self.layer.levels
+        return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
+
+    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
+        """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
+        profiles = np.zeros((3, edge.size)) if self.edge is None else self.edge.profiles(edge)
+        modes = self.layer.modes
+        kernels.eliminate(self.lower, load.modes, profiles, modes.edge_weights, modes.scale, out)
+
+    def substitute(self, modes: Array) -> None:
+        """Sweep a swept load back from the interface's displacement in level 0, in place.
+
+        At least the two lowest levels are given.
+        """
+        levels = len(modes)
+        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
+
+    def move(self, before: Before, modes: Array, newest: Array, oldest: Array, rate: Array) -> None:
+        """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
+        c1, c2 = before.coefficients
+        beta = before.beta
+        kernels.move(self.inverse, self.lower, modes, c1, c2, beta, newest, oldest, rate)
+
+
 class Balance(NamedTuple):
     """A body in balance at the end of a step."""
 
@@ -89,7 +154,7 @@ class Operator(ABC):
     `by_slip` has (w1, u_y) per unit of w.
     """
 
-    def __init__(self, body: Body, s: float) -> None:
+    def __init__(self, body: Layers, s: float) -> None:
         self.body = body
         self.s = s
         self.factors = [LayerFactors(layer, s) for layer in body.layers]
@@ -99,7 +164,6 @@ class Operator(ABC):
                 self._put_in_series()
         else:
             self.modal = self.factors[0].pivot[:2]  # the first row, as u_y is zero
-            self.by_slip = np.array([[1.0], [0.0]])
         self._no_load = np.zeros(self.modal.shape)
 
     def _put_in_series(self) -> None:
@@ -195,21 +259,29 @@ class Operator(ABC):
 
         Returns the rate (m/s), if the displacements before are known.
         """
-        above, *below = self.body.split(swept)
-        above[0] = start + self.by_slip * amplitudes
-        for part in below:
-            part[0, 0] = above[0, 0] - amplitudes
-            part[0, 1] = -above[0, 1]
+        parts = self.body.split(swept)
+        self._move_interface(parts[0], amplitudes, start)
+        for below in parts[1:]:
+            below[0, 0] = parts[0][0, 0] - amplitudes
+            below[0, 1] = -parts[0][0, 1]
         if before is None:
-            for factors, part in zip(self.factors, (above, *below), strict=True):
+            for factors, part in zip(self.factors, parts, strict=True):
                 factors.substitute(part)
             return None
         rate = np.empty_like(swept)
-        newest, oldest = self.body.parts(before.newest), self.body.parts(before.oldest)
-        for i, (factors, into) in enumerate(zip(self.factors, self.body.split(rate), strict=True)):
-            own = before._replace(newest=newest[i], oldest=oldest[i])
-            factors.move((above, *below)[i], own, into)
+        split = self.body.split
+        newest, oldest = split(before.newest.modes), split(before.oldest.modes)
+        for factors, *own in zip(self.factors, parts, newest, oldest, split(rate), strict=True):
+            factors.move(before, *own)
         return rate
+
+    def _move_interface(self, above: Array, amplitudes: Array, start: Array | float) -> None:
+        """Put the displacement of the upper body's interface (m) into its level 0."""
+        if len(self.factors) == 1:
+            above[0, 0] = amplitudes
+            above[0, 1] = 0.0
+        else:
+            above[0] = start + self.by_slip * amplitudes
 
     def _with_velocity(
         self, displacement: Field, rate: Array | None, before: Before | None, edge_error: float
@@ -224,9 +296,11 @@ class Operator(ABC):
 class BlockOperator(Operator):
     """The operator of blocks with a free right edge."""
 
-    def __init__(self, body: Body, s: float) -> None:
+    def __init__(self, body: Layers, s: float) -> None:
         super().__init__(body, s)
-        self.edge = EdgeValues(self)
+        rows = [factors.edge for factors in self.factors if factors.edge is not None]
+        series = None if len(rows) == 1 else (self.compliance, self.forces)
+        self.edge = EdgeValues(body, rows, self.moves, series)
         self._last_key: tuple[bytes, type] | None = None
         self._last_blocks: Blocks
 
@@ -254,7 +328,7 @@ class BlockOperator(Operator):
     ) -> float:
         """Normal force (N/m) on the corner of the upper body, from its two lowest levels alone."""
         lowest = swept[:2].copy()
-        lowest[0] = start + self.by_slip * amplitudes
+        self._move_interface(lowest, amplitudes, start)
         self.factors[0].substitute(lowest)
         load_above, *_ = self.body.parts(load)
         edge_above = edge[: self.body.layers[0].levels]
@@ -280,9 +354,8 @@ class BlockOperator(Operator):
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
         error = np.inf
-        if foreseen is not None and own.any():
-            largest = max(np.abs(foreseen - own).max(), np.abs(edge - own).max())
-            error = float(largest / np.abs(own).max())
+        if foreseen is not None:
+            error = edge_kernels.relative_error(own, foreseen, edge)
         return self._with_velocity(Field(modes, own), rate, before, error)
 
     def apply(self, w: Array) -> Components:

@@ -8,7 +8,6 @@ the interface decays exponentially over some heights of the block.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -16,12 +15,9 @@ from scipy.linalg import cho_factor, cho_solve
 from ..types import Array
 from . import edge_kernels, kernels
 from .grid import Components, Field
+from .layer import Layer, Layers
 from .matrices import dense, product, transposed
 from .modes import BlockModes
-
-if TYPE_CHECKING:
-    from .layer import LayerFactors
-    from .operator import Operator
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
@@ -30,9 +26,10 @@ NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 class RightEdge:
     """The rows of the edge values of one layer in ``K + s M``."""
 
-    def __init__(self, factors: LayerFactors, s: float) -> None:
-        self._factors = factors
-        layer = factors.layer
+    def __init__(self, layer: Layer, s: float, inverse: Array, lower: Array) -> None:
+        self._layer = layer
+        self._inverse = inverse  # the factors of the bulk
+        self._lower = lower
         dx = layer.grid.dx
         material = layer.material
         density = s * material.density
@@ -53,14 +50,14 @@ class RightEdge:
 
     def residual(self, load: Field, modes: Array, edge: Array, levels: int | None = None) -> Array:
         """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
-        weights = self._factors.layer.modes.edge_weights
+        weights = self._layer.modes.edge_weights
         levels = levels or edge.size
         return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge, levels)
 
     @cached_property
     def round_off(self) -> float:
         """Relative error of the edge values in any solve."""
-        grid = self._factors.layer.grid
+        grid = self._layer.grid
         condition = (grid.height / np.diff(grid.y).min()) ** 2
         return ROUND_OFF * np.finfo(float).eps * condition
 
@@ -77,11 +74,10 @@ class RightEdge:
 
     def _sums_of_unit_values(self) -> Array:
         """Sums of the bulk's response over the modes, (edge weight, edge value, level)."""
-        factors = self._factors
-        modes = factors.layer.modes
-        levels = factors.layer.levels
-        diagonal = np.empty_like(factors.inverse)
-        edge_kernels.diagonal_inverse(factors.inverse, factors.lower, diagonal)
+        modes = self._layer.modes
+        levels = self._layer.levels
+        diagonal = np.empty_like(self._inverse)
+        edge_kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
         solution = np.zeros((levels, 2, modes.n_x))
         sums = np.zeros((levels, 3, levels))
         for i, unit in enumerate(np.eye(levels)):
@@ -90,8 +86,8 @@ class RightEdge:
             if first == 1:
                 profiles[:, 0] = 0.0  # the interface is held fixed
             edge_kernels.respond(
-                factors.inverse,
-                factors.lower,
+                self._inverse,
+                self._lower,
                 diagonal,
                 profiles,
                 modes.edge_weights,
@@ -107,14 +103,13 @@ class RightEdge:
 
         In N/m per m, (2, n_y + 1, n_x); also the forces on the edge values per unit of amplitude.
         """
-        factors = self._factors
-        weights = factors.layer.modes.edge_weights
+        weights = self._layer.modes.edge_weights
         against_x, against_slope, against_y, _ = self._rows
-        forces = np.empty((2, factors.layer.levels, weights.shape[1]))
+        forces = np.empty((2, self._layer.levels, weights.shape[1]))
         for component in (0, 1):
-            modes = factors.layer.zero_field().modes
+            modes = self._layer.zero_field().modes
             modes[0, component] = 1.0
-            kernels.substitute(factors.inverse, factors.lower, modes)
+            kernels.substitute(self._inverse, self._lower, modes)
             x = modes[:, 0]
             y = modes[:, 1]
             forces[component] = weights[0] * product(against_x, x)
@@ -129,17 +124,25 @@ class EdgeValues:
     A pair has its corner twice: the lower body is mirrored.
     """
 
-    def __init__(self, operator: Operator) -> None:
-        self._operator = operator
-        self.rows = [factors.edge for factors in operator.factors if factors.edge is not None]
-        modes = operator.body.modes
-        assert isinstance(modes, BlockModes)
-        self._modes = modes
+    def __init__(
+        self,
+        layers: Layers,
+        rows: list[RightEdge],
+        moves: bool,
+        series: tuple[Array, Array] | None,
+    ) -> None:
+        """`series` are compliance and forces of a pair; `moves`: there is inertia."""
+        assert isinstance(layers.modes, BlockModes)
+        self._layers = layers
+        self._modes = layers.modes
+        self.rows = rows
+        self._moves = moves
+        self._series = series
         self.round_off = max(rows.round_off for rows in self.rows)
 
     def residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
-        body = self._operator.body
+        body = self._layers
         parts = zip(self.rows, body.parts(load), body.parts(Field(modes, edge)), strict=True)
         found = [rows.residual(own, part.modes, part.edge) for rows, own, part in parts]
         return found[0] if len(found) == 1 else np.concatenate(found)
@@ -163,14 +166,14 @@ class EdgeValues:
 
         Its first row and column belong to the upper body's corner: they give its normal force.
         """
-        if len(self.rows) == 1:
+        if self._series is None:
             return self.rows[0].schur
         (x, y), _ = self._to_modes
         n = len(self.rows[0].schur)
         stiffness = np.zeros((len(x), len(x)))
         stiffness[:n, :n] = self.rows[0].schur
         stiffness[n:, n:] = self.rows[1].schur
-        xx, xy, yy = self._operator.compliance
+        xx, xy, yy = self._series[0]
         moved_x = xx * x + xy * y
         moved_y = xy * x + yy * y
         return stiffness - self._modes.scale * (x @ moved_x.T + y @ moved_y.T)
@@ -178,13 +181,14 @@ class EdgeValues:
     @cached_property
     def compliance(self) -> Array:
         """Inverse of :attr:`schur` on the free values (m per N/m), zero on those held fixed."""
-        if len(self.rows) == 1:
+        if self._series is None:
             return _inverse_within(self.schur, slice(1, None))
-        body = self._operator.body
-        independent = np.delete(np.eye(len(self.schur)), body.layers[0].levels, axis=1)
-        independent[body.layers[0].levels, 0] = -1.0  # the corner, mirrored
-        first = None if body.is_held_along_y or self._operator.moves else 1
-        last = -1 if body.is_held_along_y else None
+        layers = self._layers
+        above = layers.layers[0].levels
+        independent = np.delete(np.eye(len(self.schur)), above, axis=1)
+        independent[above, 0] = -1.0  # the corner, mirrored
+        first = None if layers.is_held_along_y or self._moves else 1
+        last = -1 if layers.is_held_along_y else None
         stiffness = independent.T @ self.schur @ independent
         inverse = _inverse_within(stiffness, slice(first, last))
         return independent @ inverse @ independent.T
@@ -196,13 +200,13 @@ class EdgeValues:
         Tangential at the nodes 1..n_x and normal at 0..n_x - 1. The tangential ones are also the
         forces on the edge values per unit of w.
         """
-        if len(self.rows) == 1:
+        if self._series is None:
             modal = self.rows[0].to_modes()
         else:
             (x, y), lower = self._to_modes
             above = y.copy()
-            above[self._operator.body.layers[0].levels :] = 0.0  # the upper block's own
-            _, _, yx1, yy1, xx2, xy2, _, _ = self._operator.forces
+            above[self._layers.layers[0].levels :] = 0.0  # the upper block's own
+            _, _, yx1, yy1, xx2, xy2, _, _ = self._series[1]
             from_below = xx2 * x + xy2 * y
             from_above = yx1 * x + yy1 * y
             modal = np.array([from_below - lower, above - from_above])

@@ -19,6 +19,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from ..fem.operator import Operator, Response
@@ -27,8 +28,6 @@ from ..types import Array
 from . import compiled_laws, passes
 from .drive import Imposed
 from .event import Outcome
-from .state import State
-from .stepping import Formula
 
 ROUNDING = 1e-14  # relative, of displacements
 DESCENTS = 6  # of Newton's method for one node alone, from at most twice the load to be balanced
@@ -40,21 +39,9 @@ ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic
 
 
 class NewtonFailure(RuntimeError):
-    """A step has no solution and must be shortened.
+    """A step has no solution and must be shortened, with the outcome if no shorter one has one."""
 
-    Parameters
-    ----------
-    reason : str
-        Why, in words.
-    outcome : Outcome
-        How the run ends if every shorter step fails likewise.
-    """
-
-    def __init__(
-        self,
-        reason: str,
-        outcome: Outcome = Outcome.STEP_UNDERFLOW,
-    ) -> None:
+    def __init__(self, reason: str, outcome: Outcome = Outcome.STEP_UNDERFLOW) -> None:
         super().__init__(reason)
         self.outcome = outcome
 
@@ -72,42 +59,12 @@ class InterfaceSolution:
 
 
 class Past(NamedTuple):
-    """The past part of the step's formula ``y = past + beta dy/dt``."""
+    """The past part of the step's formula ``y = past + beta dy/dt``, with the state's forcing."""
 
     w: Array  # m, nodes 1..n_x
     log_state: Array  # nodes 0..n_x
     beta: float  # s
     at_rest: bool  # whether the interface has not slipped yet
-
-    @classmethod
-    def of(
-        cls,
-        state: State,
-        formula: Formula,
-        imposed: Imposed,
-        at_rest: bool,
-    ) -> Past:
-        """The past part for a state, with the forcing at the new time as an additional rate.
-
-        Parameters
-        ----------
-        state : State
-            State before the step.
-        formula : Formula
-            The step's formula on the interface.
-        imposed : Imposed
-            Boundary conditions at the new time.
-        at_rest : bool
-            Whether the interface has not slipped yet.
-
-        Returns
-        -------
-        Past
-        """
-        log_state = formula.from_past(state.past_log_states)
-        if imposed.state_forcing is not None:
-            log_state = log_state + formula.beta * imposed.state_forcing
-        return cls(formula.from_past(state.past_w), log_state, formula.beta, at_rest)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,43 +81,23 @@ class Interface:
         response: Response,
         past: Past,
         imposed: Imposed,
-        guess: Array,
+        rates: Array,
     ) -> InterfaceSolution:
         """Solve for the interface at the new time.
 
-        Parameters
-        ----------
-        operator : Operator
-            The condensed body.
-        response : Response
-            Its forces at the predicted displacement.
-        past : Past
-            The past part of the step's formula.
-        imposed : Imposed
-            Boundary conditions at the new time.
-        guess : ndarray, shape (free nodes,)
-            Slip rates (m/s) with which the displacement was predicted.
-
-        Returns
-        -------
-        InterfaceSolution
-
-        Raises
-        ------
-        NewtonFailure
-            If there is no convergence, a force is not finite, or a nodal normal force of the
-            solution is tensile.
+        The `response` holds the displacement of guessed slip rates (m/s), nodes 0..n_x. Raises
+        NewtonFailure if there is no convergence, a force is not finite, or a nodal normal force of
+        the solution is tensile.
         """
         law, modes = self.friction, operator.body.modes
         beta, velocity = past.beta, imposed.velocity
-        strength = 1.0 if imposed.strength is None else imposed.strength
+        strength = np.ones(rates.size) if imposed.strength is None else imposed.strength
         elastic = beta * operator.diagonal
-        rounding = ROUNDING * passes.largest_size(past.w) / beta  # of v = (w - past.w) / beta
+        # of v = (w - past.w) / beta
+        rounding = ROUNDING * passes.largest(past.w) / beta
         most = MOST_ITERATIONS_FROM_REST if past.at_rest else MOST_ITERATIONS
-        v, w = guess, response.w
-        p = response.tangential
+        w, p = response.w, response.tangential
         normal = response.normal + self.extra_normal
-        rates = modes.on_all_nodes(v, velocity)
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
             found = self._friction(rates[:anew], past.log_state[:anew], beta)
@@ -168,8 +105,8 @@ class Interface:
                 psi, coefficient, slope = found
             else:
                 psi[:anew], coefficient[:anew], slope[:anew] = found
-            least = law.linear_below(psi)
-            residual, damping, error, friction = passes.balance(
+            least = np.full(rates.size, law.linear_below(psi))
+            residual, damping, error, friction, active = passes.balance(
                 p,
                 normal,
                 coefficient,
@@ -180,6 +117,7 @@ class Interface:
                 self.tolerance,
                 rounding,
                 strength,
+                ACTIVE,
             )
             if not math.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
@@ -189,19 +127,29 @@ class Interface:
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = modes.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
-            change = _newton_direction(operator, friction[1:], residual, damping, elastic, beta)
+            solved = _solved(operator, friction[1:], residual, damping, active, beta)
+            linear = residual, elastic, damping, active, solved
             if law.asinh_of_rate:
-                v = _updated_by_asinh(v, change, damping, elastic, least[1:])
+                change = passes.direction(*linear)
+                v = _updated_by_asinh(rates[1:], change, damping, elastic, least[1:])
             else:
-                v = passes.updated(v, change, law.regularisation_slip_rate)
-            before = rates
-            rates = modes.on_all_nodes(v, velocity)
-            if self._even:
-                anew = passes.reach(rates, before, UNCHANGED * self.tolerance, least)
-            w, change_of_w = passes.moved(v, velocity, beta, past.w, response.w)
-            change_of_p, change_of_normal = operator.apply(change_of_w)
-            p = response.tangential + change_of_p
-            normal = response.normal + change_of_normal + self.extra_normal
+                v = passes.updated(rates, *linear, law.regularisation_slip_rate)
+            rates, w, change_of_w, reach = passes.moved(
+                v,
+                rates,
+                velocity,
+                not modes.has_edge,
+                beta,
+                past.w,
+                response.w,
+                UNCHANGED * self.tolerance,
+                least,
+            )
+            anew = reach if self._even else rates.size
+            p, normal = operator.apply(change_of_w)
+            p += response.tangential
+            normal += response.normal
+            normal += self.extra_normal
         raise NewtonFailure(f"no convergence in {most} iterations")
 
     @cached_property
@@ -214,38 +162,26 @@ class Interface:
     def _compiled(self) -> compiled_laws.CompiledFriction:
         return compiled_laws.friction(self.friction)
 
-    def _friction(
-        self,
-        v: Array,
-        past_log_state: Array,
-        beta: float,
-    ) -> tuple[Array, Array, Array]:
+    def _friction(self, v: Array, past_log_state: Array, beta: float) -> tuple[Array, Array, Array]:
         """Log state at the end of the step, friction coefficient, and its total slope (s/m)."""
         law = self.friction
-        return self._compiled(
-            v,
-            past_log_state,
-            beta,
-            law.regularisation_slip_rate,
-            law.slip_distance,
-            law.constants,
-        )
+        v0 = law.regularisation_slip_rate
+        return self._compiled(v, past_log_state, beta, v0, law.slip_distance, law.constants)
 
 
-def _newton_direction(
+def _solved(
     operator: Operator,
     coefficient: Array,
     residual: Array,
     damping: Array,
-    elastic: Array,
+    active: NDArray[np.intp],
     beta: float,
-) -> Array:
-    """Newton's direction of the slip rates (m/s) by ``beta (D + f N) + R df/dv``.
+) -> NDArray[np.float32]:
+    """Change of the slip rates (m/s) of coupled nodes by ``beta (D + f N) + R df/dv``.
 
     Only nodes that elasticity couples are solved for together. Single precision is twice as fast
     there, and costs less than the method's second order. Each other node is solved for alone.
     """
-    active = passes.coupled(elastic, damping, ACTIVE)
     solved = -residual[active].astype(np.float32)
     if active.size:
         stiffness, coupling = operator.tangent(active + 1, np.float32)
@@ -253,7 +189,7 @@ def _newton_direction(
         *_, solved, info = lapack.sgesv(matrix.T, solved, overwrite_a=True, overwrite_b=True)
         if info:
             raise NewtonFailure("the interface's tangent is singular")
-    return passes.direction(residual, elastic, damping, active, solved)
+    return solved
 
 
 def _updated_by_asinh(

@@ -16,8 +16,7 @@ import numpy as np
 
 from ..fem.body import Body
 from ..fem.grid import Field, Motion
-from ..fem.layer import Before
-from ..fem.operator import Operator, foreseen_edge
+from ..fem.operator import Before, Operator, foreseen_edge
 from ..types import Array
 from . import passes
 from .drive import Drive, Imposed
@@ -103,9 +102,9 @@ class Dynamics:
         imposed = self.drive.at(time)
         load = self._load_with_past(state, step, imposed)
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
-        past = Past.of(state, step.interface, imposed, step.first)
-        rates = guess.slip_rate[1:]
-        w = past.w + past.beta * (rates - imposed.velocity)
+        rates = self.body.modes.on_all_nodes(guess.slip_rate[1:], imposed.velocity)
+        past = self._past(state, step, imposed)
+        w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
         fields = [motion.displacement for motion in state.motions]
         before = Before(step.body.past, step.body.beta, fields[0], fields[-1])
@@ -122,6 +121,13 @@ class Dynamics:
         new = self._pushed(state, time, solution, motion, balance.edge_error)
         force = self._driving_force(state, step, imposed, solution, motion)
         return new, StepReport(solution, force, step.error(guess.distance(solution)))
+
+    def _past(self, state: State, step: Step, imposed: Imposed) -> Past:
+        formula = step.interface
+        log_state = formula.from_past(state.past_log_states)
+        if imposed.state_forcing is not None:
+            log_state = log_state + formula.beta * imposed.state_forcing
+        return Past(formula.from_past(state.past_w), log_state, formula.beta, step.first)
 
     def operator(self, s: float) -> Operator:
         """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
@@ -185,7 +191,7 @@ class Dynamics:
     ) -> State:
         """The state with the new values, and the past ones that the scheme still needs."""
         most = self.scheme.instants
-        slid = passes.largest_size(solution.w)
+        slid = passes.largest(solution.w)
         motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
             self.body.settled(motions, time - state.time, slid),
@@ -240,7 +246,7 @@ def _extrapolated(
     event elastic waves ring in the body. They shake the slip rates but hardly move the interface;
     the last term of the scale lets the steps become longer than these waves.
     """
-    fastest = passes.largest_size(state.past_slip_rates[0])
+    fastest = passes.largest(state.past_slip_rates[0])
     scale = max(
         SLOW * velocity,
         SLOW_IN_EVENT * fastest,
