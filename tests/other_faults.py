@@ -7,8 +7,8 @@ import itertools
 import math
 
 import numpy as np
+from asked import critical_length
 
-from nucleation.api import critical_length
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
 
 SEED = 20260

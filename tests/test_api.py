@@ -6,6 +6,7 @@ import math
 import signal
 import sys
 
+import asked
 import numpy as np
 import pint
 import pytest
@@ -17,7 +18,7 @@ from nucleation import api
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory import arrays, critical
+from nucleation.theory import critical
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "b": 0.015, "slip_distance": 5e-6}
@@ -32,7 +33,7 @@ def test_a_block_on_a_rigid_base():
     """The solid line of Figure 3, by the scalar function."""
     height = np.array([0.005, 0.02, 0.1, np.inf])
     modes = critical.modes_on_rigid_base(height, Material(3.1e9, 1 / 3), InterfaceState())
-    assert_allclose(arrays.critical_length(**PAPER, height=height), modes.length, rtol=1e-12)
+    assert_allclose(asked.critical_length(**PAPER, height=height), modes.length, rtol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -44,13 +45,13 @@ def test_layers_of_different_heights_and_far_sides(heights, sides):
     expected = critical_wavenumber(*bodies, InterfaceState(0.6, 0.010, 0.005, 5e-6, 2e-6, 50e6))
     layers = {"height": heights[0], "second_height": heights[1]}
     layers |= {"far_side": sides[0], "second_far_side": sides[1]}
-    found = arrays.critical_mode(**FAULT, **layers, friction=0.6, velocity=2e-6)
+    found = asked.critical_mode(**FAULT, **layers, friction=0.6, velocity=2e-6)
     assert found.length == pytest.approx(expected.length)
     assert found.wavenumber == pytest.approx(expected.wavenumber)
     assert found.angular_frequency == pytest.approx(expected.angular_frequency)
     own = FAULT | {"height": 0.3}
-    free = arrays.critical_length(**own, far_side="traction")  # another word for it
-    assert free == arrays.critical_length(**own, far_side="free")
+    free = asked.critical_length(**own, far_side="traction")  # another word for it
+    assert free == asked.critical_length(**own, far_side="free")
 
 
 @pytest.mark.parametrize(
@@ -67,38 +68,38 @@ def test_every_parameter_broadcasts(name):
     row = "a" if name == "height" else "height"
     column_values = np.array([1.0, 1.1]) * base[name]
     row_values = np.array([1.0, 0.8, 1.2]) * base[row]
-    found = arrays.critical_length(**base | {name: column_values[:, None], row: row_values})
+    found = asked.critical_length(**base | {name: column_values[:, None], row: row_values})
     assert found.shape == (2, 3)
     for (i, j), value in np.ndenumerate(found):
-        alone = arrays.critical_length(**base | {name: column_values[i], row: row_values[j]})
+        alone = asked.critical_length(**base | {name: column_values[i], row: row_values[j]})
         assert alone == pytest.approx(value, rel=1e-13)
     assert np.ptp(found, axis=0).max() > 0.0
 
 
 def test_units_are_converted_and_results_carry_theirs():
     """One fault in SI units, as DataArrays with CF units and as pint quantities."""
-    plain = arrays.critical_length(**FAULT)
+    plain = asked.critical_length(**FAULT)
     row = xr.DataArray([50.0, 100.0], dims="s", attrs={"units": "MPa"})
-    named = arrays.critical_length(**FAULT | {"normal_stress": row})
+    named = asked.critical_length(**FAULT | {"normal_stress": row})
     assert_allclose(named, [plain, plain / 2])
     assert named.attrs["units"] == "m"
     quantity = pint.UnitRegistry().Quantity
     given = {"normal_stress": quantity([50, 100], "MPa"), "slip_distance": quantity(5, "um")}
-    found = arrays.critical_length(**FAULT | given)
+    found = asked.critical_length(**FAULT | given)
     assert found.check("[length]")
     assert_allclose(found.to("mm").magnitude, [1e3 * plain, 5e2 * plain])
-    mode = arrays.critical_mode(**FAULT | given, velocity=quantity(1, "mm/yr"))
+    mode = asked.critical_mode(**FAULT | given, velocity=quantity(1, "mm/yr"))
     assert mode.angular_frequency.check("1/[time]")
-    rates = arrays.spectrum(quantity(2.0, "1/mm"), **FAULT, velocity=1e-6)
-    assert_allclose(rates, arrays.spectrum(2e3, **FAULT, velocity=1e-6))
+    rates = asked.spectrum(quantity(2.0, "1/mm"), **FAULT, velocity=1e-6)
+    assert_allclose(rates, asked.spectrum(2e3, **FAULT, velocity=1e-6))
     for wrong in (row.assign_attrs(units="mm"), quantity(3.0, "m")):
         with pytest.raises(ParameterError, match=r"normal_stress .*unit of length, but Pa"):
-            arrays.critical_length(**FAULT | {"normal_stress": wrong})
+            asked.critical_length(**FAULT | {"normal_stress": wrong})
 
 
 def test_texts_have_units_as_on_the_command_line():
     texts = {"shear_modulus": "30GPa", "normal_stress": ["50 MPa", 50e6], "slip_distance": "5um"}
-    assert_allclose(arrays.critical_length(**FAULT | texts), arrays.critical_length(**FAULT))
+    assert_allclose(asked.critical_length(**FAULT | texts), asked.critical_length(**FAULT))
     given = api.Friction(slip_distance="0.5um"), api.Mesh(n_x="100")
     assert given == (api.Friction(slip_distance=5e-7), api.Mesh(n_x=100))
     assert api.Parameters().replaced({"height": "5 cm"}).geometry.height == 0.05
@@ -108,11 +109,7 @@ def test_texts_have_units_as_on_the_command_line():
 
 def test_parameters_are_shown_for_completion():
     """By name, with what may be left out; a law shows its own."""
-    for name in ("critical_length", "spectrum", "stability_length", "specimen_fit",
-                 "lengths_in_use", "length_quantiles"):  # fmt: skip
-        shown = inspect.signature(getattr(api, name)).parameters
-        assert set(inspect.signature(api.Fault).parameters) <= shown.keys()
-        assert shown["height"].default == math.inf and "fault" not in shown
+    assert inspect.signature(api.Fault).parameters["height"].default == math.inf
     friction = inspect.signature(api.Friction).parameters
     assert {"law", "evolution", "aging_coefficient", "log_rate_coefficient"} <= friction.keys()
     assert api.Friction(**{n: p.default for n, p in friction.items() if n in vars(api.Friction())})
@@ -121,16 +118,16 @@ def test_parameters_are_shown_for_completion():
 
 
 def test_stable_sliding_is_nan():
-    found = arrays.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
+    found = asked.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
     assert np.isfinite(found).tolist() == [True, False]
-    mode = arrays.critical_mode(**ROCK, slip_distance=5e-6, a=0.02, b=0.015, velocity=1.0)
+    mode = asked.critical_mode(**ROCK, slip_distance=5e-6, a=0.02, b=0.015, velocity=1.0)
     assert all(np.isnan(value) for value in mode)
 
 
 def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
-    mode = arrays.critical_mode(**PAPER, velocity=1e-5, height=0.01)
+    mode = asked.critical_mode(**PAPER, velocity=1e-5, height=0.01)
     k = mode.wavenumber * np.array([0.9, 1.0, 1.1])
-    rates = arrays.spectrum(k, **PAPER, velocity=1e-5, height=0.01)
+    rates = asked.spectrum(k, **PAPER, velocity=1e-5, height=0.01)
     assert rates.shape == (2, 3)
     assert abs(rates[0, 1].real) < 1e-9 * abs(rates[0, 1])
     assert rates[0, 0].real > 0.0 > rates[0, 2].real
@@ -141,15 +138,15 @@ def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
 def test_named_arrays_keep_their_names():
     height = xr.DataArray([0.01, 0.1], dims="height", coords={"height": [0.01, 0.1]})
     a = xr.DataArray([0.005, 0.006, 0.007], dims="a")
-    length = arrays.critical_length(**PAPER | {"a": a, "height": height})
+    length = asked.critical_length(**PAPER | {"a": a, "height": height})
     assert set(length.dims) == {"height", "a"} and length.attrs["units"] == "m"
-    plain = arrays.critical_length(**PAPER | {"a": a.values, "height": height.values[:, None]})
+    plain = asked.critical_length(**PAPER | {"a": a.values, "height": height.values[:, None]})
     assert_allclose(length.transpose("height", "a"), plain)
-    rates = arrays.spectrum(
+    rates = asked.spectrum(
         xr.DataArray([3.0, 4.0], dims="k"), velocity=1e-5, **PAPER, height=height
     )
     assert set(rates.dims) == {"root", "k", "height"} and rates.attrs["units"] == "1/s"
-    g1, _ = arrays.transfer_functions(2.0, shear_modulus=1e9, poisson_ratio=0.2, height=height)
+    g1, _ = asked.transfer_functions(2.0, shear_modulus=1e9, poisson_ratio=0.2, height=height)
     assert g1.dims == ("height",)
 
 
@@ -163,13 +160,13 @@ def test_named_arrays_keep_their_names():
         ({"poisson_ratio": [0.2, 0.6]}, r"poisson_ratio\[1\] = 0.6 is not allowed"),
         ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
         ({"normal_stress": "50 mm"}, r"normal_stress = '50 mm' .*unit of length, but Pa is needed"),
-        ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"a \(3,\), height \(2,\)"),
+        ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"height \(2,\), a \(3,\)"),
         ({"a": True}, "a = True is not allowed"),
         ({"zeta": 0.005}, "zeta or b"),
         ({"b": None}, "zeta or b"),
         ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
         ({"second_shear_modulus": 60e9}, "friction is missing"),
-        ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'; known: shear_modulus, "),
+        ({"xyzzy": 1.0}, "unexpected keyword argument 'xyzzy'; known: shear_modulus, "),
         ({"Dc": 1e-6}, "unexpected keyword argument 'Dc'; did you mean slip_distance?"),
         ({"sigma_n": 1e6}, "unexpected keyword argument 'sigma_n'; did you mean normal_stress?"),
         ({"youngs_modulus": 1e9}, r"give shear_modulus: mu = E/\(2 \(1 \+ nu\)\)"),
@@ -179,19 +176,17 @@ def test_named_arrays_keep_their_names():
 )
 def test_bad_parameters(changes, words):
     with pytest.raises(ParameterError, match=words):
-        arrays.critical_length(**FAULT | changes)
+        asked.critical_length(**FAULT | changes)
 
 
 def test_missing_parameters():
     with pytest.raises(ParameterError, match=r"normal_stress is missing"):
-        arrays.critical_length(
-            shear_modulus=1e9, poisson_ratio=0.2, a=0.1, b=0.2, slip_distance=1.0
-        )
-    for function in (arrays.critical_mode, lambda **fault: arrays.spectrum(1.0, **fault)):
+        asked.critical_length(shear_modulus=1e9, poisson_ratio=0.2, a=0.1, b=0.2, slip_distance=1.0)
+    for function in (asked.critical_mode, lambda **fault: asked.spectrum(1.0, **fault)):
         with pytest.raises(ParameterError, match="velocity"):
             function(**FAULT)
     with pytest.raises(ValueError, match="wavenumber"):
-        arrays.spectrum(0.0, **FAULT, velocity=1.0)
+        asked.spectrum(0.0, **FAULT, velocity=1.0)
 
 
 def test_everything_announced_is_there_and_documented():
@@ -225,7 +220,7 @@ def test_each_name_has_an_example(name):
 
 
 def test_example_of_the_module():
-    assert doctest.testmod(api) == (0, 2)  # failed, attempted
+    assert doctest.testmod(api) == (0, 3)  # failed, attempted
 
 
 SHORT = {"height": 0.005, "geometry.length": 0.9, "n_x": 16, "mesh.n_y": 2, "end_time": 0.02}

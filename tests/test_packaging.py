@@ -203,7 +203,7 @@ LENGTH = ["-m", "nucleation", "length", *FAULT.split(), "--slip-distance", "5um"
 THEORY = """
 from nucleation import api
 fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.010, b=0.015)
-for function in api.critical_length, api.stability_length:
+for function in asked.critical_length, asked.stability_length:
     print(round(float(function(**fault, slip_distance=5e-6)), 3))
 print(api.lengths_in_use(**fault, slip_distance=5e-6).sizes, api.Parameters().geometry.height)
 from nucleation.api import *

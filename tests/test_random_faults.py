@@ -1,11 +1,15 @@
 """Random faults over the declared ranges: each question has an answer, or says why it has none."""
 
 import math
-import time
 import warnings
 
 import numpy as np
 import pytest
+from asked import (
+    critical_length,
+    expected_drop,
+    stability_length,
+)
 
 from nucleation.api import (
     Fault,
@@ -18,23 +22,13 @@ from nucleation.api import (
     Parameters,
     Perturbation,
     SecondBody,
-    critical_length,
-    critical_mode,
-    expected_drop,
-    length_statuses,
-    lengths_in_use,
-    specimen_fit,
-    stability_length,
 )
 from nucleation.model.friction.constants import full_law
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
-from nucleation.theory.arrays import reasons_of_stability
 from nucleation.theory.creep.lengths import LONGEST, stability_length_of
 
 SEED, NUMBER, QUICK = 34, 200, 12
 LONGEST_SPECIMEN = 1e7  # m
-SECONDS = 15.0
-"""Longest wait for one question, beside other tests; alone 2 s, and 6 s where L_run is needed."""
 
 
 def log_uniform(random, low, high):
@@ -71,14 +65,6 @@ def random_fault(number):
     return fault, str(random.choice(["edge", "remote"]))
 
 
-def in_time(question):
-    """What a question is answered, within the time that it may take."""
-    started = time.process_time()
-    answer = question()
-    assert time.process_time() - started < SECONDS
-    return answer
-
-
 def quick(numbers):
     return [n if n < QUICK else pytest.param(n, marks=pytest.mark.slow) for n in numbers]
 
@@ -89,23 +75,18 @@ def test_theory_answers(number):
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
-        critical = in_time(lambda: float(critical_length(**fault)))
-        assert critical > 0.0 or (math.isnan(critical) and reasons_of_stability(Fault(**fault)))
-        mode = critical_mode(**fault)
-        assert float(mode.length) == pytest.approx(critical, nan_ok=True)
-        stable = in_time(lambda: float(stability_length(**fault, loading=loading)))
+        own = Fault(**fault, loading=loading)
+        critical, stable = float(own.critical_length()), float(own.stability_length())
+        assert float(own.critical_mode().length) == pytest.approx(critical, nan_ok=True)
         assert math.isnan(stable) or 0.05 * critical < stable < 1.2 * LONGEST * critical
-        statuses = in_time(lambda: length_statuses(**fault, loading=loading))
-        there = np.isfinite(statuses["length"].values)
-        assert ((statuses["status"] == "value").values == there).all()
-        assert ((statuses["reason"] == "").values == there).all()
-        assert there[1] == math.isfinite(stable)
-        found = in_time(lambda: lengths_in_use(**fault))
-        assert float(found["homogeneous_sliding"]) > 0.0
+        found = own.lengths("none")
+        assert found["critical_length"].value == pytest.approx(critical, nan_ok=True)
+        assert found["stability_length"].value == pytest.approx(stable, nan_ok=True)
+        for answer in found.values():
+            assert answer.exists == (answer.status == "value") == (answer.reason == "")
+        assert found["homogeneous_sliding"].value > 0.0
         if critical < LONGEST_SPECIMEN:
-            others = {k: v for k, v in fault.items() if k != "slip_distance"}
-            fit = in_time(lambda: specimen_fit("slip_distance", critical, **others))
-            ends = np.array(fit.intervals).ravel()
+            ends = np.array(own.specimen("slip_distance", critical).intervals).ravel()
             assert np.isclose(ends, fault["slip_distance"], rtol=1e-5).any() or not ends.size
 
 
@@ -153,14 +134,14 @@ def test_the_drop_answers(number):
             assert any(word in str(refused) for word in ("friction law", "is not allowed"))
             return
         try:
-            found = in_time(lambda: expected_drop(run))
+            found = expected_drop(run)
         except NoLength as none:
             assert str(none)
             return
     assert found.stability_length == pytest.approx(
         stability_length_of(run, critical), rel=1e-6, nan_ok=True
     )
-    assert np.isfinite(found.drop.length) or found.doubt
+    assert np.isfinite(found.law.length) or found.doubt
     if law == "dieterich_ruina" and math.isfinite(found.stability_length):
         constant = float(stability_length(**fault))
         # where slip changes the normal stress, the law's f counts, which changes along the patch

@@ -33,7 +33,7 @@ assert code in (0, None), code
 LENGTHS = """
 from nucleation import api
 fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.01, b=0.015)
-api.critical_mode(**fault, slip_distance=5e-6, velocity=1.0, height=[0.1, 1.0])
+asked.critical_mode(**fault, slip_distance=5e-6, velocity=1.0, height=[0.1, 1.0])
 """
 PLAN = """
 from snakemake.cli import main

@@ -28,7 +28,7 @@ def test_examples(nucleation, tmp_path, monkeypatch):
     (file,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
     Path("fault.yaml").write_text(file)
     found = list(examples())
-    assert len(found) == 9
+    assert len(found) == 8
     for command, output in found:
         ended = nucleation(*shlex.split(command))
         said = re.sub(r"^step \d.*\n", "", ended.out + ended.err, flags=re.MULTILINE)
@@ -38,6 +38,6 @@ def test_examples(nucleation, tmp_path, monkeypatch):
 
 def test_exit_codes_of_the_page():
     table = re.findall(r"^\| (\d+) \| (.*) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert len(table) == 6
+    assert len(table) == 5
     for code, meaning in table:
         assert re.search(rf"^  {code} +{re.escape(meaning)}$", commands.EXIT_CODES, re.MULTILINE)

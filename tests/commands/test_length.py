@@ -3,13 +3,13 @@
 import json
 import math
 
+import asked
 import numpy as np
 import pytest
 
-from nucleation import api
+from nucleation.api import Fault
 from nucleation.lengths.in_use import LENGTHS
 from nucleation.lengths.length import TWO_MATERIALS
-from nucleation.theory import arrays
 
 WORDS = [
     "length", "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa",
@@ -20,6 +20,12 @@ FAULT = {
     "slip_distance": 5e-6,
 }  # fmt: skip
 DECADE = math.log(10.0)
+
+
+def value_of(told, key):
+    """The value of one length in JSON."""
+    (entry,) = (entry for entry in told["lengths"] if entry["key"] == key)
+    return entry["value"]
 
 
 @pytest.fixture
@@ -59,17 +65,17 @@ def test_between_both_lengths_of_rubin_and_ampuero_it_is_said_what_holds(nucleat
 
 def test_json_has_the_library_s_numbers(found):
     told = found("--velocity", "1 mm/yr", "--height", "2m")
-    mode = arrays.critical_mode(**FAULT, velocity=1e-3 / (365.25 * 86400), height=2.0)
-    assert told["theory"]["critical_length"] == pytest.approx(mode.length)
-    assert told["theory"]["critical_wavenumber"] == pytest.approx(mode.wavenumber)
-    assert told["theory"]["critical_frequency"] == pytest.approx(mode.angular_frequency)
+    mode = asked.critical_mode(**FAULT, velocity=1e-3 / (365.25 * 86400), height=2.0)
+    assert value_of(told, "critical_length") == pytest.approx(mode.length)
+    assert told["mode"]["critical_wavenumber"] == pytest.approx(mode.wavenumber)
+    assert told["mode"]["critical_frequency"] == pytest.approx(mode.angular_frequency)
     assert told["parameters"]["height"] == 2.0
-    expected = api.lengths_in_use(**FAULT, height=2.0)
+    expected = Fault(**FAULT, height=2.0, velocity=1e-9).lengths()
     assert [entry["key"] for entry in told["lengths"]] == list(expected)
     for entry in told["lengths"]:
-        value = float(expected[entry["key"]])
-        assert entry["length"] == (None if np.isnan(value) else pytest.approx(value))
-        assert entry["units"] == "m" and entry["source"] and entry["validity"]
+        value = float(expected[entry["key"]].value)
+        assert entry["value"] == (None if np.isnan(value) else pytest.approx(value))
+        assert entry["units"] == "m" and (entry["reason"] == "") == (entry["value"] is not None)
 
 
 @pytest.mark.parametrize(
@@ -103,8 +109,8 @@ SIDES = {"far_side": "free", "second_far_side": "clamped"}
 )
 def test_faults_of_all_kinds(found, options, own):
     told = found("--friction", "0.6", "--height", "30 cm", *options.split())
-    expected = arrays.critical_length(**FAULT, friction=0.6, height=0.3, **own)
-    assert told["theory"]["critical_length"] == pytest.approx(expected)
+    expected = asked.critical_length(**FAULT, friction=0.6, height=0.3, **own)
+    assert value_of(told, "critical_length") == pytest.approx(expected)
     for name, value in {**own, "height": 0.3}.items():
         assert told["parameters"][name] == ("inf" if value == math.inf else value)
 
@@ -120,16 +126,16 @@ def test_doubtful_magnitudes_are_warned_of_once(nucleation):
 
 
 def test_weakening_rate(found):
-    lengths = {x["key"]: x["length"] for x in found("--weakening-rate", "100 GPa/m")["lengths"]}
+    lengths = {x["key"]: x["value"] for x in found("--weakening-rate", "100 GPa/m")["lengths"]}
     assert lengths["uenishi_rice"] == pytest.approx(1.158 * 40e9 / 100e9)
 
 
 def test_without_velocity_the_frequency_is_relative(nucleation, found):
     """Over V/D it is sqrt(zeta/a) for identical bodies, Eq. (6)."""
     assert "omega  0.7071 V/D" in nucleation(*WORDS).out
-    assert found()["theory"]["critical_frequency"] is None
+    assert found()["mode"]["critical_frequency"] is None
     for more in ([], ["--velocity", "1mm/yr"]):
-        ratio = found(*more)["theory"]["critical_frequency_over_rate"]
+        ratio = found(*more)["mode"]["critical_frequency_over_rate"]
         assert ratio == pytest.approx(0.5**0.5)
 
 
@@ -139,13 +145,13 @@ def test_stable_sliding(nucleation):
     assert ended.code == 3 and "sliding is stable at every wavenumber" in ended.out
     assert "L_b" in ended.out and "0.2667 m" in ended.out  # others are still given
     told = nucleation(*words, "--json")
-    assert told.code == 3 and json.loads(told.out)["theory"]["critical_length"] is None
+    assert told.code == 3 and value_of(json.loads(told.out), "critical_length") is None
 
 
 def test_a_weakening_patch(nucleation, found):
     """W_c, what a patch of a width does and its cells; refused without its surroundings."""
     around = ("--outside-zeta", "-0.005")
-    smallest = float(api.weakening_patch_length(outside_zeta=-0.005, **FAULT))
+    smallest = float(asked.weakening_patch_length(outside_zeta=-0.005, **FAULT))
     told = found(*around, "--width", "2m")["weakening_patch"]
     assert told["smallest_width"] == pytest.approx(smallest)
     assert told["width_ratio"] == pytest.approx(2.0 / smallest)
@@ -160,6 +166,18 @@ def test_a_weakening_patch(nucleation, found):
         assert "outside_zeta is missing" in ended.err
     ranges = nucleation(*WORDS, *around, "--friction", "0.6 (0.5 to 0.7)")
     assert "outside_zeta is not allowed beside ranges" in ranges.err
+
+
+def test_the_length_at_the_drop(nucleation, found):
+    """It was 1.07 m in one place and 1.31 m in another; a below f/300 was refused."""
+    own = ("--velocity", "1um/s", "--friction", "0.74", "--height", "10cm")
+    told = found(*own, "--strength", "1e-5")
+    fault = Fault(**FAULT, velocity=1e-6, friction=0.74, height=0.1)
+    expected = fault.lengths(strength=1e-5)["drop_length"]
+    assert value_of(told, "drop_length") == pytest.approx(expected.value, rel=1e-12)
+    assert f"L      {expected.value:.4g} m" in nucleation(*WORDS, *own, "--strength", "1e-5").out
+    assert "no L: needs velocity and friction" in nucleation(*WORDS).out
+    assert "no L" not in nucleation(*WORDS, "--perturbation", "none").out
 
 
 def test_patches_that_never_nucleate(nucleation):

@@ -2,9 +2,8 @@
 
 import json
 
+import asked
 import pytest
-
-from nucleation import api
 
 WORDS = [
     "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa",
@@ -19,19 +18,20 @@ FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.00
 @pytest.mark.parametrize("criterion", ["critical", "stability"])
 def test_json_has_the_library_s_numbers(nucleation, criterion):
     ended = nucleation(*WORDS, "--criterion", criterion, "--normal-stress", "1MPa", "--json")
-    found, fit = json.loads(ended.out), api.specimen_fit("normal_stress", 0.2, criterion, **FAULT)
+    found, fit = json.loads(ended.out), asked.specimen_fit("normal_stress", 0.2, criterion, **FAULT)
     assert (ended.code, ended.err) == (0, "")
     assert found["intervals"] == [list(interval) for interval in fit.intervals]
-    forward = {"critical": api.critical_length, "stability": api.stability_length}[criterion]
-    now = float(forward(**FAULT, normal_stress=1e6))
-    given = {"value": 1e6, "length": pytest.approx(now), "status": "value", "reason": ""}
-    assert found["given"] == given
+    given = found["given"]
+    for name, forward in asked.CRITERIA.items():
+        now = float(forward(**FAULT, normal_stress=1e6))
+        assert given[name]["value"] == pytest.approx(now) and given[name]["status"] == "value"
+    assert given["value"] == 1e6 and given["verdict"]
     assert found["unknown"] == "normal_stress" and found["plane"] == "stress"
 
 
 def test_other_unknowns(nucleation):
     more = nucleation(*WORDS, "--normal-stress", "2MPa").out
-    assert "0.976 of the specimen: it can nucleate" in more
+    assert "At normal_stress = 2 MPa it can nucleate: L_s is" in more
     ended = nucleation(*WORDS, "--normal-stress", "1MPa", "--find", "slip_distance")
     assert "slip_distance < 257.6 nm" in ended.out
     soft = [x for x in WORDS if x not in ("--shear-modulus", "3.1GPa")]
@@ -46,7 +46,7 @@ def test_several_intervals_and_none(nucleation):
         "--find", "shear_modulus", "--shear-modulus", "10GPa",
     ]  # fmt: skip
     ended = nucleation(*contrast, "--zeta=-1e-4")
-    assert ended.code == 0 and "there is no L_c: it does not nucleate" in ended.out
+    assert ended.code == 0 and "it does not nucleate: sliding is stable" in ended.out
     assert "shear_modulus < 1.952 GPa\n  shear_modulus > 51.24 GPa" in ended.out
     ended = nucleation(*contrast, "--zeta=-9e-3")
     assert ended.code == 3 and "never: there is none at all values; sliding is stable" in ended.out
@@ -58,10 +58,45 @@ def test_a_specimen_that_is_too_short_at_every_value(nucleation):
     ended = nucleation(*short, "--json")
     found = json.loads(ended.out)
     assert (ended.code, found["status"], found["intervals"]) == (0, "beyond", [])
-    best = float(api.critical_length(**FAULT, normal_stress=1e10))
+    best = float(asked.critical_length(**FAULT, normal_stress=1e10))
     assert found["reason"] == f"L_c is {best:.4g} m at least, at normal_stress = 1e+10 Pa"
     text = nucleation(*short).out
     assert f"never: it is longer at all values; {found['reason']}" in text
+
+
+PLATES = [
+    "--height", "10cm", "--plane", "stress", "--shear-modulus", "3.1GPa",
+    "--poisson-ratio", "0.33", "--a", "0.0068", "--zeta", "0.0156", "--slip-distance", "0.5um",
+    "--normal-stress", "1MPa", "--friction", ".41", "--velocity", "10um/s",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("criterion", ["critical", "stability"])
+@pytest.mark.parametrize(
+    ("length", "verdict"),
+    [
+        ("25cm", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the drop 0.198 m"),
+        ("20cm", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
+        ("15cm", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the specimen"),
+        ("12cm", "simulated blocks had events from 0.7 L_s on"),
+    ],
+)
+def test_a_simulated_event_is_not_denied(nucleation, length, verdict, criterion):
+    """Blocks of these lengths had events of .13 to .36 m/s; L_c, .32 m, denied all of them."""
+    ended = nucleation("specimen", "--length", length, *PLATES, "--criterion", criterion)
+    assert ended.code == 0 and "does not nucleate" not in ended.out
+    assert verdict in " ".join(ended.out.split())
+
+
+def test_shares_of_draws(nucleation):
+    own = [*WORDS, "--draws", "20", "--normal-stress", "3MPa"]
+    words = [x if x != "0.5um" else "0.5um (0.3 to 1)" for x in own]
+    found = json.loads(nucleation(*words, "--json").out)
+    assert found["share"] == pytest.approx(0.85, abs=0.06) and found["draws"] == 20
+    ends = [found["intervals"][share][0][0] for share in ("0.05", "0.5", "0.95")]
+    median = asked.specimen_fit("normal_stress", 0.2, **FAULT).intervals[0][0]
+    assert ends[0] < ends[1] < ends[2] and ends[1] == pytest.approx(median, rel=0.05)
+    assert "in  50% of the draws if normal_stress > 1.9" in nucleation(*words).out
 
 
 def test_what_is_refused(nucleation):

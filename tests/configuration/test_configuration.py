@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 
+import asked
 import pytest
 import yaml
 from configurations import CONFIG, PAPER, papers, study
@@ -12,7 +13,6 @@ from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material
 from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
-from nucleation.theory import arrays
 from nucleation.theory.critical import modes_on_rigid_base
 from replication.configuration import schema
 from replication.configuration.load import configure, load
@@ -239,7 +239,7 @@ def test_the_theory_follows_the_friction_law(friction, interface):
     (run,) = made.runs
     law, material = run.parameters.friction, run.parameters.material
     friction, a, zeta = law.expansion(1e-5)
-    own = arrays.critical_length(
+    own = asked.critical_length(
         shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio, height=0.005,
         second_shear_modulus=math.inf, normal_stress=1e6, a=a, zeta=zeta,
         friction=friction, slip_distance=law.slip_distance,

@@ -1,10 +1,10 @@
 """A second body in configurations: what it is, its own theory, what is refused and warned of."""
 
 import pytest
+from asked import critical_length
 from configurations import changed, messages, study
 
 from nucleation.model.parameters import Parameters
-from nucleation.theory.arrays import critical_length
 from nucleation.theory.estimates import growth_time, process_zone, stiffness_of
 from replication.configuration.load import configure
 

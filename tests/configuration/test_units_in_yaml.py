@@ -1,5 +1,6 @@
 """Units in the configuration, as people write them, and one vocabulary for all of its readers."""
 
+import asked
 import numpy as np
 import pytest
 from configurations import messages, study
@@ -67,13 +68,13 @@ def test_the_same_names_in_configuration_and_api():
     fault = dict(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
                  height=0.02, second_shear_modulus=np.inf)  # fmt: skip
     lengths = [
-        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        api.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
+        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
+        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
+        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
     ]
     assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.critical_length, rel=1e-6)
     with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
-        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
+        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
 
 
 def test_a_tag_that_does_not_fit_is_no_yaml(tmp_path):

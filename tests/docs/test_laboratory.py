@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 import yaml
+from asked import critical_length, stability_length
 
-from nucleation.api import critical_length, stability_length
 from nucleation.lengths.specimen import SPECIMEN
 from nucleation.model.quantities import declared
 from nucleation.model.units import parse
-from nucleation.theory.fault import QUANTITIES
+from nucleation.theory.values import QUANTITIES
 
 PAGE = Path(__file__).parents[2] / "docs" / "laboratory.yaml"
 FAULTS = yaml.safe_load(PAGE.read_text(encoding="utf-8"))

@@ -7,13 +7,12 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from asked import critical_length, lengths_in_use
 from docs.prose import says, span
 from docs.samples import DOCS, ROOT
 
 from nucleation.lengths.finite_patch import loaded_patch_factor
 from nucleation.lengths.formulas import FINITE_PATCH
-from nucleation.lengths.in_use import lengths_in_use
-from nucleation.theory.arrays import critical_length
 from replication.tables.pairs import over_realisations
 
 

@@ -4,9 +4,9 @@ import functools
 
 import numpy as np
 import xarray as xr
+from asked import lengths_in_use
 from docs.prose import says, span, table
 
-from nucleation.api import lengths_in_use
 from replication.tables.pairs import over_realisations
 
 

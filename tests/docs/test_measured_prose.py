@@ -8,9 +8,10 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from asked import critical_length, stability_length
 from docs.prose import page, says, span, table
 
-from nucleation.api import Friction, critical_length, stability_length
+from nucleation.api import Friction
 from nucleation.theory.creep.thin import thin_limit
 
 SHOWN = 0.005  # m

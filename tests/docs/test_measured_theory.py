@@ -3,9 +3,10 @@
 import dataclasses
 
 import pytest
+from asked import critical_length, expected_drop
 from docs.prose import says
 
-from nucleation.api import Fault, critical_length, expected_drop, extract, simulate
+from nucleation.api import Fault, extract, simulate
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 

@@ -10,9 +10,10 @@ from nucleation.drop.delay import SAMPLED, TINY, grown, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.extraction.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.model.perturbation import Perturbation
-from nucleation.simulation.realisation import Series, Sheet, profile, spectral_density
+from nucleation.model.perturbation import Perturbation, spectral_density
+from nucleation.simulation.realisation import Series, Sheet, profile
 from nucleation.simulation.run import simulate
+from nucleation.theory.creep.patches import Patches
 
 PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.7), mesh=Mesh(n_x=400, n_y=8))
 START, SPEED, SLOPE, FREQUENCY = 0.25, 0.014, 50.0, 11.0  # L_s, dL/dt, d Re Lambda/dL, Im Lambda
@@ -28,7 +29,9 @@ def history(share=600.0):
     rate = SLOPE * (length - START) + 1j * FREQUENCY
     constant = np.full(40, share, dtype=complex)
     time = (length - 0.18) / SPEED
-    return ModeHistory(PARAMETERS, x, time, length, rate, constant, constant, along_x, along_x)
+    return ModeHistory(
+        Patches.of(PARAMETERS), x, time, length, rate, constant, constant, along_x, along_x
+    )
 
 
 def realised(history, declared):
@@ -44,7 +47,7 @@ def realised(history, declared):
 
 def forcing(history, path, declared):
     """``g xi`` (1/s) at the times of a path, for the seed of a forcing in time."""
-    memory, seed = history.parameters.memory_time, declared.seed
+    memory, seed = history.memory, declared.seed
     time = declared.correlation_time * memory
     if declared.kind == "state":
         sheet = Sheet(seed, time, declared.correlation_length, history.x)
@@ -55,7 +58,7 @@ def forcing(history, path, declared):
     if declared.kind == "normal_load":
         weights = complex_trend(history, history.normal_load)
         return weights(path.length) * [series.value(t) for t in path.time]
-    weights = complex_trend(history, history.drive * history.parameters.loading.velocity)
+    weights = complex_trend(history, history.drive * history.patches.velocity)
     return weights(path.length) * [series.integral(t) for t in path.time]
 
 
@@ -125,7 +128,7 @@ def test_mean_square_of_realisations(kind):
 
 @pytest.fixture(scope="module")
 def own():
-    return mode_history(PARAMETERS, 0.4509)
+    return mode_history(Patches.of(PARAMETERS), 0.4509, PARAMETERS.loading.initial_state)
 
 
 def test_less_friction_everywhere_is_as_more_load(own):

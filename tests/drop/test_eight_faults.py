@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
+from asked import critical_length, expected_drop, stability_length
 
 from nucleation.api import (
     Friction,
@@ -17,9 +18,6 @@ from nucleation.api import (
     Parameters,
     Perturbation,
     SecondBody,
-    critical_length,
-    expected_drop,
-    stability_length,
 )
 from nucleation.model.friction.constants import full_law
 
@@ -79,7 +77,7 @@ def computed(row):
         perturbation=Perturbation("normal_load", 1e-5),
     )
     found = expected_drop(run)
-    length = f"{found.drop.length:.3g} ({found.drop.low:.3g} to {found.drop.high:.3g})"
+    length = f"{found.law.length:.3g} ({found.law.low:.3g} to {found.law.high:.3g})"
     if found.slips_slowly:
         length = f"{found.length:.0f}" if found.length > 100.0 else f"{found.length:.2g}"
     sure = ["slow"] if found.slips_slowly else ["law"]

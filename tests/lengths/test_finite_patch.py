@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from asked import lengths_in_use
 from scipy.linalg import eig
 
 from nucleation.lengths import finite_patch, formulas
-from nucleation.lengths.in_use import lengths_in_use
 
 ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
 FAULT = ROCK | {"normal_stress": 1e6, "slip_distance": 5e-7}

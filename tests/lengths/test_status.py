@@ -3,16 +3,9 @@
 import math
 
 import numpy as np
-import pytest
 import xarray as xr
+from asked import critical_length, lengths, lengths_in_use, stability_length
 
-from nucleation.api import (
-    critical_length,
-    length_quantiles,
-    length_statuses,
-    lengths_in_use,
-    stability_length,
-)
 from nucleation.theory.status import STATUSES
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "slip_distance": 5e-6}
@@ -22,12 +15,12 @@ A = [0.010, NEUTRAL, 0.016]
 
 def of(found, key):
     """Length, statuses and reasons of one key."""
-    one = found.sel(key=key)
-    return one["length"].values, one["status"].values.tolist(), one["reason"].values.tolist()
+    one = found[key]
+    return one.value, np.asarray(one.status).tolist(), np.asarray(one.reason).tolist()
 
 
 def test_the_theory():
-    found = length_statuses(**ROCK, a=A, b=0.015)
+    found = lengths(**ROCK, a=A, b=0.015)
     length, status, reason = of(found, "critical_length")
     np.testing.assert_array_equal(length, critical_length(**ROCK, a=A, b=0.015))
     assert status == ["value", "value", "stable"]
@@ -41,14 +34,16 @@ def test_the_theory():
 
 def test_the_literature_has_the_same_lengths():
     known = lengths_in_use(**ROCK, a=A, b=0.015)
-    found = length_statuses(**ROCK, a=A, b=0.015)
-    for key in set(found["key"].values) & set(known):
+    found = lengths(**ROCK, a=A, b=0.015)
+    for key in set(found) & set(known):
         length, status, reason = of(found, key)
         np.testing.assert_array_equal(length, known[key])
         there = np.isfinite(length)
         assert [one == "value" for one in status] == there.tolist()
         assert [one == "" for one in reason] == there.tolist()
-    assert set(found["status"].values.ravel()) <= set(STATUSES)
+    assert {status for answer in found.values() for status in np.ravel(answer.status)} <= {
+        *STATUSES
+    }
     _, status, reason = of(found, "rubin_ampuero_localised")
     assert status == ["unknown", "unknown", "stable"]
     assert reason[0] == "needs a/b < 0.3781: a/b = 0.6667"
@@ -59,7 +54,7 @@ def test_the_literature_has_the_same_lengths():
 def test_a_creep_that_opens_the_fault_is_not_a_long_patch():
     """Of a patch on a softer body under very large friction nothing is known."""
     bodies = {"second_shear_modulus": 1e9, "second_poisson_ratio": 0.1, "friction": 5.0}
-    found = length_statuses(**ROCK | bodies | {"shear_modulus": 3e9}, a=0.01, zeta=0.01)
+    found = lengths(**ROCK | bodies | {"shear_modulus": 3e9}, a=0.01, zeta=0.01)
     length, status, reason = of(found, "stability_length")
     assert math.isnan(length) and status == "unknown"
     assert reason.startswith("the creep opens the fault at a patch length of")
@@ -68,19 +63,8 @@ def test_a_creep_that_opens_the_fault_is_not_a_long_patch():
 def test_named_dimensions_stay():
     a = xr.DataArray(A, dims="a")
     height = xr.DataArray([0.1, math.inf], dims="height")
-    found = length_statuses(**ROCK, a=a, b=0.015, height=height)
-    assert found.sizes == {"key": found.sizes["key"], "a": 3, "height": 2}
-    one = found.sel(key="critical_length").isel(a=2, height=0)
+    found = lengths(**ROCK, a=a, b=0.015, height=height)
+    found = found.dataset()
+    assert found.sizes == {"length": found.sizes["length"], "a": 3, "height": 2}
+    one = found.sel(length="critical_length").isel(a=2, height=0)
     assert str(one["status"].values) == "stable"
-
-
-@pytest.mark.slow
-def test_quantiles_count_lengths_beyond_those_that_were_searched():
-    """As infinite, as stable ones are, and by their number; a median is one of the draws'."""
-    draws = np.array([0.010, 0.011, NEUTRAL, NEUTRAL, 0.016])
-    found = length_quantiles(**ROCK, a=draws, b=0.015)
-    assert (found.attrs["stable"], found.attrs["beyond"]) == (1, 2)
-    patch = found.sel(key="stability_length")
-    assert float(patch["share"]) == pytest.approx(0.4)
-    assert np.isinf(patch["value"].sel(quantile=0.5))
-    assert np.isfinite(found["value"].sel(key="critical_length", quantile=0.5))

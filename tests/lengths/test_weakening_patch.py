@@ -3,8 +3,9 @@
 import math
 
 import pytest
+from asked import weakening_patch_length
 
-from nucleation.api import Fault, weakening_patch_length
+from nucleation.api import Fault
 from nucleation.lengths.weakening_patch import NUCLEATES, outcome, patch_answer, process_zone
 
 ROCK = {

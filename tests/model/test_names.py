@@ -5,7 +5,6 @@ import pytest
 from nucleation.model.names import Names
 from nucleation.model.parameters import GROUPS, Parameters, names
 from nucleation.model.quantities import ParameterError, declared
-from nucleation.theory.arrays import aliases
 
 HEIGHT = declared("height", "(-inf, inf) m")
 TWO = Names(
@@ -50,11 +49,6 @@ def test_names_of_a_run():
             assert known.full(field) == full
     assert known.short("friction.evolution") == "evolution" and known.full("initial_state") in known
     assert known.short("friction.law") == "friction_law"
-
-
-def test_the_theory_has_the_same_names_for_the_same_parameters():
-    for other, name in aliases().items():
-        assert names().full(other) == names().full(name)
 
 
 def test_replaced_by_any_name():

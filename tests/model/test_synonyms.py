@@ -3,7 +3,7 @@
 import pytest
 
 from nucleation.model.synonyms import hint
-from nucleation.theory.fault import QUANTITIES
+from nucleation.theory.values import QUANTITIES
 
 API = tuple(QUANTITIES)
 OPTIONS = tuple("--" + name.replace("_", "-") for name in API)

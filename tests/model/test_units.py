@@ -11,7 +11,7 @@ import xarray as xr
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import magnitude, parse, registry
-from nucleation.theory.fault import QUANTITIES
+from nucleation.theory.values import QUANTITIES
 from replication.configuration import schema
 from replication.configuration.settings import Limits
 from replication.configuration.study_names import study_parameters

@@ -5,14 +5,12 @@ import pytest
 from scipy.interpolate import BSpline
 from scipy.stats import kstest
 
+from nucleation.model.perturbation import MEAN_SQUARE, correlation, spectral_density
 from nucleation.simulation.realisation import (
-    MEAN_SQUARE,
     Series,
     Sheet,
-    correlation,
     normals,
     profile,
-    spectral_density,
     spline,
 )
 

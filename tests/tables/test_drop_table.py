@@ -7,17 +7,18 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from test_delay import LOAD, START, history
+from test_delay import LOAD, PARAMETERS, START, history
 
 from nucleation.drop.delay import growth
 from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
+from nucleation.theory.creep.patches import Patches
 from replication.figures.beyond import figure_drop
 from replication.tables import drops as module
 from replication.tables.drops import COLUMNS, NOISE_FLOORS, gather_drops, noise_floors
 
-FAULT = fault(history().parameters)
-STIFF = history().parameters.replaced({"shear_modulus": 9.3e9})
+FAULT = fault(PARAMETERS)
+STIFF = PARAMETERS.replaced({"shear_modulus": 9.3e9})
 
 
 def drops(**changes):
@@ -37,23 +38,28 @@ def drops(**changes):
     return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
 
 
-def described(own):
-    return {"parameters": own.parameters.to_dict(), "critical_length": 0.45}
+def described(parameters):
+    return {"parameters": parameters.to_dict(), "critical_length": 0.45}
+
+
+def softness(patches):
+    return float(patches.one.softness[0])
 
 
 @pytest.fixture(scope="module", autouse=True)
 def histories():
     """Made-up ones: of the usual fault, and of one that is stiffer."""
-    other = dataclasses.replace(history(), parameters=STIFF, length=1.5 * history().length)
+    patches, length = Patches.of(STIFF), 1.5 * history().length
+    other = dataclasses.replace(history(), patches=patches, length=length)
     with pytest.MonkeyPatch.context() as patched:
-        made = {fault(own.parameters): own for own in (history(), other)}
-        patched.setattr(module, "mode_history", lambda run, _: made[fault(run)])
+        made = {softness(own.patches): own for own in (history(), other)}
+        patched.setattr(module, "mode_history", lambda patches, *_: made[softness(patches)])
         yield
 
 
 @pytest.fixture(scope="module")
 def table(histories):
-    return gather_drops([drops()], [described(history())])
+    return gather_drops([drops()], [described(PARAMETERS)])
 
 
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
@@ -64,7 +70,7 @@ def test_rows_are_those_of_faults_whose_mode_is_known(table):
 
 def test_each_material_has_its_own_law():
     """With the heights, laws and ages of both alike, the modes of one were taken for the other."""
-    runs = [described(history()), {"parameters": STIFF.to_dict(), "critical_length": 0.45}]
+    runs = [described(PARAMETERS), described(STIFF)]
     faults = [FAULT, FAULT, fault(STIFF), fault(STIFF)]
     for order in (runs, runs[::-1]):
         found = gather_drops([drops(fault=faults, height=[0.02] * 4)], order)
@@ -92,7 +98,7 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
 
 
 def test_floors_are_the_quiet_rows_without_what_they_lack(table):
-    found = noise_floors([drops()], [described(history())])
+    found = noise_floors([drops()], [described(PARAMETERS)])
     assert tuple(found.data_vars) == tuple(NOISE_FLOORS)
     assert list(found["id"].values) == ["b"]
     assert float(found["floor_state"][0]) == float(table["floor_state"][1])
@@ -118,7 +124,7 @@ def test_distributions_are_those_of_the_committed_drops():
 
 
 def test_curves_are_the_law_at_their_strengths():
-    described_run = described(history())
+    described_run = described(PARAMETERS)
     files = module.drop_files([drops()], [described_run])
     found = files[".nc"]
     assert files[".csv"].splitlines()[0] == ",".join(COLUMNS)

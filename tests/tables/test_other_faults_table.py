@@ -2,8 +2,8 @@
 
 import numpy as np
 import xarray as xr
+from asked import expected_drop
 
-from nucleation.drop.expected_drop import expected_drop
 from nucleation.model.identity import ensemble
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation

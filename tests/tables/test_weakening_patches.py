@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
+from asked import critical_length, weakening_patch_length
 from configurations import papers
 
-from nucleation.api import critical_length, weakening_patch_length
 from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
 from replication.figures.beyond import figure_weakening_patches

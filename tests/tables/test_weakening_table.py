@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
+from asked import expected_drop
 
 from nucleation.datasets.variables import table
-from nucleation.drop.expected_drop import expected_drop
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
@@ -44,7 +44,7 @@ def test_a_row_has_the_answer_of_the_law():
     known = expected_drop(STRONG)
     row = expected(STRONG)
     assert row["stability_length"] == known.stability_length
-    assert row["law_length"] == row["expected_length"] == known.drop.length
+    assert row["law_length"] == row["expected_length"] == known.law.length
     assert row["expected_low"] < row["expected_length"] < row["expected_high"]
     assert np.isnan(row["runaway_length"])
 

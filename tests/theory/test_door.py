@@ -6,14 +6,8 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from asked import critical_length, critical_mode, lengths_in_use, specimen_fit, stability_length
 
-from nucleation.api import (
-    critical_length,
-    critical_mode,
-    lengths_in_use,
-    specimen_fit,
-    stability_length,
-)
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.values import QUANTITIES
 

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-
-from nucleation.api import critical_length, transfer_functions
+from asked import critical_length, transfer_functions
 
 GOUGE = {"shear_modulus": 1e8, "poisson_ratio": 0.3, "height": 2e-3, "far_side": "clamped",
          "second_shear_modulus": math.inf}  # fmt: skip

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from asked import critical_length, spectrum, weakening_patch_length
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nucleation.api import critical_length, spectrum, weakening_patch_length
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import patch_basis, weakening_patch

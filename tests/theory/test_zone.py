@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from asked import critical_length, spectrum, stability_length, transfer_functions
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from nucleation.api import Fault, critical_length, spectrum, stability_length, transfer_functions
+from nucleation.api import Fault
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.stiffness import Layers
 from nucleation.theory.zone import Zone

@@ -1,18 +1,18 @@
-"""The library in one place: theory over arrays of parameters, friction, simulations, extraction.
+"""The library in one place: faults and their lengths, friction, simulations, extraction.
 
->>> from nucleation.api import critical_length
->>> critical_length(
-...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=[50e6, 100e6],
-...     a=0.010, b=0.015, slip_distance=5e-6,
+>>> from nucleation.api import Fault
+>>> granite = Fault(
+...     shear_modulus="30GPa", poisson_ratio=0.25, normal_stress=[50e6, 100e6],
+...     a=0.010, b=0.015, slip_distance="5um",
 ... )
+>>> granite.critical_length()
 array([2.51327412, 1.25663706])
 
-Plain numbers are in SI units. Functions of the linear theory take the parameters of
-:class:`~nucleation.api.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
-broadcast as NumPy's do, DataArrays by the names of their dimensions; with a DataArray among the
-parameters the result is a DataArray. A length that does not exist is NaN, and ``length_statuses``
-has the reason: sliding is stable, the length exceeds the range of the search, or a formula is not
-applicable.
+Plain numbers are in SI units. Every answer about a fault is a method of :class:`Fault`. Parameters
+are numbers, arrays or DataArrays; arrays broadcast as NumPy's do, DataArrays by the names of their
+dimensions; with a DataArray among the parameters the result is a DataArray. A length that does not
+exist is NaN, and ``fault.lengths()`` has the reason: sliding is stable, the length exceeds the
+range of the search, or a formula is not applicable.
 
 Values with a unit are converted to SI units: a DataArray by its attribute ``units``, and pint
 quantities, with quantities as results. A text is read as on the command line,
@@ -25,49 +25,45 @@ need the extra ``solver``: without it a call raises an ImportError that names th
 from __future__ import annotations
 
 import importlib
+import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..fault import Fault
 from ..installed import MissingExtra, require, require_own
-from ..lengths.in_use import lengths_in_use
 from ..model.friction.law import Friction
-from ..model.heterogeneity import Heterogeneity
-from ..model.material import Material
-from ..model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
-from ..model.perturbation import Perturbation
 from ..model.quantities import ParameterError
-from ..model.recording import Recording
-from ..model.second_body import SecondBody
-from ..theory.arrays import critical_length, critical_mode, spectrum, transfer_functions
 from ..theory.critical import CriticalMode
 from ..theory.status import NoLength
-from .fault import Fault
 
-if TYPE_CHECKING:
-    from replication.configuration.samples import read_samples
-
-    from ..datasets.netcdf import read, write
-    from ..drop.drop_quantiles import drop_quantiles
-    from ..drop.expected_drop import expected_drop
-    from ..extraction.definitions import ExtractionSettings
-    from ..extraction.extraction import extract
-    from ..lengths.specimen import specimen_fit
-    from ..lengths.specimen_quantiles import specimen_quantiles
-    from ..lengths.status import length_statuses
-    from ..lengths.uncertainty import length_quantiles
-    from ..simulation.progress import simulate
-    from ..simulation.run import run
-    from ..theory.creep.lengths import stability_length
-    from ..theory.creep.runaway import runaway_length
-    from ..theory.weakening_patch import weakening_patch_length
+_LATER = {
+    "nucleation.extraction.definitions": ("ExtractionSettings",),
+    "nucleation.extraction.extraction": ("extract",),
+    "nucleation.simulation.progress": ("simulate",),
+    "nucleation.fault.samples": ("read_samples",),
+    "nucleation.datasets.netcdf": ("read", "write"),
+    "nucleation.fault.paper": ("PAPER",),
+    "nucleation.simulation.run": ("run",),
+    "nucleation.model.heterogeneity": ("Heterogeneity",),
+    "nucleation.model.material": ("Material",),
+    "nucleation.model.parameters": ("Geometry", "Loading", "Mesh", "Parameters", "Stepping"),
+    "nucleation.model.perturbation": ("Perturbation",),
+    "nucleation.model.recording": ("Recording",),
+    "nucleation.model.second_body": ("SecondBody",),
+    "nucleation.lengths.answer": ("Lengths",),
+    "nucleation.lengths.draws": ("draw", "quantiles"),
+}
+_MODULES = {name: module for module, names in _LATER.items() for name in names}
 
 __all__ = [
+    "PAPER",
     "CriticalMode",
     "ExtractionSettings",
     "Fault",
     "Friction",
     "Geometry",
     "Heterogeneity",
+    "Lengths",
     "Loading",
     "Material",
     "Mesh",
@@ -78,49 +74,17 @@ __all__ = [
     "Recording",
     "SecondBody",
     "Stepping",
-    "critical_length",
-    "critical_mode",
-    "drop_quantiles",
-    "expected_drop",
+    "draw",
     "extract",
-    "length_quantiles",
-    "length_statuses",
-    "lengths_in_use",
+    "quantiles",
     "read",
     "read_samples",
     "run",
-    "runaway_length",
     "simulate",
-    "specimen_fit",
-    "specimen_quantiles",
-    "spectrum",
-    "stability_length",
-    "transfer_functions",
-    "weakening_patch_length",
     "write",
 ]
 
-
 require_own()
-
-_LATER = {
-    "nucleation.extraction.definitions": ("ExtractionSettings",),
-    "nucleation.extraction.extraction": ("extract",),
-    "nucleation.simulation.progress": ("simulate",),
-    "replication.configuration.samples": ("read_samples",),
-    "nucleation.datasets.netcdf": ("read", "write"),
-    "nucleation.drop.drop_quantiles": ("drop_quantiles",),
-    "nucleation.drop.expected_drop": ("expected_drop",),
-    "nucleation.simulation.run": ("run",),
-    "nucleation.theory.creep.lengths": ("stability_length",),
-    "nucleation.theory.creep.runaway": ("runaway_length",),
-    "nucleation.theory.weakening_patch": ("weakening_patch_length",),
-    "nucleation.lengths.specimen": ("specimen_fit",),
-    "nucleation.lengths.specimen_quantiles": ("specimen_quantiles",),
-    "nucleation.lengths.status": ("length_statuses",),
-    "nucleation.lengths.uncertainty": ("length_quantiles",),
-}
-_MODULES = {name: module for module, names in _LATER.items() for name in names}
 
 _EXTRAS = {
     **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
@@ -128,8 +92,35 @@ _EXTRAS = {
 """The extras of functions that need one."""
 
 
+def _simulate(self: Fault, **settings: Any) -> Any:
+    """Simulate this fault, a single one with `velocity` and `friction`.
+
+    Parameters
+    ----------
+    **settings
+        Of the run by name, in SI units: ``n_x``, ``perturbation``, ``block_length``, ... By default
+        the block is 6 L_c long; half-spaces become blocks that are 4 L_c high and 35 L_c long,
+        which changes L_s by 2 % or less.
+
+    Returns
+    -------
+    Dataset
+        The record, as of :func:`simulate`.
+    """
+    require("solver")
+    from ..simulation.of_fault import parameters_of_fault
+    from ..simulation.progress import simulate
+
+    return simulate(parameters_of_fault(self, **settings))
+
+
+Fault.simulate = _simulate  # type: ignore[attr-defined]  # here, since a fault knows no simulation
+
+
 def __getattr__(name: str) -> Any:
     if name not in _MODULES:
+        if name.endswith("_length") and hasattr(Fault, name):
+            return _method(name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
         for extra in _EXTRAS.get(name, ()):
@@ -137,6 +128,17 @@ def __getattr__(name: str) -> Any:
     except MissingExtra as missing:
         return _without_extra(name, str(missing))
     return getattr(importlib.import_module(_MODULES[name]), name)
+
+
+def _method(name: str) -> Callable[..., Any]:
+    """A length as a function of keywords, for scripts of earlier versions; warns."""
+
+    def length(**fault: Any) -> Any:
+        text = f"{name}(**fault) is Fault(**fault).{name}()"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        return getattr(Fault(**fault), name)()
+
+    return length
 
 
 def _without_extra(name: str, message: str) -> Callable[..., Any]:

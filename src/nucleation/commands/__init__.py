@@ -21,7 +21,6 @@ DONE = 0
 FAILED = 1
 REFUSED = 2
 STABLE = 3
-UNKNOWN = 4
 INTERRUPTED = 128 + signal.SIGINT
 
 EXIT_CODES = f"""\b
@@ -30,7 +29,6 @@ Exit codes:
   {FAILED}    the simulation failed numerically; its record is kept beside
   {REFUSED}    a value, an option or a file is wrong, or can't be written
   {STABLE}    homogeneous sliding is stable: there is no critical length
-  {UNKNOWN}    the law of the drop is not applicable to this fault
   {INTERRUPTED}  interrupted
 """
 
@@ -40,10 +38,9 @@ Completion of commands and options in bash (zsh and fish in the same way):
 """
 
 COMMANDS = {
-    "length": "Critical nucleation length of a fault: the theory's, and others in use.",
+    "length": "Nucleation lengths of a fault: the theory's, the one at the drop, others in use.",
     "specimen": "Normal stress, slip distance or modulus at which a nucleation length fits into a "
     "specimen.",
-    "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "show": "Summarise a dataset of the project: its kind, origin and variables.",
 }

@@ -1,6 +1,5 @@
 """Options of the command line for parameters, with units, ranges and help from declarations."""
 
-import copy
 import math
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
@@ -13,13 +12,13 @@ from replication.configuration.parameter_files import means_half_space
 from replication.configuration.single_run import flat
 from replication.configuration.study_names import study_parameters
 
-from ..lengths.draws import DRAWS, parse_range
+from ..lengths.draws import DRAWS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from .unit_text import note_typed, with_unit
+from .unit_text import with_unit
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -30,21 +29,12 @@ _Read = Callable[[str, str, Quantity], Any]
 """A function that reads a text, from the name of a parameter, the text and the declaration."""
 
 
-class _Option(click.Option):
-    """An option with its standard name alone in the help; its other names are understood too."""
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        shown = copy.copy(self)
-        shown.opts = self.opts[-1:]
-        return click.Option.get_help_record(shown, ctx)
-
-
 def option(
     *names: str,
     key: str,
     entry: Quantity,
     note: str = "",
-    read: _Read = parse,
+    read: _Read | None = None,
     **settings: Any,
 ) -> Decorator:
     """A click option with unit, range and help from the declaration of a parameter.
@@ -74,12 +64,9 @@ def option(
         if means_half_space(key, text):
             return math.inf
         try:
-            value = read(key, text, entry)
+            return (read or parse)(key, text, entry)
         except ParameterError as error:
             raise click.BadParameter(str(error)) from None
-        if isinstance(value, float):
-            note_typed(value, text, entry.unit)
-        return value
 
     def completed(
         context: click.Context,
@@ -91,7 +78,6 @@ def option(
     return click.option(
         *names,
         key,
-        cls=_Option,
         type=value_of,
         metavar=_metavar(entry),
         help=_help(entry, note),
@@ -130,12 +116,9 @@ def together(*options: Decorator) -> Decorator:
 
 
 def words(name: str) -> list[str]:
-    """The options for a parameter; the one with the standard name is the last."""
+    """The option for a parameter of a run."""
     known = names()
-    full = known.full(name)
-    called = dict.fromkeys([*known.others(full), known.short(full)])
-    ambiguous = ("f", "kind", "law")
-    return [f"--{word.replace('_', '-')}" for word in called if word not in ambiguous]
+    return [f"--{known.short(known.full(name)).replace('_', '-')}"]
 
 
 second_body_option = click.option(
@@ -198,7 +181,6 @@ source_options = together(
 def parameter_options(
     chosen: Collection[str],
     changed: Mapping[str, Any] = {},
-    ranges: bool = False,
 ) -> Decorator:
     """Options for parameters of simulations.
 
@@ -208,8 +190,6 @@ def parameter_options(
         Names in studies.
     changed : mapping
         Defaults of the command that differ from those of studies.
-    ranges : bool
-        Whether the values may be ranges.
 
     Returns
     -------
@@ -224,9 +204,8 @@ def parameter_options(
         if name == "second_body":
             options.append(second_body_option)
             continue
-        read = parse_range if ranges and not entry.worded else parse
         note = notes.get(name, "")
-        options.append(option(*words(name), key=name, entry=entry, note=note, read=read))
+        options.append(option(*words(name), key=name, entry=entry, note=note))
     return together(*options)
 
 

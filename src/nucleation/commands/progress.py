@@ -28,19 +28,24 @@ def progress_of(things: str) -> Callable[[int, int], None]:
     on_terminal = sys.stderr.isatty()
     began = time.monotonic()
     due = began + _SILENT
+    first: tuple[int, float] | None = None  # imports and tables take longer than the first draws
     shown = False
 
     def report(done: int, total: int) -> None:
-        nonlocal due, shown
+        nonlocal due, first, shown
         now = time.monotonic()
+        if first is None:
+            first = done, now
         if done >= total:
             if shown and on_terminal:
                 click.echo(f"\r{'':<70}\r", err=True, nl=False)
             shown = False
         elif now >= due:
             due = now + (_PAUSE_ON_TERMINAL if on_terminal else _PAUSE)
-            left = (now - began) * (total - done) / max(done, 1)
-            text = f"{done} of {total} {things}, about {left:.0f} s left"
+            text = f"{done} of {total} {things}"
+            if done > first[0]:
+                left = (now - first[1]) * (total - done) / (done - first[0])
+                text += f", about {left:.0f} s left"
             click.echo(f"\r{text:<70}" if on_terminal else text, err=True, nl=not on_terminal)
             shown = True
 

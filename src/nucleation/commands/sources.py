@@ -15,8 +15,7 @@ from ..lengths.draws import Range
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.fault import QUANTITIES
-from .unit_text import note_typed
+from ..theory.values import QUANTITIES
 
 _SOURCES = ("file", "run_id", "config", "paper")
 """The arguments of :data:`~nucleation.commands.options.source_options`."""
@@ -54,35 +53,38 @@ def sourced(
     ParameterError
         If sources contradict each other, or a parameter in a file is wrong.
     """
-    file, run_id, config, paper = (options.get(name) for name in _SOURCES)
+    file, paper = options.get("file"), options.get("paper")
     own = {name: value for name, value in options.items() if name not in _SOURCES}
-    is_dataset = file is not None and file.suffix == ".nc"
-    if file and run_id:
-        raise ParameterError("--parameters and --run can't be combined")
-    if paper and (run_id or is_dataset):
-        raise ParameterError("--paper is not allowed with a run or a dataset, which has all values")
-
-    base = None
+    base = base_of(options)
     found: dict[str, Any] = {}
-    if run_id:
-        base = _of_run(config, run_id)
-    elif file and is_dataset:
-        base = _of_dataset(file)
-    else:
+    if base is None:
         found["second_body"] = "rigid" if paper else "deformable"
         if file:
-            found |= read_parameters(file, keys_of_command(), note_typed)
-    found |= with_second_body(given_of(own), note_typed)
+            found |= read_parameters(file, keys_of_command())
+    found |= with_second_body(given_of(own))
 
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:
         raise ParameterError(
             f"{uncertain[0]}: a range is not allowed here, a simulation has one value of each "
-            "parameter; `nucleation drop`, `length` and `specimen` take ranges"
+            "parameter; `nucleation length` and `specimen` take ranges"
         )
     if base is None and not paper and not uncertain:
         found |= follows_from(found)
     return base, found
+
+
+def base_of(options: Mapping[str, Any]) -> Parameters | None:
+    """The parameters of the run or the dataset in the options, if one is given."""
+    file, run_id, config, paper = (options.get(name) for name in _SOURCES)
+    is_dataset = file is not None and file.suffix == ".nc"
+    if file and run_id:
+        raise ParameterError("--parameters and --run can't be combined")
+    if paper and (run_id or is_dataset):
+        raise ParameterError("--paper is not allowed with a run or a dataset, which has all values")
+    if run_id:
+        return _of_run(config, run_id)
+    return _of_dataset(file) if file and is_dataset else None
 
 
 def _of_run(config: str | None, run_id: str) -> Parameters:

@@ -1,24 +1,36 @@
 """``nucleation specimen``: values of one parameter at which a nucleation length fits a specimen."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+import numpy as np
 
-from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, Interval, specimen_fit
-from ..lengths.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
-from ..lengths.status import Answers, answers_of_theory
-from ..theory.fault import QUANTITIES, FaultParameters
+from ..fault.samples import read_samples
+from ..lengths.answer import Answer, Lengths
+from ..lengths.draws import QUANTILES
+from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, Interval, at_share
 from ..theory.status import STABLE as STABLE_SLIDING
+from ..theory.values import QUANTITIES, arrays_of
 from . import DONE, EXIT_CODES, STABLE
-from .fault_options import fault_options, fault_values
+from .faults import GivenFault, fault_options, given_fault
 from .options import draws_option, json_option, option, samples_option
 from .progress import progress_of
+from .quantiles import as_sure, drawn_size, median_fault
 from .system_text import plane_in_words, printed_warnings, system_of_fault
-from .text import as_plain, show, wrapped
-from .uncertainty import as_sure, ranges_among, take_uncertain, varying
+from .text import show, wrapped
 from .unit_text import engineering_unit, in_unit
+
+if TYPE_CHECKING:
+    from ..fault import Fault
+
+_SHORTEST_EVENT = 0.7
+"""Least length of a simulated block with an event, over L_s: its far end is free, and the theory's
+block is long (PMMA plates 10 cm high and 12 cm long under 1 MPa)."""
 
 
 @click.command("specimen", epilog=EXIT_CODES)
@@ -54,71 +66,170 @@ def command(
 ) -> int:
     """Normal stress, slip distance or modulus at which a nucleation length fits into a specimen.
 
-    The inverse of `length`. A specimen that is shorter than its nucleation length does not
-    nucleate, and that is an answer. With a range "5um (3 to 10)", the median and the quantiles of 5
-    and 95 %, or with --samples it prints the values at which shares of all draws fit.
+    The inverse of `length`. With the value of the parameter it is judged by L_s and by L, at which
+    the force drops; L needs --velocity and --friction. With a range "5um (3 to 10)", the median and
+    the quantiles of 5 and 95 %, or with --samples it prints the values at which shares of all draws
+    fit.
 
     \b
     Example:
       nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa \\
           --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
-    options, uncertain = take_uncertain(options, samples)
-    given, papers = fault_values(**options, optional=unknown)
-    uncertain = ranges_among(given) | uncertain
-    if uncertain:
-        known = varying(given, uncertain, options)
-        return _print_quantiles(known, given, length, unknown, criterion, draws, papers, as_json)
-    own = given.pop(unknown, None)
+    columns = read_samples(samples) if samples else {}
+    any_value = {unknown: _middle(unknown)}
     with printed_warnings():
-        fit = specimen_fit(unknown, length, criterion, **given)
-        value = fit.searched[0] if own is None else own
-        fault = FaultParameters(**given | {unknown: value})
-        judged = None if own is None else answers_of_theory(fault)[criterion]
-    sought = unknown if own is None else ""
-    system = system_of_fault(fault, given, papers, sought)
-    verdict = None
+        given = given_fault(options, columns, draws, sought=any_value)
+        if given.drawn:
+            return _print_shares(given, length, unknown, criterion, as_json)
+        fault = given.fault
+        fit = fault.specimen(unknown, length, criterion)
+        is_given = unknown in given.names
+        found = fault.lengths() if is_given else None
+    system = system_of_fault(fault, given.names, given.papers, "" if is_given else unknown)
     lines = [*system, ""]
-    if judged is not None:
-        verdict = {"value": own, **as_plain(judged)}
-        lines += _judged_lines(length, criterion, fit, own, judged)
+    judged = None
+    if found is not None:
+        verdict = _verdict(length, found)
+        judged = {"value": fault.single(unknown), "verdict": verdict, **_numbers(found)}
+        lines += [f"At {unknown} = {in_unit(fault.single(unknown), fit.unit)} {verdict}."]
     lines += _fit_lines(_fits(length, criterion, fault), fit)
     everything = {
         "system": system,
         "specimen": length,
         "criterion": criterion,
         **fit._asdict(),
-        "given": verdict,
+        "given": judged,
         "plane": fault.plane,
     }
     show(as_json, everything, wrapped(*lines))
     return DONE if fit.exists else STABLE
 
 
-def _print_quantiles(
-    known: dict[str, Any],
-    given: dict[str, Any],
-    length: float,
-    unknown: str,
-    criterion: str,
-    draws: int,
-    papers: list[str],
-    as_json: bool,
+def _middle(unknown: str) -> float:
+    low, high = _searched(unknown)
+    return math.sqrt(low * high)
+
+
+def _searched(unknown: str) -> Interval:
+    from ..model.plausible import RANGES
+
+    return RANGES[unknown]
+
+
+_JUDGED = ("critical_length", "stability_length", "drop_length")
+
+
+def _numbers(found: Lengths) -> dict[str, Any]:
+    """L_c, L_s and L for JSON."""
+    return {key: {n: _plain(x) for n, x in found[key]._asdict().items()} for key in _JUDGED}
+
+
+def _plain(value: Any) -> Any:
+    return value if isinstance(value, str) else float(value)
+
+
+def _verdict(length: float, found: Lengths) -> str:
+    """Whether a specimen of a length (m) nucleates, as far as it is shown."""
+    critical, stability, drop = (found[key] for key in _JUDGED)
+    if critical.status == STABLE_SLIDING:
+        return f"it does not nucleate: {critical.reason}"
+    if not stability.exists:
+        return f"whether it nucleates is not known: there is no L_s, {stability.reason}"
+    known = f"L_s is {_with_range(stability)}, {stability.value / length:.3g} of the specimen"
+    if drop.exists:
+        known += f", and L at the drop {_with_range(drop)}"
+    else:
+        known += f"; L at the drop is not known ({drop.reason})"
+    if drop.exists and length >= drop.high:
+        return f"it nucleates: {known}"
+    if length >= stability.value:
+        return f"it can nucleate: {known}"
+    return (
+        f"whether it nucleates is not known: {known}; these are lengths in long blocks, and "
+        f"simulated blocks had events from {_SHORTEST_EVENT:g} L_s on, where the end is free"
+    )
+
+
+def _with_range(answer: Answer) -> str:
+    text = f"{answer.value:.4g} m"
+    if answer.high > 1.01 * answer.low:
+        text += f" ({answer.low:.4g} to {answer.high:.4g} m)"
+    return text
+
+
+class _Shares(NamedTuple):
+    """The values at which a length fits in shares of the draws."""
+
+    unknown: str
+    unit: str
+    searched: Interval
+    intervals: dict[float, tuple[Interval, ...]]
+    errors: dict[float, tuple[Interval, ...]]
+    draws: int
+    invalid: int
+    outside: tuple[str, ...]
+    share: float
+    """Of the draws in which the length fits at the given value; NaN without a value."""
+    share_error: float
+
+
+def _shares(given: GivenFault, length: float, unknown: str, criterion: str) -> _Shares:
+    drawn, fault = given.drawn, given.fault
+    assert drawn is not None
+    arrays = {name: x for name, x in arrays_of(fault).items() if name != unknown}
+    size = drawn_size(given)
+    report = progress_of("draws")
+    fits = []
+    for i in range(size):
+        one = {name: float(x[i]) for name, x in arrays.items()}
+        single = fault.replace(**one | {unknown: _middle(unknown)})
+        fits.append(single.specimen(unknown, length, criterion))
+        report(i + 1, size)
+    share = math.nan
+    if unknown in given.names:
+        found = getattr(fault, CRITERIA[criterion])()
+        share = float(np.mean(np.asarray(found) <= length))
+    return _Shares(
+        unknown=unknown,
+        unit=fits[0].unit,
+        searched=fits[0].searched,
+        intervals={q: at_share(fits, q) for q in QUANTILES},
+        errors={q: _errors(fits, q) for q in QUANTILES},
+        draws=drawn.total,
+        invalid=sum(drawn.invalid.values()),
+        outside=tuple(drawn.invalid),
+        share=share,
+        share_error=_scatter(share, size),
+    )
+
+
+def _errors(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
+    """Standard errors of the ends: half the distance between those at shares an error apart."""
+    scatter = _scatter(share, len(fits))
+    own = at_share(fits, share)
+    less = at_share(fits, share - scatter)
+    more = at_share(fits, share + scatter)
+    if not len(less) == len(own) == len(more):
+        return tuple((math.nan, math.nan) for _ in own)
+    half = 0.5 * np.abs(np.reshape(more, (-1, 2)) - np.reshape(less, (-1, 2)))
+    return tuple((float(first), float(last)) for first, last in half)
+
+
+def _scatter(share: float, number: int) -> float:
+    """Standard error of a share of a number of draws."""
+    return math.sqrt(share * (1.0 - share) / number)
+
+
+def _print_shares(
+    given: GivenFault, length: float, unknown: str, criterion: str, as_json: bool
 ) -> int:
     """Print the values at which shares of all draws fit, and return the exit code."""
-    with printed_warnings():
-        found = specimen_quantiles(
-            unknown,
-            length,
-            criterion,
-            draws=draws,
-            progress=progress_of("draws"),
-            **known,
-        )
-        value = given.get(unknown, found.searched[0])
-        middle = FaultParameters(**given | {unknown: value})
-    sought = "" if unknown in given else unknown
-    system = system_of_fault(middle, given, papers, sought)
+    found = _shares(given, length, unknown, criterion)
+    fault = given.fault
+    middle = median_fault(fault)
+    sought = "" if unknown in given.names else unknown
+    system = system_of_fault(middle, given.names, given.papers, sought)
     everything = {
         "system": system,
         "specimen": length,
@@ -128,19 +239,19 @@ def _print_quantiles(
     for name in ("intervals", "errors"):
         by_share = getattr(found, name)
         everything[name] = {f"{share:g}": value for share, value in by_share.items()}
-    lines = _quantile_lines(_fits(length, criterion, middle), found)
+    lines = _share_lines(_fits(length, criterion, middle), found)
     show(as_json, everything, wrapped(*system, "", *lines))
     return DONE if any(found.intervals.values()) else STABLE
 
 
-def _fits(length: float, criterion: str, fault: FaultParameters) -> str:
+def _fits(length: float, criterion: str, fault: Fault) -> str:
     """The beginning of the sentence that ends with values."""
     plane = plane_in_words(fault.plane)
     return f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane},"
 
 
-def _quantile_lines(fits: str, found: SpecimenQuantiles) -> list[str]:
-    """The values at which shares of all draws fit."""
+def _share_lines(fits: str, found: _Shares) -> list[str]:
+    """The values at which shares of the draws fit."""
     drawn = f"{found.draws} draws: {found.invalid} left out"
     if found.outside:
         drawn += f" ({', '.join(found.outside)} not allowed)"
@@ -148,8 +259,7 @@ def _quantile_lines(fits: str, found: SpecimenQuantiles) -> list[str]:
     if not math.isnan(found.share):
         error = max(found.share_error, 1.0 / found.draws)
         lines.append(
-            f"At the given {found.unknown} {found.share:.0%} (+- {error:.0%}) of the draws "
-            "can nucleate."
+            f"At the given {found.unknown} it fits in {found.share:.0%} (+- {error:.0%}) of them."
         )
     lines.append(fits)
     for share, intervals in found.intervals.items():
@@ -161,12 +271,12 @@ def _quantile_lines(fits: str, found: SpecimenQuantiles) -> list[str]:
     return [*lines, _searched_line(found)]
 
 
-def _searched_line(found: Fit | SpecimenQuantiles) -> str:
+def _searched_line(found: Fit | _Shares) -> str:
     span = " to ".join(in_unit(end, found.unit) for end in found.searched)
     return f"searched: {QUANTITIES[found.unknown].description}, {span}"
 
 
-def _interval(found: Fit | SpecimenQuantiles, ends: Interval, errors: Interval) -> str:
+def _interval(found: Fit | _Shares, ends: Interval, errors: Interval) -> str:
     """An interval of values, with the digits that the errors of its ends leave."""
     first, last = map(_end, ends, errors, (found.unit, found.unit))
     if ends[1] == found.searched[1] and ends[0] > found.searched[0]:
@@ -180,29 +290,6 @@ def _end(value: float, error: float, unit: str) -> str:
     """The end of an interval in an engineering unit, with the digits that its error leaves."""
     name, size = engineering_unit(value, unit)
     return f"{as_sure(value / size, error / size)} {name}"
-
-
-def _judged_lines(
-    length: float,
-    criterion: str,
-    fit: Fit,
-    own: float,
-    judged: Answers,
-) -> list[str]:
-    """Whether the specimen nucleates at the given value."""
-    name = NAMES[criterion]
-    place = f"At {fit.unknown} = {in_unit(own, fit.unit)}"
-    now = float(judged.length)
-    ratio = now / length
-    if now <= length:
-        return [f"{place} {name} is {now:.4g} m, {ratio:.3g} of the specimen: it can nucleate."]
-    if now > length:
-        return [
-            f"{place} {name} is {now:.4g} m, {ratio:.3g} times the specimen: it does not nucleate."
-        ]
-    stable = judged.status == STABLE_SLIDING
-    verdict = "it does not nucleate" if stable else "whether it nucleates is not known"
-    return [f"{place} there is no {name}: {verdict}.", f"  {judged.reason}"]
 
 
 def _fit_lines(fits: str, fit: Fit) -> list[str]:

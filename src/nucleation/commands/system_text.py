@@ -6,13 +6,14 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from ..lengths.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS, number
+from ..fault import Fault
+from ..lengths.length import number
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
-from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.of_runs import fault_of_run
+from ..theory.values import QUANTITIES
 from .text import warn
 from .unit_text import in_unit
 
@@ -27,26 +28,13 @@ _SOUGHT = "to find"
 _FAR_SIDES = {"traction": "free", "velocity": "moved"}
 """Boundary conditions of a far side, in words."""
 
-_GIVEN_BY = {
-    "shear_modulus": {"shear_modulus"},
-    "poisson_ratio": {"poisson_ratio"},
-    "height": {"height"},
-    "normal_stress": {"normal_stress"},
-    "velocity": {"velocity"},
-    "slip_distance": {"slip_distance"},
-    "friction": {"friction"},
-    "a": {"a"},
-    "b": {"zeta_over_a", "zeta", "b"},
-}
-"""The parameters of a fault with a value in the paper, and names by which each may be given."""
-
 
 def plane_in_words(plane: str) -> str:
     """The deformation of the bodies: plane strain, plane stress or antiplane shear."""
     return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
-def _system_line(fault: FaultParameters, sought: str) -> str:
+def _system_line(fault: Fault, sought: str) -> str:
     """Bodies, far sides, loading and plane."""
     first, second = _body(fault, "", sought), _body(fault, "second_", "")
     if math.isinf(number(fault, "second_shear_modulus")):
@@ -60,7 +48,7 @@ def _system_line(fault: FaultParameters, sought: str) -> str:
     return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
 
 
-def _zone(fault: FaultParameters) -> str:
+def _zone(fault: Fault) -> str:
     """The zone of other stiffness in words."""
     names = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
     thickness, modulus, ratio = (float(number(fault, name)) for name in names)
@@ -69,7 +57,7 @@ def _zone(fault: FaultParameters) -> str:
 
 
 def _body(
-    fault: FaultParameters,
+    fault: Fault,
     prefix: str,
     sought: str,
 ) -> str:
@@ -96,7 +84,7 @@ def _material(
     return f"(mu = {value})" if plane == ANTIPLANE else f"(mu = {value}, nu = {ratio:.4g})"
 
 
-def _friction_line(fault: FaultParameters, sought: str) -> str:
+def _friction_line(fault: Fault, sought: str) -> str:
     """Coefficients at V, normal stress, slip distance and the friction law."""
     constants = {"f": "friction", "a": "a", "b": "b"}
     known = parameters_of(fault) | {"b": fault.b}
@@ -121,36 +109,13 @@ def _friction_line(fault: FaultParameters, sought: str) -> str:
     return f"Friction: {'; '.join(parts)}."
 
 
-def is_of_one_material(fault: FaultParameters) -> bool:
+def is_of_one_material(fault: Fault) -> bool:
     """Whether both bodies have the same material."""
     second = (fault.second_shear_modulus, fault.second_poisson_ratio)
     return (fault.shear_modulus, fault.poisson_ratio) == second
 
 
-def systems_of_lengths(fault: FaultParameters, uncertain: Collection[str] = ()) -> list[str]:
-    """The systems of the lengths in use, in the order of their listing.
-
-    Parameters
-    ----------
-    fault : FaultParameters
-        One fault.
-    uncertain : collection of str
-        Names of its uncertain parameters.
-
-    Returns
-    -------
-    list of str
-        With the system of two materials only if the materials differ.
-    """
-    differ = not is_of_one_material(fault)
-    differ = differ or any(name.startswith("second_") for name in uncertain)
-    systems = [THIS_FAULT]
-    if differ and math.isfinite(number(fault, "second_shear_modulus")):
-        systems.append(TWO_MATERIALS)
-    return [*systems, HALF_SPACES, RIGID_BASE]
-
-
-def parameters_of(fault: FaultParameters) -> dict[str, Any]:
+def parameters_of(fault: Fault) -> dict[str, Any]:
     """All parameters of a fault that are not None, by name."""
     values = {name: getattr(fault, name) for name in QUANTITIES}
     return {name: value for name, value in values.items() if value is not None}
@@ -188,43 +153,20 @@ def system_of_run(
     -------
     list of str
     """
-    fault = FaultParameters(**fault_of_run(parameters))
+    fault = Fault(**fault_of_run(parameters))
     if base is not None:
         return system_of_fault(fault, parameters_of(fault))
-    return system_of_fault(fault, given, papers_lines(parameters.friction, given))
+    return system_of_fault(fault, given)
 
 
-def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
-    """The parameters that are not given and therefore the paper's, in one line or none.
-
-    Parameters
-    ----------
-    law : Friction
-        The friction law of the fault.
-    given : mapping
-        The given values by their names in studies.
-
-    Returns
-    -------
-    list of str
-    """
-    given_by = dict(_GIVEN_BY)
-    if any(name in given for name in law.set_by_expansion):
-        for name in ("friction", "a", "b"):
-            del given_by[name]
-        for name in law.set_by_expansion:
-            given_by[name] = {name}
-    papers = [name for name, names in given_by.items() if not names & given.keys()]
-    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []
-
-
-def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
+def _assumed(fault: Fault, given: Collection[str]) -> list[str]:
     """The assumptions about bodies, far sides and plane, in words."""
     assumed = []
     if math.isfinite(number(fault, "second_shear_modulus")):
-        if "second_shear_modulus" not in given:
+        alike = fault.second_height == fault.height
+        if is_of_one_material(fault) and alike and "second_shear_modulus" not in given:
             assumed.append("the second body is like the first")
-        elif "second_height" not in given:
+        elif alike and "second_height" not in given:
             assumed.append("the second body is as high as the first")
     if math.isfinite(number(fault, "height")):
         if "far_side" not in given:
@@ -237,8 +179,8 @@ def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
 
 
 def system_of_fault(
-    fault: FaultParameters,
-    given: Mapping[str, Any],
+    fault: Fault,
+    given: Collection[str],
     papers: Sequence[str] = (),
     sought: str = "",
 ) -> list[str]:
@@ -246,10 +188,10 @@ def system_of_fault(
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         One fault.
-    given : mapping
-        Its given parameters, by name.
+    given : collection of str
+        Names of its given parameters.
     papers : sequence of str
         The line about parameters that are the paper's, if there is one.
     sought : str
@@ -264,7 +206,7 @@ def system_of_fault(
         _friction_line(fault, sought),
         *papers,
     ]
-    assumed = _assumed(fault, given.keys())
+    assumed = _assumed(fault, given)
     if assumed:
         lines.append(f"Assumed: {', '.join(assumed)}.")
     return lines

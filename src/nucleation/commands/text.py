@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..lengths.status import Answers
 from ..model.parameters import GROUPS, Parameters
 from ..model.quantities import ParameterError, declarations
 from .pages import with_addresses
@@ -209,15 +208,6 @@ def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
         "wall_seconds": float(dataset.attrs["wall_seconds"]),
         "simulated_time": float(dataset["step_time"][-1]),
         "event": extract(dataset),
-    }
-
-
-def as_plain(answer: Answers) -> dict[str, Any]:
-    """A length of one fault with its status, for JSON."""
-    return {
-        "length": float(answer.length),
-        "status": str(answer.status),
-        "reason": str(answer.reason),
     }
 
 

@@ -1,20 +1,20 @@
-"""Values with their units in the output of commands: as the user wrote them, or as engineers do."""
+"""Values with their units in the output of commands, as engineers write them."""
 
 import math
 from typing import Any
 
-import click
-
 from ..model.quantities import Quantity
-from ..model.units import NUMBER
-
-_TYPED = f"{__name__}.typed"
-"""Key of the values as the user typed them, in the context of the command."""
 
 _ENGINEERING_UNITS = {
     "m": {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0, "km": 1e3},
     "s": {"ps": 1e-12, "ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0},
-    "m/s": {"nm/s": 1e-9, "um/s": 1e-6, "mm/s": 1e-3, "m/s": 1.0},
+    "m/s": {
+        "mm/yr": 1e-3 / (365.25 * 86400.0),
+        "nm/s": 1e-9,
+        "um/s": 1e-6,
+        "mm/s": 1e-3,
+        "m/s": 1.0,
+    },
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
     "Pa/s": {"Pa/s": 1.0, "kPa/s": 1e3, "MPa/s": 1e6, "GPa/s": 1e9},
     "Pa/m": {"Pa/m": 1.0, "kPa/m": 1e3, "MPa/m": 1e6, "GPa/m": 1e9},
@@ -44,38 +44,12 @@ def with_unit(
     return f"{value}{entry.unit_suffix}"
 
 
-def note_typed(
-    value: float,
-    text: str,
-    unit: str,
-) -> None:
-    """Note how the user wrote a value, so that this command prints it in the same unit.
-
-    Parameters
-    ----------
-    value : float
-        In SI units.
-    text : str
-        Number and unit, or a range "5um (3 to 10)" with that median; a bare number is not noted.
-    unit : str
-        The SI unit.
-    """
-    context = click.get_current_context(silent=True)
-    parts = NUMBER.fullmatch(text.partition("(")[0])
-    if context is None or parts is None or unit == "1":
-        return
-    number, denominator, own_unit = parts.groups()
-    if own_unit and not denominator:
-        typed = context.meta.setdefault(_TYPED, {})
-        typed[float(value), unit] = f"{number} {own_unit}"
-
-
 def in_unit(
     value: float,
     unit: str,
     digits: int = 4,
 ) -> str:
-    """A number as the user wrote it, else in an engineering unit.
+    """A number in an engineering unit.
 
     Parameters
     ----------
@@ -96,10 +70,6 @@ def in_unit(
     ('3.1 GPa', '500 nm', '0.2')
     """
     number = float(value)
-    context = click.get_current_context(silent=True)
-    typed = context.meta.get(_TYPED, {}) if context else {}
-    if (number, unit) in typed:
-        return str(typed[number, unit])
     shown_unit, size = engineering_unit(number, unit)
     text = f"{number / size:.{digits}g}"
     return text if unit == "1" else f"{text} {shown_unit}"

@@ -7,7 +7,7 @@ from typing import Any
 from ..lengths.weakening_patch import patch_answer
 from ..model.heterogeneity import Heterogeneity
 from ..model.quantities import ParameterError, declarations
-from ..theory.fault import QUANTITIES, FaultParameters
+from ..theory.values import QUANTITIES, FaultLike
 from .options import option, together
 from .text import Row, table, wrapped
 from .unit_text import in_unit
@@ -37,12 +37,12 @@ patch_options = together(
 """The options for a patch, the arguments of :func:`patch_of`."""
 
 
-def patch_of(fault: FaultParameters, options: dict[str, Any]) -> dict[str, Any] | None:
+def patch_of(fault: FaultLike, options: dict[str, Any]) -> dict[str, Any] | None:
     """The behaviour of the patch that :data:`patch_options` define.
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         One fault, with the friction of the patch.
     options : dict
         Values of the options, in SI units; None if not given.

@@ -27,8 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from ..model.perturbation import Perturbation
-from ..simulation.realisation import correlation, spectral_density
+from ..model.perturbation import Perturbation, correlation, spectral_density
 from ..types import Array
 from .continued import CreepPath, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory
@@ -191,14 +190,14 @@ def _power(
     declared: Perturbation,
 ) -> Array:
     """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
-    memory = history.parameters.memory_time
+    memory = history.memory
     omega = history.rate.imag
     spectrum = spectral_density(omega, declared.correlation_time * memory)
     if declared.kind == "normal_load":
         return np.abs(history.normal_load) ** 2 * spectrum
     if declared.kind == "drive_velocity":
         # displacement is velocity over i omega
-        velocity = history.parameters.loading.velocity
+        velocity = history.patches.velocity
         return np.abs(history.drive * velocity / omega) ** 2 * spectrum
     if declared.kind == "state":
         distances = history.x[:, None] - history.x

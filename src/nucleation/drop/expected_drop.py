@@ -7,12 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.linearised import interface_state
-from ..model.parameters import Geometry, Parameters
-from ..theory.creep.lengths import stability_length_of
+from ..model.perturbation import Perturbation
+from ..theory.creep.lengths import stability_point
 from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import ERROR, runaway_point
-from ..theory.critical import run_length
 from ..theory.status import UNKNOWN, VALUE, NoLength
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
@@ -33,11 +31,21 @@ THICK = 0.5  # height over the patch's length above which a block is thick
 THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
 
 
+class Block(NamedTuple):
+    """The block of a simulation, whose far end a long patch feels."""
+
+    length: float  # m
+    height: float  # m
+
+
 class ExpectedDrop(NamedTuple):
-    """The expected drop of a fault under its declared perturbation; lengths in m."""
+    """The expected drop of a fault under a declared perturbation; lengths in m.
+
+    Its length is that of the law, or L_run where slow slip lasts up to it.
+    """
 
     stability_length: float  # L_s
-    drop: Drop
+    law: Drop  # the law of the drop, which holds where the patch does not slip slowly
     closed_form: ClosedForm
     doubt: str  # why the answer is uncertain, empty if it is not
     runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
@@ -47,83 +55,64 @@ class ExpectedDrop(NamedTuple):
     @property
     def length(self) -> float:
         """The length (m) at the drop: the law's median, or L_run if slow slip lasts up to it."""
-        return float(np.fmax(self.drop.length, self.runaway_length))
+        return float(np.fmax(self.law.length, self.runaway_length))
 
     @property
     def low(self) -> float:
         """The least expected length (m) at the drop."""
-        return float(np.fmax(self.drop.low, self.runaway_length * (1.0 - ERROR)))
+        return float(np.fmax(self.law.low, self.runaway_length * (1.0 - ERROR)))
 
     @property
     def high(self) -> float:
         """The largest expected length (m) at the drop."""
-        return float(np.fmax(self.drop.high, self.runaway_length * (1.0 + LATER)))
+        return float(np.fmax(self.law.high, self.runaway_length * (1.0 + LATER)))
 
     @property
     def slips_slowly(self) -> bool:
         """Whether the patch slips in a limit cycle before the drop, which comes at L_run."""
-        return bool(self.runaway_length > self.drop.length)
-
-    @property
-    def trusted(self) -> bool:
-        """Whether the answer has no doubt."""
-        return not self.doubt
+        return bool(self.runaway_length > self.law.length)
 
 
-def expected_drop(parameters: Parameters) -> ExpectedDrop:
-    """L_s and the length at the drop of a fault under its declared perturbation.
+def expected_drop(
+    patches: Patches,
+    declared: Perturbation,
+    critical: float,
+    initial_state: float,
+    initial_stress: float = 0.0,
+    block: Block | None = None,
+) -> ExpectedDrop:
+    """The expected drop of one fault with its friction law, pushed at its edge.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the fault; mesh and steps have no effect.
-
-    Returns
-    -------
-    ExpectedDrop
-        The lengths, and why they are uncertain if they are.
-
-    Raises
-    ------
-    NoLength
-        If nothing is perturbed, or no patch turns unstable.
-    ParameterError
-        If it is no uniform fault that is pushed at its edge.
-
-    Examples
-    --------
-    >>> from nucleation.api import Geometry, Parameters, Perturbation
-    >>> parameters = Parameters(
-    ...     geometry=Geometry(height=0.005, length=0.9),
-    ...     perturbation=Perturbation(kind="normal_load", strength=1e-4),
-    ... )
-    >>> found = expected_drop(parameters)
-    >>> round(found.stability_length, 3), round(found.length, 2)
-    (0.134, 0.16)
+    L_c is in m, phi0 in s, the initial shear stress over sigma0. Raises NoLength if nothing is
+    perturbed or no patch turns unstable.
     """
-    parameters.require_edge("the law of the drop")
-    declared = parameters.perturbation
     if not declared.acts:
         raise NoLength("nothing is perturbed: without a strength the drop depends on round-off")
-    critical = run_length(parameters, interface_state(parameters))
-    history = mode_history(parameters, critical)
+    history = mode_history(patches, critical, initial_state, initial_stress)
     found = growth(history, declared)
-    stable = stability_length_of(parameters, critical)
-    runaway, status, reason = _runaway_length(parameters, critical, stable)
+    stable = _stability_length(patches, critical)
+    runaway, status, reason = _runaway_length(patches, critical, stable)
     known = ExpectedDrop(
         stability_length=stable,
-        drop=found.drop(declared.strength),
+        law=found.drop(declared.strength),
         closed_form=found.closed_form(history, declared.strength),
         doubt="",
         runaway_length=runaway,
         runaway_status=status,
         runaway_reason=reason,
     )
-    return known._replace(doubt="; ".join(_doubts(history, known, critical)))
+    return known._replace(doubt="; ".join(_doubts(history, known, critical, block)))
+
+
+def _stability_length(patches: Patches, critical: float) -> float:
+    try:
+        return stability_point(patches, critical).length
+    except NoLength:
+        return math.nan
 
 
 def _runaway_length(
-    parameters: Parameters,
+    patches: Patches,
     critical: float,
     stable: float,
 ) -> tuple[float, str, str]:
@@ -132,14 +121,14 @@ def _runaway_length(
     The integration with the friction law takes longer: it is for laws with other L_s (`stable`, m)
     than constant a and b.
     """
-    interface = interface_state(parameters)
-    if interface.zeta >= WEAK * interface.a:
-        ratio = interface.zeta / interface.a
+    _, a, zeta = patches.constants
+    if zeta >= WEAK * a:
+        ratio = zeta / a
         return math.nan, UNKNOWN, f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
-    patches = Patches.of(parameters)
-    constant = stability_length_of(parameters, critical, constant=True)
+    with_constants = dataclasses.replace(patches, law=None)
+    constant = _stability_length(with_constants, critical)
     if abs(stable / constant - 1.0) < CONSTANT:
-        patches = dataclasses.replace(patches, law=None)
+        patches = with_constants
     try:
         length = runaway_point(patches, critical)
     except NoLength as none:
@@ -151,27 +140,28 @@ def _doubts(
     history: ModeHistory,
     known: ExpectedDrop,
     critical: float,
+    block: Block | None,
 ) -> Iterator[str]:
     """Why the answer is uncertain, a text for each reason."""
     if known.slips_slowly:
-        yield from _doubts_of_runaway(history)
+        yield from _doubts_of_runaway(history.patches)
     else:
-        yield from _doubts_of_law(history, known.drop, known.closed_form, critical)
-    yield from _doubts_of_block(history, known)
+        yield from _doubts_of_law(history, known.law, known.closed_form, critical)
+    if block is not None:
+        yield from _doubts_of_block(known, block)
 
 
-def _doubts_of_runaway(history: ModeHistory) -> Iterator[str]:
+def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
     """Why L_run is uncertain: few bodies were compared, and a burst may hardly lower the force."""
-    own = history.parameters
-    below = own.below
-    interface = interface_state(own)
-    ratio = interface.zeta / interface.a
-    if own.friction.evolution == "slip" and ratio < SLIP_BURSTS:
+    _, a, zeta = patches.constants
+    ratio = zeta / a
+    if patches.evolution == "slip" and ratio < SLIP_BURSTS:
         yield (
             f"by the slip law and zeta/a = {ratio:.3g}, below {SLIP_BURSTS:g}, bursts hardly lower "
             "the force: in simulations it did not drop up to 1.3 times this length"
         )
-    if below is not None and (below.material, below.geometry) != (own.material, own.geometry):
+    upper, lower = patches.one.pair
+    if lower is not None and tuple(lower) != tuple(upper):
         yield (
             "L_run was compared with simulations on a rigid base and between equal bodies, but not "
             "between different ones"
@@ -213,20 +203,16 @@ def _doubts_of_law(
         )
 
 
-def _doubts_of_block(
-    history: ModeHistory,
-    known: ExpectedDrop,
-) -> Iterator[str]:
+def _doubts_of_block(known: ExpectedDrop, block: Block) -> Iterator[str]:
     """Whether the patch feels the far end of its block when it drops."""
-    geometry = history.parameters.geometry
-    highest = np.fmax(known.drop.high, known.runaway_length)
-    if highest > NEAR_END * geometry.length:
+    highest = np.fmax(known.law.high, known.runaway_length)
+    if highest > NEAR_END * block.length:
         yield (
-            f"the patch would be {highest / geometry.length:.2g} of the block long, and would feel "
+            f"the patch would be {highest / block.length:.2g} of the block long, and would feel "
             "the block's far end"
         )
-    elif feels_far_end(known.length, geometry):
-        reach = (known.length + geometry.height) / geometry.length
+    elif feels_far_end(known.length, block):
+        reach = (known.length + block.height) / block.length
         yield (
             f"the block is thick: its height and the patch together are {reach:.2g} of its length "
             f"(the law was compared up to {THICK_REACH:g}), so that the patch feels the far end; "
@@ -234,32 +220,15 @@ def _doubts_of_block(
         )
 
 
-def feels_far_end(
-    length: float,
-    geometry: Geometry,
-) -> bool:
-    """Whether a patch in a thick block feels the far end.
+def feels_far_end(length: float, block: Block) -> bool:
+    """Whether a patch of a length (m) in a thick block feels the far end.
 
-    Parameters
-    ----------
-    length : float
-        Patch length (m).
-    geometry : Geometry
-        Of the block.
-
-    Returns
-    -------
-    bool
-        False for thin blocks.
-
-    Notes
-    -----
     A thin block's end has no effect at a distance of some heights. In a thick one its effect
     decreases with the distance over ``L + H``: simulated drops in blocks of H = 1.2 m that are 8, 6
     and 4 L_c long came 2.9, 5.8 and 9.8 % later than by the law, at 0.26, 0.34 and 0.51.
     """
-    is_thick = geometry.height > THICK * length
-    return is_thick and length + geometry.height > THICK_REACH * geometry.length
+    is_thick = block.height > THICK * length
+    return is_thick and length + block.height > THICK_REACH * block.length
 
 
 def _growth_in_period(

@@ -23,7 +23,6 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, oscillating
 from ..theory.creep.front_onset import first_growing
 from ..theory.creep.linearised import local_coefficients
@@ -49,7 +48,7 @@ class ModeHistory:
     by V.
     """
 
-    parameters: Parameters
+    patches: Patches  # of the fault
     x: Array  # m
     time: Array  # s
     length: Array  # m
@@ -59,39 +58,30 @@ class ModeHistory:
     strength: ComplexArray  # g (1/s) of a relative change of friction at each place
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each place
 
+    @property
+    def memory(self) -> float:
+        """D/V (s)."""
+        return self.patches.memory
+
 
 def mode_history(
-    parameters: Parameters,
+    patches: Patches,
     critical_length: float,
+    initial_state: float,
+    initial_stress: float = 0.0,
 ) -> ModeHistory:
-    """The mode of a run's creep.
+    """The mode of a fault's creep, at the instants at which it can be followed.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the run.
-    critical_length : float
-        L_c (m) of its fault.
-
-    Returns
-    -------
-    ModeHistory
-        The mode at the instants at which it can be followed.
-
-    Raises
-    ------
-    NoLength
-        If no patch of the lengths tried turns unstable, its creep opens the fault, or the mode
-        oscillates in too few of them.
+    The creep begins with phi0 (s) and a shear stress over sigma0; L_c is in m. Raises NoLength if
+    no patch of the lengths tried turns unstable, its creep opens the fault, or the mode oscillates
+    in too few of them.
     """
     if not np.isfinite(critical_length):
         raise NoLength("homogeneous sliding is stable", STABLE)
-    patches, loading = Patches.of(parameters), parameters.loading
-    initial_stress = loading.initial_shear_stress / loading.normal_stress
-    stable = first_growing(patches, critical_length, loading.initial_state, initial_stress)
+    stable = first_growing(patches, critical_length, initial_state, initial_stress)
     lengths = stable * np.linspace(FIRST, LAST, INSTANTS)
     for _ in range(NARROWED + 1):
-        found = advance(patches, lengths, loading.initial_state, initial_stress)
+        found = advance(patches, lengths, initial_state, initial_stress)
         rates = oscillating(found)
         known = followed(found.length, rates, stable)
         if known.size >= FEWEST:
@@ -106,9 +96,9 @@ def mode_history(
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
     columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
     load, drive, strength, state = columns
-    memory = parameters.memory_time
+    memory = patches.memory
     return ModeHistory(
-        parameters=parameters,
+        patches=patches,
         x=x,
         time=found.time[known],
         length=found.length[known],

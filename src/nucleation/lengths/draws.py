@@ -1,36 +1,35 @@
-"""Random draws of faults with uncertain parameters, which are given as ranges or samples."""
+"""Uncertain parameters: ranges and samples become arrays of draws, and lengths their quantiles."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import ndtri
 
+from ..model.friction.constants import CONSTANTS
 from ..model.quantities import ParameterError, Quantity, check, declared
 from ..model.units import NUMBER, magnitude, parse
+from ..theory.status import BEYOND, STABLE
 from ..theory.values import QUANTITIES, checked, inside
 from ..types import Array
 from .in_use import WEAKENING_RATE
 
 DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
-_SEED = declared("seed", "[0, 4294967296]", kind="int")
 SAMPLED = {name: entry for name, entry in QUANTITIES.items() if not entry.worded}
 SAMPLED["weakening_rate"] = WEAKENING_RATE
+SAMPLED["zeta_over_a"] = CONSTANTS["zeta_over_a"]
 """Declarations of the parameters that may be uncertain."""
-_RANGE = re.compile(r"(.+)\((.+?)\s+(?:to|-|–)\s+(.+)\)\s*")
 
-Progress = Callable[[int, int], None]
-"""A function of the number of finished faults and the total number."""
+QUANTILES = (0.05, 0.16, 0.5, 0.84, 0.95)
+_RANGE = re.compile(r"(.+)\((.+?)\s+(?:to|-|–)\s+(.+)\)\s*")
 
 
 class Range(float):
     """A median with its 5 and 95 % quantiles, in SI units.
 
-    Notes
-    -----
     The distribution is log-normal where the ends and all allowed values are positive, so that no
     stress or distance is drawn negative; otherwise it is normal, as for zeta. The two sides of the
     median have different widths, so that the three numbers are exact quantiles.
@@ -39,45 +38,14 @@ class Range(float):
     low: float
     high: float
 
-    def __new__(
-        cls,
-        value: float,
-        low: float,
-        high: float,
-    ) -> Range:
-        """Make a range; the caller has checked that the three values are in order.
-
-        Parameters
-        ----------
-        value : float
-            Median, in SI units.
-        low, high : float
-            Quantiles of 5 and 95 %, in the same unit.
-        """
+    def __new__(cls, value: float, low: float, high: float) -> Range:
         own = super().__new__(cls, value)
         own.low = low
         own.high = high
         return own
 
-    def quantiles(
-        self,
-        share: Array,
-        entry: Quantity,
-    ) -> Array:
-        """Quantiles of the distribution.
-
-        Parameters
-        ----------
-        share : ndarray
-            Probabilities between 0 and 1, shape (n,).
-        entry : Quantity
-            Declaration of the parameter.
-
-        Returns
-        -------
-        ndarray
-            Values in SI units, shape (n,).
-        """
+    def quantiles(self, share: Array, entry: Quantity) -> Array:
+        """Values at probabilities between 0 and 1."""
         ends = np.array([self.low, float(self), self.high])
         positive = entry.low >= 0.0 and self.low > 0.0
         low, middle, high = np.log(ends) if positive else ends
@@ -87,32 +55,10 @@ class Range(float):
         return np.exp(found) if positive else found
 
 
-def parse_range(
-    key: str,
-    text: str,
-    entry: Quantity,
-) -> Any:
-    """Read a range such as ``0.5um (0.3 to 1)``, or a single value.
+def parse_range(key: str, text: str, entry: Quantity) -> Any:
+    """Read ``0.5um (0.3 to 1)``, a :class:`Range`, or a single value, in SI units.
 
-    Parameters
-    ----------
-    key : str
-        Name of the parameter, for messages.
-    text : str
-        The value, with the unit of the parameter or none; ends without a unit have that of the
-        median.
-    entry : Quantity
-        Declaration of the parameter.
-
-    Returns
-    -------
-    Range, float, int or str
-        In SI units.
-
-    Raises
-    ------
-    ParameterError
-        If a number is not allowed or infinite, or the three are not in order.
+    Ends without a unit have that of the median.
     """
     parts = _RANGE.fullmatch(text)
     if parts is None:
@@ -121,7 +67,7 @@ def parse_range(
     value = parse(key, median.strip(), entry)
     number = NUMBER.fullmatch(median)
     unit = number[3] if number else ""
-    low, high = (parse(key, with_default_unit(end, unit), entry) for end in ends)
+    low, high = (parse(key, _with_default_unit(end, unit), entry) for end in ends)
     in_order = low <= value <= high and low < high
     if not in_order or not np.isfinite([low, high]).all():
         raise ParameterError(
@@ -131,62 +77,27 @@ def parse_range(
     return Range(value, low, high)
 
 
-def with_default_unit(
-    text: str,
-    unit: str,
-) -> str:
-    """A number with a unit.
-
-    Parameters
-    ----------
-    text : str
-        The number, with its own unit or without one.
-    unit : str
-        The unit of a number without one.
-
-    Returns
-    -------
-    str
-    """
+def _with_default_unit(text: str, unit: str) -> str:
     number = NUMBER.fullmatch(text)
     lacks_unit = number is not None and not number[3]
     return f"{text} {unit}" if lacks_unit else text
 
 
 class Draws(NamedTuple):
-    """Faults drawn from ranges and samples."""
+    """Arrays of draws by parameter; those outside a parameter's allowed range are left out."""
 
     values: dict[str, Any]
-    """Parameters in SI units: arrays of shape (n,) if uncertain, else numbers and words."""
+    """Parameters in SI units: arrays of shape (n,) if uncertain, else as given."""
     invalid: dict[str, int]
-    """Number of draws outside the allowed range of each parameter; they are left out."""
+    """Number of draws outside the allowed range of each parameter."""
     total: int
     """Number of all draws, valid or not."""
-
-    @property
-    def size(self) -> int:
-        """Number of valid draws."""
-        arrays = [value for value in self.values.values() if np.ndim(value)]
-        return np.size(arrays[0])
-
-    def at(
-        self,
-        rows: Any,
-    ) -> dict[str, Any]:
-        """The parameters of one draw, by its index, or of a slice of draws."""
-        chosen = {}
-        for name, value in self.values.items():
-            chosen[name] = value[rows] if np.ndim(value) else value
-        return chosen
+    uncertain: tuple[str, ...]
+    """Names of the uncertain parameters."""
 
 
-def draw(
-    parameters: Mapping[str, Any],
-    draws: int = 1000,
-    seed: int = 0,
-    known: Mapping[str, Quantity] = SAMPLED,
-) -> Draws:
-    """Draw faults: samples row by row, ranges independently of each other and of samples.
+def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draws:
+    """Draw the uncertain parameters of a fault: ranges independently, samples row by row.
 
     The ranges are drawn by Latin hypercube sampling (McKay, Beckman and Conover, 1979): each range
     is divided into as many intervals of equal probability as there are draws, and each interval
@@ -195,14 +106,12 @@ def draw(
     Parameters
     ----------
     parameters : mapping
-        Numbers, words, :class:`Range` or its text, and arrays of shape (n,) of joint samples.
+        Of :class:`~nucleation.fault.Fault`, by name. A text such as ``"5um (3 to 10)"`` is a
+        median with its 5 and 95 % quantiles; arrays of shape (n,) are joint samples.
     draws : int
-        Number of draws. Of more samples, this many evenly spaced rows are used; of fewer samples
-        all.
+        Number of draws. Of more samples, this many evenly spaced rows are used; of fewer all.
     seed : int
         Random seed.
-    known : mapping
-        Declarations of the parameters that may be uncertain.
 
     Returns
     -------
@@ -212,10 +121,17 @@ def draw(
     ------
     ParameterError
         If nothing is uncertain, samples differ in number, or no draw is a valid fault.
+
+    Examples
+    --------
+    >>> from nucleation.api import Fault
+    >>> drawn = draw({"slip_distance": "5um (3 to 10)", "a": 0.010, "b": 0.015}, draws=100)
+    >>> rock = Fault(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, **drawn.values)
+    >>> quantiles(rock.critical_length()).round(2)
+    array([1.51, 1.85, 2.52, 3.82, 5.03])
     """
     check("draws", draws, DRAWS)
-    check("seed", seed, _SEED)
-    fixed, ranges, samples = _by_kind(parameters, known)
+    fixed, ranges, samples = _by_kind(parameters)
     if not (ranges or samples):
         raise ParameterError("no parameter has a range, VALUE (LOW to HIGH), or samples")
     sizes = {len(sample) for sample in samples.values()}
@@ -223,40 +139,33 @@ def draw(
         counts = ", ".join(f"{name} {len(sample)}" for name, sample in samples.items())
         raise ParameterError(f"samples must be equal in number, and one at least: {counts}")
     size = max(sizes, default=draws)
-    rows = np.linspace(0, size - 1, min(size, draws))
-    rows = rows.round().astype(int)
+    rows = np.linspace(0, size - 1, min(size, draws)).round().astype(int)
     drawn = {name: sample[rows] for name, sample in samples.items()}
     for name, own in ranges.items():
-        position = list(known).index(name)
+        position = list(SAMPLED).index(name)
         order = np.random.default_rng([seed, position]).permutation(rows.size)
-        drawn[name] = own.quantiles((order + 0.5) / rows.size, known[name])
-
-    valid = np.full(rows.size, True)
-    invalid = {}
-    for name, values in drawn.items():
-        allowed = inside(values, known[name])
-        valid &= allowed
-        if not allowed.all():
-            invalid[name] = int(np.sum(~allowed))
+        drawn[name] = own.quantiles((order + 0.5) / rows.size, SAMPLED[name])
+    allowed = {name: inside(values, SAMPLED[name]) for name, values in drawn.items()}
+    valid = np.all(list(allowed.values()), axis=0)
+    invalid = {name: int(np.sum(~own)) for name, own in allowed.items() if not own.all()}
     if not valid.any():
         raise ParameterError(f"no draw is a valid fault: not allowed are {invalid}")
     kept = {name: values[valid] for name, values in drawn.items()}
-    return Draws(fixed | kept, invalid, rows.size)
+    return Draws(fixed | kept, invalid, rows.size, tuple(drawn))
 
 
 def _by_kind(
     parameters: Mapping[str, Any],
-    known: Mapping[str, Quantity],
 ) -> tuple[dict[str, Any], dict[str, Range], dict[str, Array]]:
     """Fixed parameters, ranges and samples, in SI units."""
     fixed: dict[str, Any] = {}
     ranges: dict[str, Range] = {}
     samples: dict[str, Array] = {}
     for name, value in parameters.items():
-        if name not in known or value is None:  # a word; Fault refuses unknown names
+        if name not in SAMPLED or value is None:  # a word; Fault refuses unknown names
             fixed[name] = value
             continue
-        entry = known[name]
+        entry = SAMPLED[name]
         if isinstance(value, str):
             value = parse_range(name, value, entry)
         if isinstance(value, Range):
@@ -264,9 +173,65 @@ def _by_kind(
             continue
         array = np.asarray(magnitude(name, value, entry))
         if array.ndim == 0:
-            fixed[name] = checked(name, array, entry)
+            fixed[name] = float(checked(name, array, entry))
         elif array.ndim == 1 and array.dtype.kind in "iuf":
             samples[name] = array.astype(float)
         else:
             raise ParameterError(f"{name}: samples must be numbers in a row, not {array.shape}")
     return fixed, ranges, samples
+
+
+def quantiles(values: Any, shares: Any = QUANTILES) -> Array:
+    """Quantiles of the lengths of draws by Hazen's rule, which is exact for draws of one range.
+
+    Parameters
+    ----------
+    values : array_like
+        Of the draws, shape (n,); some may be infinite.
+    shares : array_like
+        Probabilities between 0 and 1, shape (m,).
+
+    Returns
+    -------
+    ndarray
+        Shape (m,); NaN if there are no values.
+
+    Examples
+    --------
+    >>> quantiles([3.0, 1.0, 2.0], [0.5])
+    array([2.])
+    """
+    ordered = np.sort(np.ravel(values))
+    shares = np.asarray(shares)
+    if not ordered.size:
+        return np.full(shares.size, np.nan)
+    position = np.clip(shares * ordered.size - 0.5, 0.0, ordered.size - 1.0)
+    below = np.floor(position).astype(int)
+    above = np.ceil(position).astype(int)
+    found = np.full(shares.size, np.inf)
+    finite = np.isfinite(ordered[above])
+    low = ordered[below[finite]]
+    high = ordered[above[finite]]
+    found[finite] = low + (position - below)[finite] * (high - low)
+    return found
+
+
+def errors_of_quantiles(values: Array) -> Array:
+    """Standard errors of the :data:`QUANTILES` by the binomial scatter of their shares.
+
+    Half the distance between the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``;
+    infinite if one of them is.
+    """
+    shares = np.array(QUANTILES)
+    scatter = np.sqrt(shares * (1.0 - shares) / max(values.size, 1))
+    low = quantiles(values, shares - scatter)
+    high = quantiles(values, shares + scatter)
+    with np.errstate(invalid="ignore"):
+        return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
+
+
+def with_never(lengths: Any, statuses: Any) -> Array:
+    """Lengths for quantiles: infinite where no patch nucleates, without unknown ones."""
+    never = np.isin(statuses, [STABLE, BEYOND])
+    counted = np.where(never, np.inf, lengths)
+    return counted[np.isfinite(lengths) | never]

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..theory.fault import FaultParameters
-from ..theory.values import Numbers
+from ..theory.values import FaultLike, Numbers
 from .formulas import nan0, valid
 from .in_use import LENGTHS, values_of
 from .length import number
 
 
 def expanding_length(
-    fault: FaultParameters,
+    fault: FaultLike,
     slip_rate: float | Numbers,
     far_slip_rate: float | Numbers,
     far_state_ratio: float | Numbers,
@@ -21,7 +20,7 @@ def expanding_length(
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         The material of its first body is that of both half-spaces.
     slip_rate : array_like
         Largest slip rate v (m/s).

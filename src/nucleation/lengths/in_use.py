@@ -6,32 +6,18 @@ Their common definitions are in :mod:`nucleation.lengths.formulas`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from ..model.quantities import declared
-from ..theory.arrays import fault_of
-from ..theory.fault import FaultParameters, takes_fault
-from ..theory.values import Numbers, Values, checked, labelled, where
+from ..theory.values import FaultLike, Numbers, Values, checked, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import Setting, nan0, valid
-from .length import HALF_SPACES, RIGID_BASE, THIS_FAULT, Length, number
-
-if TYPE_CHECKING:
-    import xarray as xr
+from .length import HALF_SPACES, RIGID_BASE, Length, number
 
 _FALL = "rate of linear slip weakening of the shear strength"
 WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
-
-
-def _stability_length(fault: FaultParameters) -> Numbers:
-    from ..theory.creep.lengths import stability_answers
-
-    return stability_answers(fault)[0]
 
 
 def _crack(s: Setting) -> Numbers:
@@ -74,16 +60,6 @@ _GAP = (
 )
 _STEADY = "velocity weakening, near steady sliding, either law"
 
-_OF_FAULT = Length(
-    key="stability_length",
-    title="creeping patch L_s",
-    formula="its own eigenproblem, docs/creeping_patch.md",
-    source="this project",
-    validity="a patch that creeps under the fault's loading, either law",
-    system=THIS_FAULT,
-    needs="zeta > 0 and L_s < 3 L_c",
-    compute=_stability_length,
-)
 _OF_ONE_MATERIAL = (
     Length(
         key="homogeneous_sliding",
@@ -197,94 +173,19 @@ _OF_TWO_MATERIALS = tuple(
     for length in _OF_ONE_MATERIAL
     if length.system == HALF_SPACES and "mu*" in length.formula
 )
-LENGTHS = (_OF_FAULT, *_OF_ONE_MATERIAL, *_OF_TWO_MATERIALS)
+LENGTHS = (*_OF_ONE_MATERIAL, *_OF_TWO_MATERIALS)
 """The lengths in use, in the order of their listing."""
 
 
-@takes_fault
-def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> xr.Dataset:
-    """All lengths of :data:`LENGTHS` for a fault.
-
-    Parameters
-    ----------
-    weakening_rate : array_like, optional
-        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
-        ``a/b < 0.1``.
-    **fault
-        The parameters of :class:`~nucleation.api.fault.Fault`. The second body matters only to
-        the creeping patch and to the lengths of two materials, with keys that end with
-        ``_two_materials``.
-
-    Returns
-    -------
-    Dataset
-        One variable (m) for each, NaN outside its validity, with ``formula``, ``source``,
-        ``validity``, ``system``, ``needs`` and ``beyond`` as attributes. Arrays without named
-        dimensions have the dimensions ``axis_0``, ``axis_1``, ... The values are plain numbers in
-        metres, also for parameters that are pint quantities.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
-
-    Examples
-    --------
-    >>> found = lengths_in_use(
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
-    ...     a=0.010, b=0.015, slip_distance=5e-6,
-    ... )
-    >>> round(float(found["rice_ruina"]), 3), found["rice_ruina"].attrs["formula"]
-    (0.628, '(pi/4) mu* D/(zeta sigma0)')
-    """
-    import xarray as xr
-
-    found = with_dimensions(values_of(fault_of(fault), weakening_rate))
-    variables = {}
-    for length in LENGTHS:
-        variables[length.key] = found[length.key].assign_attrs(length.words())
-    return xr.Dataset(variables)
-
-
-def with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
-    """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
-    import xarray as xr
-
-    plain = {key: array for key, array in found.items() if not labelled(array)}
-    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
-    dims = [f"axis_{n}" for n in range(len(shape))]
-    named = dict(found)
-    for key, array in plain.items():
-        named[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
-    return named
-
-
 def values_of(
-    fault: FaultParameters,
+    fault: FaultLike,
     weakening_rate: Values | None = None,
     lengths: Iterable[Length] = LENGTHS,
 ) -> dict[str, Numbers]:
-    """Nucleation lengths as numbers, arrays or DataArrays.
+    """Lengths (m) of a fault by key, NaN outside their validity.
 
-    Parameters
-    ----------
-    fault : FaultParameters
-        One fault, or arrays of faults.
-    weakening_rate : array_like, optional
-        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
-        ``a/b < 0.1``.
-    lengths : iterable of Length
-        The lengths to compute.
-
-    Returns
-    -------
-    dict
-        Lengths (m) by key, NaN outside their validity.
-
-    Raises
-    ------
-    ParameterError
-        If `weakening_rate` is outside its range.
+    The slip weakening W (Pa/m) of Uenishi and Rice's length is ``b sigma0/D`` by default, where
+    ``a/b < 0.1``.
     """
     if weakening_rate is None:
         b = number(fault, "b")

@@ -8,15 +8,13 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..model.material import ANTIPLANE
-from ..theory.fault import FaultParameters
-from ..theory.values import Numbers
+from ..model.material import ANTIPLANE, in_plane_ratio
+from ..theory.values import FaultLike, Numbers
 from . import formulas
 from .formulas import Setting, valid
 
 TWO_MATERIALS = "two half-spaces of the two bodies' materials"
 HALF_SPACES = "two identical half-spaces of the first body's material"
-THIS_FAULT = "this fault, both bodies as they are"
 RIGID_BASE = "a layer of the first body's material and height on a rigid body"
 
 
@@ -30,19 +28,19 @@ class Length:
     source: str
     validity: str
     compute: Callable[[Any], Numbers]
-    """The length (m) from a Setting; from the FaultParameters if the system is THIS_FAULT."""
+    """The length (m) from a Setting."""
     needs: str = "zeta > 0"
     """The condition on the parameters without which the length is NaN."""
     beyond: str = ""
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
-    def evaluate(self, fault: FaultParameters, weakening_rate: Numbers) -> Numbers:
+    def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length of a fault.
 
         Parameters
         ----------
-        fault : FaultParameters
+        fault : Fault
             One fault, or arrays of faults.
         weakening_rate : array_like
             Slip weakening W (Pa/m).
@@ -52,11 +50,9 @@ class Length:
         array_like
             In metres, NaN outside the validity.
         """
-        if self.system == THIS_FAULT:
-            return self.compute(fault)
         own: dict[str, Any] = {
             "weakening_rate": weakening_rate,
-            "poisson_ratio": fault.in_plane_ratios[0],
+            "poisson_ratio": in_plane_ratio(fault.poisson_ratio, fault.plane),
         }
         if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
             own["height"] = 0.5 * number(
@@ -70,11 +66,11 @@ class Length:
         length = self.compute(_setting(fault, own))
         return valid(coupling < formulas.NEGLIGIBLE, length)
 
-    def facts(self, fault: FaultParameters) -> dict[str, Numbers]:
+    def facts(self, fault: FaultLike) -> dict[str, Numbers]:
         """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
             known = {
-                "a/b": number(fault, "a") / number(fault, "b"),
+                "a/b": number(fault, "a") / formulas.nan0(number(fault, "b")),
                 "zeta": number(fault, "zeta"),
                 "b": number(fault, "b"),
                 "f |beta|": of_two_materials(fault)[1],
@@ -107,7 +103,7 @@ _FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L":
 """The quantity in a condition, by a part of :attr:`Length.needs`."""
 
 
-def _setting(fault: FaultParameters, own: dict[str, Any]) -> Setting:
+def _setting(fault: FaultLike, own: dict[str, Any]) -> Setting:
     """The parameters of a fault, some of them replaced by `own` values."""
     values = {}
     for field in dataclasses.fields(Setting):
@@ -116,12 +112,12 @@ def _setting(fault: FaultParameters, own: dict[str, Any]) -> Setting:
     return Setting(**values)
 
 
-def number(fault: FaultParameters, name: str) -> Numbers:
+def number(fault: FaultLike, name: str) -> Numbers:
     """A parameter of a fault, which has checked it, in SI units.
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         One fault, or arrays of faults.
     name : str
         Name of the parameter, which is not None.
@@ -133,9 +129,10 @@ def number(fault: FaultParameters, name: str) -> Numbers:
     return cast(Numbers, getattr(fault, name))
 
 
-def of_two_materials(fault: FaultParameters) -> tuple[Numbers, Numbers]:
+def of_two_materials(fault: FaultLike) -> tuple[Numbers, Numbers]:
     """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
-    nu, second_nu = fault.in_plane_ratios
+    nu = in_plane_ratio(fault.poisson_ratio, fault.plane)
+    second_nu = in_plane_ratio(fault.second_poisson_ratio, fault.plane)
     first = number(fault, "shear_modulus")
     second = number(fault, "second_shear_modulus")
     if fault.plane == ANTIPLANE:

@@ -2,32 +2,26 @@
 
 import dataclasses
 import math
-from collections.abc import Callable, Collection
-from typing import Any, NamedTuple
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ..model.parameters import Geometry
+from ..model.block import Geometry
 from ..model.plausible import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
-from ..theory.arrays import critical_length, fault_of
-from ..theory.creep.lengths import stability_length
-from ..theory.fault import QUANTITIES, Values, checked, takes_fault
 from ..theory.status import BEYOND, VALUE
-from ..theory.values import Numbers
+from ..theory.values import QUANTITIES, FaultLike, Values, checked, numbers_of
 from ..types import Array
-from .status import answers_of_theory
+from .answer import answers_of_theory
 
 UNKNOWNS = Quantity(
     "parameter to find",
     choices=("normal_stress", "slip_distance", "shear_modulus"),
     kind="str",
 )
-CRITERIA: dict[str, Callable[..., Numbers]] = {
-    "critical": critical_length,
-    "stability": stability_length,
-}
+CRITERIA = {"critical": "critical_length", "stability": "stability_length"}
 """The lengths that may have to fit: L_c of homogeneous sliding, L_s of the creeping patch."""
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
@@ -43,12 +37,13 @@ Interval = tuple[float, float]
 _PER_DECADE = 12
 """Values in each decade between which roots are searched."""
 
-_FAR = 4.0
-"""L_s is assumed to be longer than the specimen where L_c exceeds the specimen by this factor.
+_LONGEST, _SHORTEST = 4.0, 0.3
+"""L_c over the specimen's length beyond which L_s is longer than the specimen, and below which it
+is shorter if it exists: the least L_s of 150 random faults is 0.39 L_c, and 3 L_c is the longest
+that is searched."""
 
-The least L_s of 150 random faults is 0.39 L_c, and a patch that is very long compared with the
-height takes seconds to compute.
-"""
+_SPARSE = 6
+"""Each of so many values is tried where L_s is shorter than the specimen if it exists."""
 
 
 class Fit(NamedTuple):
@@ -66,85 +61,39 @@ class Fit(NamedTuple):
     """Range of the search."""
     exists: bool
     """Whether a nucleation length, long or short, exists at any value."""
-    monotonic: bool
-    """Whether the length is a monotonic function of the parameter, wherever it exists."""
     status: str
     """``value`` if it fits; else ``beyond``, longer than the specimen; ``stable``; ``unknown``."""
     reason: str
     """Why it fits nowhere; empty if it fits."""
 
 
-@takes_fault
 def specimen_fit(
+    fault: FaultLike,
     unknown: str,
     length: Values,
     criterion: str = "critical",
     within: Interval | None = None,
-    **fault: Any,
 ) -> Fit:
-    """Values of one parameter at which a nucleation length fits a specimen.
+    """Values of one parameter of a single fault at which a nucleation length (m) fits.
 
-    Parameters
-    ----------
-    unknown : {"normal_stress", "slip_distance", "shear_modulus"}
-        The parameter to find: sigma0 (Pa), D (m) or mu (Pa) of the first body. The second body has
-        the same mu unless `second_shear_modulus` is given and thus fixed.
-    length : float
-        Length of the specimen along the fault (m).
-    criterion : {"critical", "stability"}
-        The length that has to fit: L_c, or L_s of a creeping patch that is pushed at its edge, with
-        constant a and b.
-    within : (float, float), optional
-        Range of the search, in SI units; by default all known values
-        (:data:`nucleation.model.plausible.RANGES`).
-    **fault
-        The other parameters of :class:`~nucleation.api.fault.Fault`, single numbers.
-
-    Returns
-    -------
-    Fit
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown, outside its range, an array, or the unknown one.
-
-    Notes
-    -----
-    Eq. (5) depends on sigma0 and D only by ``mu D/sigma0``, and L_c increases with it. So one end
-    of the interval is decisive: ``sigma0 = mu k D G1(k)/h_plus`` at ``k = 2 pi/length`` unless L_c
-    is discontinuous there. The dependence on mu beside another second body is less simple.
-    Therefore the length is computed at 12 values in each decade, and each change between fitting
-    and not fitting is located by Brent's method; an interval between two of these values is missed.
-
-    Examples
-    --------
-    >>> fit = specimen_fit(
-    ...     "normal_stress", 0.2, shear_modulus=3.1e9, poisson_ratio=0.35, height=0.1,
-    ...     a=0.0068, zeta=0.016, slip_distance=0.5e-6,
-    ... )
-    >>> [[f"{value:.4g}" for value in interval] for interval in fit.intervals]
-    [['2.212e+06', '1e+10']]
+    The length is computed at 12 values in each decade, and each change between fitting and not
+    fitting is located by Brent's method; an interval between two of these values is missed.
     """
     _require_choice("unknown", unknown, UNKNOWNS.choices)
     _require_choice("criterion", criterion, CRITERIA)
-    if unknown in fault:
-        raise ParameterError(f"{unknown} is not allowed: it is the parameter to find")
-    entry = QUANTITIES[unknown]
     size = checked("length", length, SPECIMEN)
-    ends = within or RANGES[unknown]
-    low, high = (float(checked(unknown, end, entry)) for end in ends)
-    if not low < high:
-        raise ParameterError(f"within = ({low:g}, {high:g}) {entry.unit} is no range")
-    if np.ndim(size) or any(np.ndim(value) for value in fault.values()):
+    low, high = _range(unknown, within)
+    others = numbers_of(fault).items()
+    if np.ndim(size) or any(np.size(x) != 1 for name, x in others if name != unknown):
         raise ParameterError("a specimen is one: its length and parameters are single numbers")
+    size = float(size)
 
     def lengths(values: float | Array) -> Array:
-        return _lengths(criterion, float(size), unknown, fault | {unknown: values})
+        return _lengths(fault.replace(**{unknown: values}), criterion, size)
 
     def excess(log_value: float) -> float:
         found = float(lengths(math.exp(log_value)))
-        return math.log(found / float(size)) if math.isfinite(found) else 1.0
+        return math.log(found / size) if math.isfinite(found) else 1.0
 
     count = 2 + math.ceil(_PER_DECADE * math.log10(high / low))
     values = np.geomspace(low, high, count)
@@ -153,8 +102,7 @@ def specimen_fit(
     bounds = [low] if fits[0] else []
     for i in np.flatnonzero(fits[1:] != fits[:-1]):
         around = np.log(values[i : i + 2])
-        root = brentq(excess, *around, xtol=1e-12)
-        bounds.append(math.exp(root))
+        bounds.append(math.exp(brentq(excess, *around, xtol=1e-9)))
     if fits[-1]:
         bounds.append(high)
     intervals = tuple(zip(bounds[::2], bounds[1::2], strict=True))
@@ -165,19 +113,11 @@ def specimen_fit(
         status = BEYOND
         reason = _of_shortest(criterion, found, values, unknown)
     elif not intervals:
-        middle = fault_of({**fault, unknown: values[values.size // 2]})
-        answer = answers_of_theory(middle)[criterion]
+        middle = fault.replace(**{unknown: values[values.size // 2]})
+        answer = answers_of_theory(middle)[CRITERIA[criterion]]
         status, reason = str(answer.status), str(answer.reason)
-    return Fit(
-        unknown=unknown,
-        unit=entry.unit,
-        intervals=intervals,
-        searched=(low, high),
-        exists=exists,
-        monotonic=_is_monotonic(found),
-        status=status,
-        reason=reason,
-    )
+    unit = QUANTITIES[unknown].unit
+    return Fit(unknown, unit, intervals, (low, high), exists, status, reason)
 
 
 def _require_choice(name: str, value: str, allowed: Collection[str]) -> None:
@@ -185,32 +125,35 @@ def _require_choice(name: str, value: str, allowed: Collection[str]) -> None:
         raise ParameterError(f"{name} = {value!r} is not allowed: one of {', '.join(allowed)}")
 
 
-def _lengths(
-    criterion: str,
-    size: float,
-    unknown: str,
-    fault: dict[str, Any],
-) -> Array:
-    """L_c or L_s (m) of faults; an L_s that is much longer than the specimen is inf."""
-    critical = _plain(critical_length(**fault))
-    if criterion == "critical":
-        return critical
-    near = ~(critical > _FAR * size)
-    found = np.where(near, critical, np.inf)
-    values = np.asarray(fault[unknown])
-    chosen = fault | {unknown: values[near]}
-    found[near] = _plain(stability_length(**chosen))
+def _range(unknown: str, within: Interval | None) -> Interval:
+    """The range of the search, by default all known values."""
+    entry = QUANTITIES[unknown]
+    low, high = (float(checked(unknown, end, entry)) for end in within or RANGES[unknown])
+    if not low < high:
+        raise ParameterError(f"within = ({low:g}, {high:g}) {entry.unit} is no range")
+    return low, high
+
+
+def _lengths(fault: FaultLike, criterion: str, size: float) -> Array:
+    """L_c or L_s (m) of faults; an L_s far from the size is inf, or L_c where it is shorter."""
+    critical = np.array(_plain(fault.critical_length()))
+    if criterion == "critical" or not critical.ndim:
+        return _plain(getattr(fault, CRITERIA[criterion])())
+    found = np.where(critical > _LONGEST * size, np.inf, critical)
+    short = critical < _SHORTEST * size
+    tried = ~(short | (critical > _LONGEST * size))
+    tried |= short & (np.arange(critical.size) % _SPARSE == 0)
+    chosen = {
+        name: value[tried] if np.ndim(value) else value for name, value in numbers_of(fault).items()
+    }
+    chosen.pop("b")
+    found[tried] = _plain(fault.replace(**chosen).stability_length())
     return found
 
 
-def _plain(found: Any) -> Array:
+def _plain(found: object) -> Array:
     """The numbers of an array or a pint quantity."""
-    return np.array(getattr(found, "magnitude", found))
-
-
-def _is_monotonic(found: Array) -> bool:
-    steps = np.diff(found[np.isfinite(found)])
-    return bool((steps > 0.0).all() or (steps < 0.0).all())
+    return np.asarray(getattr(found, "magnitude", found))
 
 
 def _of_shortest(
@@ -221,8 +164,27 @@ def _of_shortest(
 ) -> str:
     """The shortest length, as a reason why none fits."""
     if not np.isfinite(found).any():
-        return f"L_c is more than {_FAR:g} times the specimen at all values"
-    name = NAMES[criterion]
+        return f"L_c is more than {_LONGEST:g} times the specimen at all values"
     unit = QUANTITIES[unknown].unit
     best = np.nanargmin(found)
-    return f"{name} is {found[best]:.4g} m at least, at {unknown} = {values[best]:.4g} {unit}"
+    shortest = f"{found[best]:.4g} m at least, at {unknown} = {values[best]:.4g} {unit}"
+    return f"{NAMES[criterion]} is {shortest}"
+
+
+def at_share(
+    fits: Sequence[Fit],
+    share: float,
+) -> tuple[Interval, ...]:
+    """Values at which the length fits in a share of several faults, or in more; rising."""
+    starts = np.sort([first for fit in fits for first, _ in fit.intervals])
+    ends = np.sort([last for fit in fits for _, last in fit.intervals])
+    bounds = np.unique(np.concatenate([starts, ends]))
+    if bounds.size < 2:
+        return ()
+    middles = np.sqrt(bounds[1:] * bounds[:-1])
+    number = np.searchsorted(starts, middles) - np.searchsorted(ends, middles)
+    enough = number >= max(share * len(fits), 1.0) - 1e-9
+    edges = np.diff(np.concatenate([[0], enough.astype(int), [0]]))
+    first = bounds[np.flatnonzero(edges > 0)]
+    last = bounds[np.flatnonzero(edges < 0)]
+    return tuple(zip(first.tolist(), last.tolist(), strict=True))

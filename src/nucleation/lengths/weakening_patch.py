@@ -11,13 +11,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
-from ..theory.fault import FaultParameters, Values
-from ..theory.spectrum import Systems
+from ..theory.values import FaultLike, Values
 from ..theory.weakening_patch import weakening_patch_values
-from ..types import Array
-from .length import number
+from .process_zone import process_zone
 
 NUCLEATES = 1.3
 """Least W/W_c at which all simulated patches nucleated; some slipped slowly up to 1.22."""
@@ -25,12 +21,9 @@ NUCLEATES = 1.3
 _CELLS = 3.0
 """Cells in a process zone that resolve it (Day and others, 2005)."""
 
-_HALVINGS = 60  # of the interval of log k in which the process zone is searched
-_SPAN = 1e6  # ratio of the longest process zone of the search to L_b/2, and of that to the shortest
-
 
 def patch_answer(
-    fault: FaultParameters,
+    fault: FaultLike,
     outside_zeta: Values,
     outside_a: Values | None = None,
     width: float | None = None,
@@ -39,7 +32,7 @@ def patch_answer(
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         One fault, with the friction of the patch.
     outside_zeta, outside_a : float
         zeta and a of the surroundings; a is that of the patch by default.
@@ -64,7 +57,7 @@ def patch_answer(
         "smallest_width": smallest,
         "width_ratio": ratio,
         "outcome": "" if width is None else outcome(ratio),
-        "cell_size": process_zone(fault) / _CELLS,
+        "cell_size": float(process_zone(fault)) / _CELLS,
     }
 
 
@@ -77,28 +70,3 @@ def outcome(width_ratio: float) -> str:
     if width_ratio < NUCLEATES:
         return "it slips slowly or nucleates"
     return "it nucleates"
-
-
-def process_zone(fault: FaultParameters) -> float:
-    """Length (m) over which friction weakens at the front of fast slip, of one fault.
-
-    The wavelength over 2 pi at which the stiffness of the bodies is ``b sigma0/D``: ``L_b/2``
-    between identical half-spaces, ``sqrt(2 H L_b)`` in a thin layer on a rigid body, with
-    ``L_b = mu* D/(b sigma0)``. That of half-spaces is customarily ``(9 pi/32) L_b`` (Lapusta and
-    Liu, 2009), which is larger. NaN where b is not positive.
-    """
-
-    def zones(systems: Systems) -> Array:
-        thick = systems.softness / systems.b
-        low = 1.0 / (_SPAN * thick)
-        high = _SPAN / thick
-        for _ in range(_HALVINGS):
-            middle = np.sqrt(low * high)
-            stiff = systems.load_and_coupling(middle)[0] > systems.b
-            low = np.where(stiff, low, middle)
-            high = np.where(stiff, middle, high)
-        return 1.0 / low[None]
-
-    if float(number(fault, "b")) <= 0.0:
-        return math.nan
-    return float(fault.evaluate(zones)[0])

@@ -8,7 +8,7 @@ law with the given a and b. Its scales have the paper's ratios to V and D/V.
 from collections.abc import Mapping
 from typing import Any
 
-from .friction.constants import CONSTANTS
+from .friction.constants import CONSTANTS, full_law
 from .friction.law import Friction
 from .friction.registry import law_class
 from .loading import Loading
@@ -32,7 +32,7 @@ OVER_VELOCITY = {
 STATE_SCALE = 6.6e-3
 """phi* of the paper's law over D/V."""
 
-_AGE = 20.0
+AGE = 20.0
 """Initial age of the interface over D/V."""
 
 _ROUGHNESS = 0.2
@@ -46,6 +46,34 @@ _PAPERS = {
     "poisson_ratio": Material().poisson_ratio,
 }
 """The paper's values (SI units) of the parameters that determine the scales."""
+
+
+def own_law(velocity: float, slip_distance: float, evolution: str, law: str = LAW) -> Friction:
+    """The friction law of a fault of its own, with scales that follow from V (m/s) and D (m)."""
+    scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY.get(law, {}).items()}
+    if law == PAPERS_LAW:
+        scales["state_scale"] = STATE_SCALE * slip_distance / velocity
+    return Friction(law=law, evolution=evolution, slip_distance=slip_distance, **scales)
+
+
+def law_of(
+    law: Friction | None,
+    evolution: str,
+    velocity: float,
+    slip_distance: float,
+    *constants: float,
+) -> Friction:
+    """The law, by default one of its own, with D (m) and the constants f, a and zeta at V (m/s)."""
+    if law is None:
+        law = own_law(velocity, slip_distance, evolution)
+    elif (*law.expansion(velocity), law.slip_distance) == (*constants, slip_distance):
+        return law  # unchanged in all digits
+    return full_law(law.changed({"slip_distance": slip_distance}), velocity, *constants)
+
+
+def roughness_length(modulus: float, slip_distance: float, strength: float) -> float:
+    """Correlation length (m) of roughness: a fifth of L_b, by mu* (Pa), D (m), b sigma0 (Pa)."""
+    return _ROUGHNESS * modulus * slip_distance / strength
 
 
 def follows_from(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -68,7 +96,7 @@ def follows_from(given: Mapping[str, Any]) -> dict[str, Any]:
     distance = known["slip_distance"]
     found: dict[str, Any] = {}
     if "velocity" in given or "slip_distance" in given:
-        found["initial_state"] = _AGE * distance / velocity
+        found["initial_state"] = AGE * distance / velocity
     if CONSTANTS.keys() & given.keys():
         default = _law_with(given)
         law = given.get("friction_law", default)
@@ -80,8 +108,8 @@ def follows_from(given: Mapping[str, Any]) -> dict[str, Any]:
         b = _evolution_effect(given)
         if b > 0.0:
             modulus = known["shear_modulus"] / (1.0 - known["poisson_ratio"])
-            zone = modulus * distance / (b * known["normal_stress"])
-            found["correlation_length"] = _ROUGHNESS * zone
+            strength = b * known["normal_stress"]
+            found["correlation_length"] = roughness_length(modulus, distance, strength)
     return {name: value for name, value in found.items() if name not in given}
 
 

@@ -15,8 +15,14 @@ variance (:mod:`nucleation.simulation.realisation`).
 import dataclasses
 import math
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..types import Array
 from .checked import Checked
 from .quantities import quantity
+
+MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
 
 KINDS = ("none", "drive_velocity", "normal_load", "strength", "state")
 IN_TIME = ("drive_velocity", "normal_load", "state")
@@ -76,3 +82,20 @@ class Perturbation(Checked):
         if not self.acts or self.kind not in IN_TIME:
             return math.inf
         return self.correlation_time * memory_time / STEPS_PER_CORRELATION
+
+
+def correlation(lag: ArrayLike, scale: float) -> Array:
+    """Correlation ``<xi(s) xi(s + lag)>`` at a lag (s or m), by the correlation time or length."""
+    spacing = MEAN_SQUARE * scale
+    u = np.abs(np.asarray(lag, dtype=float)) / spacing
+    septic = np.zeros_like(u)
+    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
+        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
+    return septic / (5040.0 * MEAN_SQUARE)
+
+
+def spectral_density(omega: ArrayLike, correlation: float) -> Array:
+    """Spectral density S (s or m) at omega (1/s or 1/m): ``int S d omega / (2 pi) = 1``."""
+    half_spacing = 0.5 * MEAN_SQUARE * correlation
+    half = half_spacing * np.asarray(omega, dtype=float)
+    return correlation * np.sinc(half / np.pi) ** 8

@@ -16,6 +16,7 @@ _ELSEWHERE = {
     "velocity": "v vp vpl v0 platerate loadingrate sliprate",
     "height": "h thickness width depth",
     "density": "rho",
+    "block_length": "length",
 }
 """Names and symbols of the same quantity in the literature, in plain form."""
 

@@ -21,12 +21,11 @@ without the parts before it, and it is the same on every mesh, with all steps an
 from collections import OrderedDict
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
+from ..model.perturbation import MEAN_SQUARE
 from ..types import Array
 
-MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
 BLOCK = 256  # coefficients drawn at a time
 ROWS_KEPT = 8  # of a sheet; four are in use at one time
 PHASE, SERIES, PROFILE, SHEET = range(4)  # independent streams of one seed
@@ -105,48 +104,6 @@ def _spline_integral(u: float) -> Array:
         u**4 / 24.0,
     ]
     return np.array(values)
-
-
-def correlation(lag: ArrayLike, scale: float) -> Array:
-    """Correlation ``<xi(s) xi(s + lag)>``.
-
-    Parameters
-    ----------
-    lag : array_like
-        Difference in time (s) or position (m).
-    scale : float
-        Correlation time (s) or length (m).
-
-    Returns
-    -------
-    ndarray, shape of `lag`
-    """
-    spacing = MEAN_SQUARE * scale
-    u = np.abs(np.asarray(lag, dtype=float)) / spacing
-    septic = np.zeros_like(u)
-    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
-        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
-    return septic / (5040.0 * MEAN_SQUARE)
-
-
-def spectral_density(omega: ArrayLike, correlation: float) -> Array:
-    """Spectral density S(omega) of unit variance: ``int S d omega / (2 pi) = 1``.
-
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequencies (1/s) or wavenumbers (1/m).
-    correlation : float
-        Correlation time (s) or length (m).
-
-    Returns
-    -------
-    ndarray, shape of `omega`
-        In s, or in m.
-    """
-    half_spacing = 0.5 * MEAN_SQUARE * correlation
-    half = half_spacing * np.asarray(omega, dtype=float)
-    return correlation * np.sinc(half / np.pi) ** 8
 
 
 def _place(position: float) -> tuple[int, float]:

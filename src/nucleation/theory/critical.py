@@ -33,13 +33,10 @@ class CriticalMode(NamedTuple):
 
     Examples
     --------
-    >>> from nucleation.api import critical_mode
-    >>> mode = critical_mode(
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
-    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
-    ... )
+    >>> from nucleation.api import PAPER
+    >>> mode = PAPER.critical_mode()
     >>> round(float(mode.length), 3), round(float(mode.wavenumber), 3)
-    (2.513, 2.5)
+    (0.238, 26.395)
     """
 
     length: Any  # L_c = 2 pi/k_c (m)

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 Values: TypeAlias = "ArrayLike | xr.DataArray"
 """Parameters as they are given."""
 
+FaultLike: TypeAlias = Any
+"""One or many faults, :class:`nucleation.fault.Fault`: the parameters are its attributes."""
+
 Numbers: TypeAlias = "Array | xr.DataArray"
 """Parameters after their check, and what is computed of them."""
 
@@ -94,11 +97,19 @@ def _declared() -> dict[str, Quantity]:
             "under a remote load",
         ),
         "evolution": friction["evolution"],
+        "density": material["density"],
+        "second_density": replace(
+            material["density"], description="mass density of the second body"
+        ),
+        "initial_state": declarations(Loading)["initial_state"],
     }
 
 
 QUANTITIES = _declared()
 """Declaration (unit, range, meaning) of every parameter of a fault, by name."""
+
+WORDS = ("far_side", "second_far_side", "plane", "loading", "evolution")
+"""Parameters that are words."""
 
 ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
 """Parameters of a zone beside the fault."""
@@ -206,3 +217,29 @@ def inside(
     low = values >= entry.low if entry.includes_low else values > entry.low
     high = values <= entry.high if entry.includes_high else values < entry.high
     return low & high
+
+
+def numbers_of(fault: FaultLike) -> dict[str, Any]:
+    """The numbers and arrays among the parameters of a fault, without those that are None."""
+    found = {name: getattr(fault, name) for name in QUANTITIES if name not in WORDS}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def arrays_of(fault: FaultLike) -> dict[str, Array]:
+    """The arrays without named dimensions among the parameters that follow from no others."""
+    names = fault.keys()
+    arrays = {name: getattr(fault, name) for name in names}
+    return {name: value for name, value in arrays.items() if isinstance(value, np.ndarray)}
+
+
+def named(
+    values: Any,
+    name: str,
+    units: str,
+    long_name: str,
+    fault: FaultLike,
+) -> Any:
+    """A result (SI units) in the form of the fault's parameters: DataArray, quantity or array."""
+    if labelled(values):
+        return values.rename(name).assign_attrs(units=units, long_name=long_name)
+    return values if fault.registry is None else fault.registry.Quantity(values, units)

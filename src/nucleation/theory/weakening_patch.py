@@ -26,12 +26,12 @@ from typing import Any
 import numpy as np
 
 from ..types import Array, ComplexArray
-from .arrays import fault_of, named
 from .bisection import bisected
 from .crossings import largest_crossings
-from .fault import QUANTITIES, FaultParameters, Values, checked, takes_fault
+from .evaluation import evaluate, require_broadcast
 from .patch_basis import patch_basis
 from .spectrum import Systems
+from .values import QUANTITIES, FaultLike, Values, checked, numbers_of
 
 WIDEST = 10.0  # patches up to this multiple of L_c are tried
 NARROWEST = 0.05  # multiple of L_c at which the search begins
@@ -168,65 +168,13 @@ def polynomials_for(width_over_critical: float) -> int:
     return POLYNOMIALS * math.ceil(max(1.0, 0.5 * (1.0 + width_over_critical)))
 
 
-@takes_fault
-def weakening_patch_length(
-    *, outside_zeta: Values, outside_a: Values | None = None, **fault: Values
-) -> Any:
-    """Smallest width W_c of a weakening patch that nucleates among strengthening surroundings.
-
-    A narrower patch creeps at V like its surroundings, whatever disturbs it a little; on a wider
-    one slip oscillates with a growing amplitude. It ends in slow slip or in an event.
-
-    Parameters
-    ----------
-    outside_zeta : array_like or DataArray
-        zeta of the surroundings, negative where they strengthen with slip rate.
-    outside_a : array_like or DataArray, optional
-        Direct effect of the surroundings; that of the patch by default.
-    **fault
-        The parameters of :class:`~nucleation.api.fault.Fault`; `a`, `zeta` and `b` are those of
-        the patch, all others those of patch and surroundings.
-
-    Returns
-    -------
-    ndarray or DataArray
-        W_c (m), broadcast shape, within 1e-4; NaN where homogeneous sliding is stable with the
-        friction of the patch or unstable with that of the surroundings, and where no patch up to
-        ``10 L_c`` is unstable. A DataArray if there is one among the parameters, else a pint
-        quantity if there is one. Takes about half a second for each fault.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
-
-    Notes
-    -----
-    For half-spaces W_c/L_c depends on ``zeta/a`` and ``-outside_zeta/zeta`` alone. Surroundings
-    that strengthen very much don't slip: then it is ``1.158/pi``, that of a patch with pinned ends.
-
-    Examples
-    --------
-    >>> width = weakening_patch_length(
-    ...     outside_zeta=-0.004,
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
-    ...     a=0.010, b=0.015, slip_distance=5e-6,
-    ... )
-    >>> round(float(width), 2)
-    1.14
-    """
-    own = fault_of(fault)
-    width = weakening_patch_values(own, outside_zeta, outside_a)
-    return named(width, "weakening_patch_length", "m", "smallest patch that nucleates", own)
-
-
 def weakening_patch_values(
-    fault: FaultParameters, outside_zeta: Values, outside_a: Values | None = None
+    fault: FaultLike, outside_zeta: Values, outside_a: Values | None = None
 ) -> Any:
     """W_c (m); plain, in SI units."""
     zeta = checked("outside_zeta", outside_zeta, QUANTITIES["zeta"])
     a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
-    fault.broadcast(outside_zeta=zeta, outside_a=a)
+    require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
     def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:
         around = systems._replace(zeta=outside_zeta, a=outside_a)
@@ -239,4 +187,4 @@ def weakening_patch_values(
             found[0, i] = smallest_width(patch, float(critical[i]))
         return found
 
-    return fault.evaluate(widths, zeta, a)[0]
+    return evaluate(fault, widths, zeta, a)[0]

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from nucleation.fault import Fault
 from nucleation.model.parameters import Geometry, Mesh, Parameters
 from nucleation.theory.estimates import process_zone
-from nucleation.theory.fault import FaultParameters
 from nucleation.theory.of_runs import fault_of_run
 
 from .mesh_advice import element_sizes
@@ -95,7 +95,7 @@ def without_half_spaces(
     parameters = merged_parameters(base, values)
     values = _mesh(parameters) | values
     parameters = merged_parameters(base, values)
-    blocks = FaultParameters(**fault_of_run(parameters))
+    blocks = Fault(**fault_of_run(parameters))
     expected, found = _length(half_spaces, "stability"), _length(blocks, "stability")
     return values, Blocks(height, values["block_length"], expected, found / expected - 1.0)
 
@@ -103,22 +103,20 @@ def without_half_spaces(
 def _with_infinite(
     fault: dict[str, Any],
     given: Mapping[str, Any],
-) -> FaultParameters:
+) -> Fault:
     """A fault with infinite heights; a second height that is left out is the first one."""
     heights = {"height": given.get("height", fault["height"])}
     if "second_height" in fault:
         heights["second_height"] = given.get("second_height", heights["height"])
-    return FaultParameters(**fault | heights)
+    return Fault(**fault | heights)
 
 
 def _length(
-    fault: FaultParameters,
+    fault: Fault,
     which: str,
 ) -> float:
     """L_c or L_s (m) of one fault."""
-    from nucleation.lengths.status import answers_of_theory
-
-    return float(answers_of_theory(fault)[which].length)
+    return float(getattr(fault, f"{which}_length")())
 
 
 def _rounded(length: float) -> float:

@@ -1,7 +1,7 @@
 """Files of parameters, in YAML or JSON: the names of the options, with values and units."""
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,21 +15,13 @@ from nucleation.theory.values import OF_THEORY, QUANTITIES
 
 from .study_names import study_parameters
 
-Typed = Callable[[float, str, str], None]
-"""Takes note of a value in SI units, its text and the SI unit."""
-
 _SECOND_BODY = ("second_shear_modulus", "second_poisson_ratio", "second_height")
 """The parameters in ``second_body``, in their order."""
-
-
-def _ignored(value: float, text: str, unit: str) -> None:
-    """Take no note of the text of a value."""
 
 
 def read_parameters(
     path: Path,
     keys: Collection[str] = (),
-    typed: Typed = _ignored,
 ) -> dict[str, Any]:
     """The values in a YAML or JSON file, flat or in groups.
 
@@ -39,8 +31,6 @@ def read_parameters(
         The file.
     keys : collection of str
         The parameters that are meant, for suggestions; by default all.
-    typed : callable
-        Called with each value that has a unit.
 
     Returns
     -------
@@ -62,10 +52,10 @@ def read_parameters(
             name = _name(full, field, value, keys)
             if name in given:
                 raise ParameterError(f"{name} is given twice")
-            given[name] = _value(name, value, typed)
+            given[name] = _value(name, value)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
-    return with_second_body(given, typed)
+    return with_second_body(given)
 
 
 def _entries(content: Mapping[Any, Any]) -> list[tuple[str, str, Any]]:
@@ -136,7 +126,6 @@ def means_half_space(key: str, value: object) -> bool:
 def _value(
     key: str,
     value: Any,
-    typed: Typed,
 ) -> Any:
     """One value of a file in SI units; the second body is a text, as in its option."""
     if key == "second_body":
@@ -147,15 +136,11 @@ def _value(
     if not isinstance(value, str):
         check(key, value, entry)
         return value
-    found = parse_range(key, value, entry)
-    if isinstance(found, float):
-        typed(found, value, entry.unit)
-    return found
+    return parse_range(key, value, entry)
 
 
 def with_second_body(
     given: dict[str, Any],
-    typed: Typed,
 ) -> dict[str, Any]:
     """The values with ``second_body`` replaced by the parameters of the second body.
 
@@ -163,8 +148,6 @@ def with_second_body(
     ----------
     given : dict
         Values by their names in studies.
-    typed : callable
-        Called with each value that has a unit.
 
     Returns
     -------
@@ -194,7 +177,6 @@ def with_second_body(
     try:
         for key, part in zip(_SECOND_BODY, parts, strict=False):
             own[key] = parse(key, part, QUANTITIES[key])  # of the theory: a height may be infinite
-            typed(own[key], part, QUANTITIES[key].unit)
     except ParameterError as error:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: commas separate its values, which have a "

@@ -21,6 +21,7 @@ from nucleation.model.identity import fault
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.theory.creep.lengths import stability_length_of
+from nucleation.theory.creep.patches import Patches
 from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS
@@ -249,7 +250,10 @@ def _laws(runs: Iterable[Row]) -> dict[str, _Law]:
         parameters = Parameters.from_dict(run["parameters"])
         with contextlib.suppress(NoLength):
             critical = run["critical_length"]
-            history = mode_history(parameters, critical)
+            loading = parameters.loading
+            stress = loading.initial_shear_stress / loading.normal_stress
+            patches = Patches.of(parameters)
+            history = mode_history(patches, critical, loading.initial_state, stress)
             laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))
     return laws
 

@@ -14,6 +14,7 @@ import xarray as xr
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.zones import DEFINITIONS, far_ahead, zone_length
+from nucleation.fault import Fault
 from nucleation.lengths.expanding_zone import expanding_length
 from nucleation.lengths.formulas import (
     CRACK_LIMIT,
@@ -24,7 +25,6 @@ from nucleation.lengths.formulas import (
 from nucleation.lengths.in_use import LENGTHS, values_of
 from nucleation.lengths.length import TWO_MATERIALS
 from nucleation.model.parameters import Parameters
-from nucleation.theory.fault import FaultParameters
 
 from .rows import Row
 
@@ -40,7 +40,6 @@ OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 
 SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
 ELSEWHERE = {
-    "stability_length": "simulated with role patch_theory: patch_theory.csv",
     "homogeneous_sliding": "growth of single modes is simulated in dispersion.csv",
     "rice_ruina": SPRING_BLOCK,
     "dieterich_shortest": SPRING_BLOCK,
@@ -55,7 +54,7 @@ ELSEWHERE = {
 
 COLUMNS = {
     "id": SHARED["id"],
-    "name": Variable("", "name of the length, as in lengths_in_use"),
+    "name": Variable("", "name of the length, as in Fault.lengths"),
     "evolution": Variable("", "state evolution law"),
     "a": SHARED["a"],
     "b": Variable("1", "coefficient of the logarithm of the state", "b"),
@@ -172,11 +171,11 @@ def _rows(
         yield row
 
 
-def _fault_of(parameters: Parameters) -> FaultParameters:
+def _fault_of(parameters: Parameters) -> Fault:
     """The fault of a run for the formulas, with the logarithmic law about steady sliding."""
     load = parameters.loading
     _, a, zeta = parameters.friction.expansion(load.velocity)
-    return FaultParameters(
+    return Fault(
         shear_modulus=parameters.material.shear_modulus,
         poisson_ratio=parameters.material.poisson_ratio,
         plane=parameters.material.plane,

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
-from nucleation.drop.expected_drop import expected_drop
+from nucleation.drop.of_run import drop_of_run
 from nucleation.model.friction.constants import with_constants
 from nucleation.model.identity import fault
 from nucleation.model.linearised import interface_state
@@ -81,7 +81,7 @@ _OVER_CRITICAL = ("stability_length", "runaway_length", "law_length")
 def expected(parameters: Parameters) -> Row:
     """The columns :data:`EXPECTED` of one fault under its perturbation; NaN without a drop."""
     try:
-        known = expected_drop(parameters)
+        known = drop_of_run(parameters)
     except NoLength as error:
         none = dict.fromkeys(EXPECTED, float("nan"))
         return none | {"runaway_status": error.status, "doubt": str(error)}
@@ -89,7 +89,7 @@ def expected(parameters: Parameters) -> Row:
         "stability_length": known.stability_length,
         "runaway_length": known.runaway_length,
         "runaway_status": known.runaway_status,
-        "law_length": known.drop.length,
+        "law_length": known.law.length,
         "expected_length": known.length,
         "expected_low": known.low,
         "expected_high": known.high,

@@ -6,18 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from asked import critical_length, lengths_in_use, stability_length
 from configurations import CONFIG
 
-from nucleation.api import (
-    Friction,
-    ParameterError,
-    critical_length,
-    lengths_in_use,
-    stability_length,
-)
+from nucleation.api import Fault, Friction, ParameterError
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Parameters
-from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep.lengths import (
     Patches,
     stability_answers,
@@ -25,6 +19,7 @@ from nucleation.theory.creep.lengths import (
     stability_point,
 )
 from nucleation.theory.critical import run_length
+from nucleation.theory.evaluation import evaluate
 from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"
@@ -52,8 +47,8 @@ def test_the_map():
 def test_numbers_of_modes():
     """The error that is given covers what twice as many modes change."""
     for height, ratio, below in ((0.005, 2.288, np.inf), (0.1, 6.0, np.inf), (0.5, 1.0, 3.1e8)):
-        fault = fault_of(
-            FAULT | dict(height=height, zeta=ratio * 0.0068, second_shear_modulus=below)
+        fault = Fault(
+            **FAULT | dict(height=height, zeta=ratio * 0.0068, second_shear_modulus=below)
         )
         length, _, error = stability_answers(fault)[:3]
         assert error < 1e-3
@@ -65,7 +60,7 @@ def test_numbers_of_modes():
             slope = stability_point(patches, float(length) / 0.55).growth
             return np.full(systems.a.size, growth / slope)
 
-        assert abs(fault.evaluate(finer)) < max(float(error), 5e-4)
+        assert abs(evaluate(fault, finer)) < max(float(error), 5e-4)
 
 
 def test_only_ratios_matter():

@@ -5,19 +5,20 @@ Where ``a << zeta`` the growing pair of modes oscillates in a window of lengths 
 
 import numpy as np
 import pytest
+from asked import critical_length, stability_length
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from nucleation.api import critical_length, stability_length
+from nucleation.api import Fault
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Parameters
-from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep import front, front_onset, lengths
 from nucleation.theory.creep.front_onset import first_growing
 from nucleation.theory.creep.lengths import Patches, stability_point
 from nucleation.theory.critical import run_length
 from nucleation.theory.crossings import largest_crossings
+from nucleation.theory.evaluation import evaluate
 from nucleation.theory.status import NoLength
 
 DIRECT = 1e-4  # a of the faults below
@@ -49,7 +50,7 @@ def patches_of(parameters):
         found.append((Patches(systems), 2.0 * np.pi / float(largest_crossings(systems)[0])))
         return systems.a
 
-    fault_of(parameters).evaluate(note)
+    evaluate(Fault(**parameters), note)
     return found[0]
 
 

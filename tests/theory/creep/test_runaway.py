@@ -5,16 +5,10 @@ import math
 
 import numpy as np
 import pytest
+from asked import critical_length, runaway_length, stability_length
 from scipy.integrate import solve_ivp
 
-from nucleation.api import (
-    Friction,
-    Geometry,
-    Parameters,
-    critical_length,
-    runaway_length,
-    stability_length,
-)
+from nucleation.api import Friction, Geometry, Parameters
 from nucleation.theory.creep import runaway
 from nucleation.theory.creep.patches import Patches
 

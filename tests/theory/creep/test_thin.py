@@ -2,15 +2,16 @@
 
 import numpy as np
 import pytest
+from asked import critical_length, stability_length
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import root
 from scipy.special import sici
 
-from nucleation.api import stability_length
-from nucleation.theory.arrays import critical_length, fault_of
+from nucleation.api import Fault
 from nucleation.theory.creep.lengths import stability_answers
 from nucleation.theory.creep.response import SLIMMEST, response
 from nucleation.theory.creep.thin import thin_limit
+from nucleation.theory.evaluation import evaluate
 
 THIN_BLOCK = {
     "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "second_shear_modulus": np.inf,
@@ -109,7 +110,7 @@ LAYER = {
 def test_the_patch_of_a_very_thin_layer_meets_the_limit_within_its_error(zeta_over_a, second):
     """It was 0.3 % short with a stated error of 0.009 %."""
     given = LAYER | second | {"zeta": zeta_over_a * LAYER["a"], "height": 1e-8}
-    length, _, error = stability_answers(fault_of(given))[:3]
+    length, _, error = stability_answers(Fault(**given))[:3]
     ratio = length / critical_length(**given)
     assert ratio == pytest.approx(thin_limit(zeta_over_a).length_ratio, rel=error)
     assert error < 3e-3
@@ -126,5 +127,5 @@ def test_layers_slimmer_than_the_tables_reach_go_on_from_those_that_are_not():
 def systems(height):
     given = LAYER | {"zeta": 0.016, "height": height, "second_shear_modulus": np.inf}
     found = []
-    fault_of(given).evaluate(lambda own: found.append(own) or np.zeros((1, 1)))
+    evaluate(Fault(**given), lambda own: found.append(own) or np.zeros((1, 1)))
     return found[0]

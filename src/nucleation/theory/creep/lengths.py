@@ -25,12 +25,11 @@ from ...model.friction.law import Friction
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ...types import Array
-from ..arrays import fault_of, named
 from ..crossings import largest_crossings
-from ..fault import FaultParameters, takes_fault
+from ..evaluation import evaluate
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE, NoLength
-from ..values import Values
+from ..values import FaultLike
 from .patches import Patches
 from .response import extrapolation_error
 
@@ -122,51 +121,12 @@ def _guess(patches: Patches) -> float:
     return min(0.5 * (1.0 + 0.25 * a / weakening), 1.0)
 
 
-@takes_fault
-def stability_length(**fault: Values) -> Any:
-    """Stability length L_s: where a creeping patch turns unstable.
-
-    Parameters
-    ----------
-    **fault
-        The parameters of :class:`~nucleation.api.fault.Fault`. Each fault has the friction law with
-        its own f, a, zeta and D.
-
-    Returns
-    -------
-    ndarray or DataArray
-        L_s (m), broadcast shape; NaN, for a reason that ``nucleation.api.length_statuses`` has,
-        where homogeneous sliding is stable, where no patch up to
-        ``3 L_c`` has a growing mode, and where its creep would open the fault. A
-        DataArray if there is one among the parameters, else a pint quantity if there is one.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range, if no law has a fault's constants,
-        or if there is a law but no edge: its a(v) and b(v) depend on a slip rate that is not V
-        then.
-
-    Examples
-    --------
-    >>> length = stability_length(
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, height=0.5,
-    ...     a=0.010, b=0.015, slip_distance=5e-6,
-    ... )
-    >>> round(float(length), 2)
-    1.29
-    """
-    own = fault_of(fault)
-    length = stability_answers(own)[0]
-    return named(length, "stability_length", "m", "stability length of the creeping patch", own)
-
-
-def stability_answers(fault: FaultParameters) -> tuple[Any, Any, Any, Any, Any]:
+def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any, Any]:
     """L_s, its mode's frequency, its error, its status and the reason for it.
 
     Parameters
     ----------
-    fault : FaultParameters
+    fault : Fault
         One or many faults.
 
     Returns
@@ -203,12 +163,12 @@ def stability_answers(fault: FaultParameters) -> tuple[Any, Any, Any, Any, Any]:
             found[:, i] = point.length, point.frequency, point.error, VALUE, ""
         return found
 
-    rows = fault.evaluate(points, velocity, rows=5, dtype=object)
+    rows = evaluate(fault, points, velocity, rows=5, dtype=object)
     length, frequency, error = rows[:3].astype(float)
     return length, frequency, error, rows[3], rows[4]
 
 
-def _require_edge(fault: FaultParameters) -> None:
+def _require_edge(fault: FaultLike) -> None:
     """Refuse a friction law where V, f or an edge is missing."""
     if fault.friction_law is None:
         return

@@ -52,6 +52,13 @@ class Patches:
         return modes_for(self.one)
 
     @property
+    def memory(self) -> float:
+        """D/V (s)."""
+        if self.law is None:
+            return 1.0 / float(self.one.rate[0])
+        return self.law.slip_distance / self.velocity
+
+    @property
     def constants(self) -> tuple[float, float, float]:
         """f, a and zeta of the fault at V."""
         one = self.one

@@ -26,13 +26,12 @@ from scipy.integrate import solve_ivp
 
 from ...model.friction.law import Friction
 from ...types import Array
-from ..arrays import fault_of, named
 from ..bisection import bisected
 from ..crossings import largest_crossings
-from ..fault import takes_fault
+from ..evaluation import evaluate
 from ..spectrum import Systems
 from ..status import BEYOND, NoLength
-from ..values import Values
+from ..values import FaultLike
 from .lengths import stability_point
 from .patches import Patches
 from .response import MODES
@@ -189,49 +188,16 @@ def runaway_point(
     return bisected(lambda length: runs_away(patches, length), low, high, PRECISION)
 
 
-@takes_fault
-def runaway_length(**fault: Values) -> Any:
-    """Runaway length L_run: the length beyond which a creeping patch cannot slip slowly.
-
-    Between the stability length L_s and L_run a patch slips slowly in a limit cycle. Where friction
-    weakens little, zeta/a below about 2, the force drops at L_run or later; where it weakens more,
-    the patch drops before its oscillation saturates, and the law of the drop holds.
-
-    Parameters
-    ----------
-    **fault
-        The parameters of :class:`~nucleation.api.fault.Fault`; the patch is pushed at its edge,
-        and a and b are constant.
-
-    Returns
-    -------
-    ndarray or DataArray
-        L_run (m), broadcast shape, within 3 %; NaN where homogeneous sliding is stable and where no
-        patch up to ``3 L_c`` runs away. Takes about a second for each fault.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
-
-    Examples
-    --------
-    >>> length = runaway_length(
-    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, height=0.5,
-    ...     a=0.010, b=0.015, slip_distance=5e-6,
-    ... )
-    >>> round(float(length), 2)
-    1.92
-    """
-    own = fault_of(fault)
+def runaway_lengths(fault: FaultLike) -> Any:
+    """L_run (m) of each fault, with constant a and b; NaN where there is none."""
 
     def lengths(systems: Systems) -> Array:
         critical = 2.0 * np.pi / largest_crossings(systems)
         found = np.full((1, critical.size), np.nan)
         for i, length in enumerate(critical):
-            patches = Patches(systems.at(np.array([i])), evolution=str(own.evolution))
+            patches = Patches(systems.at(np.array([i])), evolution=fault.evolution)
             with contextlib.suppress(NoLength):
                 found[0, i] = runaway_point(patches, float(length))
         return found
 
-    return named(own.evaluate(lengths)[0], "runaway_length", "m", "runaway length", own)
+    return evaluate(fault, lengths)[0]

@@ -1,0 +1,178 @@
+"""The fault of a command: from options, a file, samples, a dataset, a run or the paper."""
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+
+from ..fault import Fault
+from ..fault.flat import LAW_NAMES, SECOND_BODY, declarations_of_flat, keywords, read_parameters
+from ..lengths.draws import Draws, Range, draw, parse_range
+from ..model.quantities import ParameterError
+from ..theory.reading import required
+from .options import Decorator, option, second_body_option, source_options, together
+
+_NOTES = {
+    "b": "this, --zeta or --zeta-over-a",
+    "zeta": "zeta = b - a",
+    "friction": "needed where the bodies differ, and for the length at the drop",
+    "velocity": "for frequencies and the length at the drop",
+    "height": "inf, a half-space, if left out",
+    "second_height": "the first body's if left out",
+    "far_side": "traction if left out",
+    "second_far_side": "of the second body; the first one's if left out",
+    "plane": "strain if left out",
+    "density": "1200 of PMMA, the paper's, if left out",
+    "initial_state": "20 D/V if left out",
+    "friction_law": "none if left out: a and b are constant along the patch",
+}
+"""Additions to the help of options."""
+
+_SOURCES = ("file", "run_id", "config", "paper")
+_PER_DECADE = ("a", "b", "zeta")
+
+
+def _options() -> list[Decorator]:
+    """One option for each parameter of a fault, by its only name."""
+    options: list[Decorator] = []
+    for key, entry in declarations_of_flat().items():
+        read = None if entry.worded else parse_range
+        called = f"--{key.replace('_', '-')}"
+        options.append(option(called, key=key, entry=entry, note=_NOTES.get(key, ""), read=read))
+    return options
+
+
+fault_options = together(
+    *_options(),
+    second_body_option,
+    click.option(
+        "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
+    ),
+    source_options,
+)
+"""One option for each parameter of a fault, and options for the source of other parameters."""
+
+FAULT_OPTIONS = (*declarations_of_flat(), SECOND_BODY, "per_decade", *_SOURCES)
+
+
+class GivenFault(NamedTuple):
+    """The fault of a command, and how it was given."""
+
+    fault: Fault
+    """With arrays of draws where parameters are uncertain."""
+    names: frozenset[str]
+    """The parameters that are given."""
+    drawn: Draws | None
+    """The draws, if parameters are uncertain."""
+    papers: list[str]
+    """A line with the parameters that are the paper's, or none."""
+
+    @property
+    def uncertain(self) -> list[str]:
+        """Names of the uncertain parameters."""
+        return list(self.drawn.uncertain) if self.drawn else []
+
+
+def given_fault(
+    options: Mapping[str, Any],
+    samples: Mapping[str, Any],
+    draws: int,
+    sought: Mapping[str, float] = {},
+) -> GivenFault:
+    """The fault that options define (SI units, None: not given), and samples by name.
+
+    A parameter that is `sought` need not be given.
+    """
+    file, paper = options["file"], options["paper"]
+    base = _base(options)
+    given = {} if base or file is None else read_parameters(file, _names_of_runs())
+    own = {k: x for k, x in options.items() if x is not None and k in FAULT_OPTIONS}
+    own = {k: x for k, x in own.items() if k not in (*_SOURCES, "per_decade")}
+    for name in samples:
+        if name in own:
+            raise ParameterError(f"{name} is given twice: as an option and in the samples")
+    own |= samples
+    if options["per_decade"]:
+        own |= {name: _natural(own[name]) for name in own.keys() & {*_PER_DECADE}}
+    given |= own
+    names = frozenset(given)
+    for name, value in sought.items():
+        if name not in given and base is None:
+            given[name] = value
+    drawn = None
+    if any(isinstance(x, Range) or x is samples.get(k, None) for k, x in given.items()):
+        drawn = draw(given, draws)
+        given = drawn.values
+    if base is None:
+        if paper:
+            base = _paper()
+        else:
+            _require(given, file)
+    known = keywords(given)
+    fault = base.replace(**known) if base else Fault(**known)
+    papers = _papers_line(names) if paper else []
+    return GivenFault(fault, names, drawn, papers)
+
+
+def _names_of_runs() -> set[str]:
+    """Names of parameters that only simulations have: one file serves all commands."""
+    from ..model.parameters import names
+
+    known = names()
+    return {known.short(full) for full in known} - {*declarations_of_flat(), SECOND_BODY}
+
+
+def _natural(value: Any) -> Any:
+    """A coefficient of log10, or its range or samples, as one of the natural logarithm."""
+    if not isinstance(value, Range):
+        return value / math.log(10.0)
+    return Range(*(end / math.log(10.0) for end in (value, value.low, value.high)))
+
+
+def _paper() -> Fault:
+    from ..fault.paper import PAPER
+
+    return PAPER
+
+
+def _base(options: Mapping[str, Any]) -> Fault | None:
+    """The fault of a run or a dataset, if one is given."""
+    from .sources import base_of
+
+    parameters = base_of(options)
+    if parameters is None:
+        return None
+    from ..theory.of_runs import fault_of_run
+
+    return Fault(**fault_of_run(parameters))
+
+
+def _require(given: Mapping[str, Any], file: Path | None) -> None:
+    """Refuse a fault that lacks a parameter, with the option for it."""
+    law = given.get("friction_law") or given.keys() & {*LAW_NAMES}
+    for name in required(given.get("plane", "strain")):
+        if name not in given and not (law and name == "a"):
+            place = f"in {file}" if file else "or --parameters FILE"
+            raise ParameterError(
+                f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all other "
+                "parameters from the paper by --paper"
+            )
+
+
+def _papers_line(names: frozenset[str]) -> list[str]:
+    """The main parameters that are not given and therefore the paper's, in one line or none."""
+    given_by = {
+        "shear_modulus": {"shear_modulus"},
+        "poisson_ratio": {"poisson_ratio"},
+        "height": {"height"},
+        "normal_stress": {"normal_stress"},
+        "velocity": {"velocity"},
+        "slip_distance": {"slip_distance"},
+        "friction": {"friction"},
+        "a": {"a"},
+        "b": {"zeta_over_a", "zeta", "b"},
+    }
+    papers = [name for name, by in given_by.items() if not names & by]
+    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []

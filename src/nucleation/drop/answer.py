@@ -1,0 +1,88 @@
+"""L_run and the length L at the drop of one or many faults, as answers."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..lengths.answer import Answer
+from ..model.own_fault import AGE, law_of
+from ..model.perturbation import Perturbation
+from ..theory.creep.patches import Patches
+from ..theory.creep.runaway import ERROR
+from ..theory.crossings import largest_crossings
+from ..theory.evaluation import evaluate
+from ..theory.spectrum import Systems
+from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength
+from ..theory.values import FaultLike
+from ..types import Array
+from .expected_drop import ExpectedDrop, expected_drop
+
+FIELDS = len(Answer._fields)
+
+
+def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answer]:
+    """L_run and L under a declared perturbation."""
+    missing = [name for name in ("velocity", "friction") if getattr(fault, name) is None]
+    if missing:
+        which = " and ".join(missing)
+        return _alike(fault, _none(UNKNOWN, f"needs {which}: the drop depends on the friction law"))
+    if fault.loading != "edge":
+        return _alike(fault, _none(UNKNOWN, "it is known for a patch that is pushed at its edge"))
+    given = (fault.velocity, fault.slip_distance)
+    age = np.nan if fault.initial_state is None else fault.initial_state
+
+    def points(systems: Systems, velocity: Array, distance: Array, age: Array) -> NDArray:
+        critical = 2.0 * np.pi / largest_crossings(systems)
+        found = np.full((2 * FIELDS, critical.size), np.nan, dtype=object)
+        for i, length in enumerate(critical):
+            one = systems.at(np.array([i]))
+            v, d = float(velocity[i]), float(distance[i])
+            constants = (float(one.friction[0]), float(one.a[0]), float(one.zeta[0]))
+            phi0 = AGE * d / v if math.isnan(age[i]) else float(age[i])
+            try:
+                law = law_of(fault.friction_law, fault.evolution, v, d, *constants)
+                patches = Patches(one, law, v, evolution=fault.evolution)
+                runaway, drop = _both(expected_drop(patches, declared, float(length), phi0))
+            except NoLength as none:
+                runaway = drop = _none(none.status, str(none))
+            found[:, i] = *runaway, *drop
+        return found
+
+    rows = evaluate(fault, points, *given, age, rows=2 * FIELDS, dtype=object)
+    return {"runaway_length": _answer(rows[:FIELDS]), "drop_length": _answer(rows[FIELDS:])}
+
+
+def _answer(rows: Any) -> Answer:
+    """An answer from its fields as rows of objects."""
+    value, low, high = rows[:3].astype(float)
+    return Answer(value, low, high, *rows[3:])
+
+
+def _none(status: str, reason: str) -> Answer:
+    return Answer(math.nan, math.nan, math.nan, status, reason)
+
+
+def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
+    """The same answer about both lengths of all faults."""
+
+    def points(systems: Systems) -> NDArray:
+        found = np.empty((FIELDS, systems.a.size), dtype=object)
+        found[:] = np.array(answer, dtype=object)[:, None]
+        return found
+
+    found = _answer(evaluate(fault, points, rows=FIELDS, dtype=object))
+    return {"runaway_length": found, "drop_length": found}
+
+
+def _both(known: ExpectedDrop) -> tuple[Answer, Answer]:
+    """L_run and L of one fault."""
+    longest = known.runaway_length
+    low, high = longest * (1.0 - ERROR), longest * (1.0 + ERROR)
+    runaway = Answer(longest, low, high, known.runaway_status, known.runaway_reason)
+    if known.runaway_status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
+        return runaway, _none(BEYOND, known.runaway_reason)
+    if not math.isfinite(known.length):
+        return runaway, _none(BEYOND, known.doubt)
+    return runaway, Answer(known.length, known.low, known.high, VALUE, "", known.doubt)

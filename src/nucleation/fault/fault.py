@@ -1,0 +1,545 @@
+"""A fault, two bodies in frictional contact: one or many, and every answer about it."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from ..model.friction.law import Friction
+from ..model.own_fault import AGE, law_of, roughness_length
+from ..model.perturbation import ALONG_X, Perturbation
+from ..model.quantities import ParameterError, declared
+from ..model.synonyms import hint
+from ..model.units import magnitude
+from ..theory.critical import CriticalMode, critical_modes
+from ..theory.evaluation import evaluate, require_broadcast
+from ..theory.reading import bodies_differ, completed
+from ..theory.spectrum import Systems, as_wavenumber
+from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_of
+from .flat import flat, keywords, read_parameters
+
+if TYPE_CHECKING:
+    from ..lengths.answer import Lengths
+    from ..lengths.specimen import Fit
+
+_MISSING: Any = None
+"""The default of parameters without one, so that an error can name all that are missing."""
+
+_WAVENUMBER = declared("wavenumber", "(-inf, inf) 1/m", symbol="k")
+_OF_LAW = ("friction", "a", "zeta", "slip_distance")
+"""The constants that a friction law has at V."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Fault:
+    """Two bodies in frictional contact that slide steadily; scalars, arrays or DataArrays.
+
+    Parameters
+    ----------
+    shear_modulus : array_like
+        mu (Pa) of the first body. Every number may be an array, a DataArray, a pint quantity or a
+        text with a unit such as "0.5um"; they broadcast as NumPy's or, by name, as xarray's do.
+    poisson_ratio : array_like
+        nu of the first body; not needed in antiplane shear.
+    normal_stress : array_like
+        sigma0 (Pa), compressive positive.
+    a : array_like
+        Direct effect, ``a = v df/dv`` at fixed state, by the **natural** logarithm: divide a value
+        per decade by ``ln 10 = 2.303``.
+    zeta : array_like, optional
+        Velocity weakening ``zeta = b - a = -df_ss/dlog v``; either this or `b` is given.
+    b : array_like, optional
+        Coefficient of the logarithm of the state, ``b = a + zeta``.
+    slip_distance : array_like
+        Characteristic slip distance D (m); ``ell = D`` for the aging and the slip law.
+    friction : array_like, optional
+        Friction coefficient f of steady sliding. Bodies that differ need it, since slip then
+        changes the normal stress, and so does the length at the drop.
+    velocity : array_like, optional
+        Sliding velocity V (m/s); rates, frequencies and the length at the drop need it.
+    height : array_like
+        Height (m) of the first body; inf, the default, makes it a half-space.
+    second_shear_modulus : array_like, optional
+        mu (Pa) of the second body; that of the first one by default, inf for a rigid body.
+    second_poisson_ratio, second_height : array_like, optional
+        The same for nu and the height (m).
+    far_side : {"traction", "free", "velocity", "clamped", "roller"}
+        Boundary condition on the first body's side away from the interface: both stresses (Eq. 10,
+        two words), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy are imposed.
+    second_far_side : str, optional
+        The same of the second body; that of the first one by default.
+    zone_thickness : array_like, optional
+        Thickness h (m) of a zone of other stiffness, gouge or damaged rock, between the fault and
+        each body that is not rigid; heights do not include it. By default there is no zone.
+    zone_shear_modulus, zone_poisson_ratio : array_like, optional
+        mu (Pa) and nu of the zone; the first body's nu by default.
+    plane : {"strain", "stress", "antiplane"}
+        Plane strain, or plane stress of thin plates, with ``nu/(1 + nu)`` in place of nu, or
+        antiplane shear (mode III), in which nu and f do not matter.
+    loading : {"edge", "remote"}
+        Where the creeping patch begins: at an edge that is pushed, or in the interior under a load
+        from afar. The bodies' `far_side` sets the boundary condition there.
+    evolution : str
+        Evolution of the state, that of `friction_law` by default, else ``aging``.
+    friction_law : Friction, optional
+        The full law, which gives the local a(v), b(v) along a creeping patch; needs `velocity`.
+        Those of f, a, zeta and D that are not given are the law's, expanded about V; a law has the
+        values that are given. By default a and b are constant.
+    density : array_like
+        Mass density (kg/m3), 1200 of PMMA (the paper's) by default; only inertia depends on it.
+    second_density : array_like, optional
+        The same of the second body; that of the first one by default.
+    initial_state : array_like, optional
+        Age phi0 (s) of the interface when the loading begins; 20 D/V by default.
+
+    Attributes
+    ----------
+    registry : pint.UnitRegistry or None
+        Registry of a parameter that was a pint quantity; the fields themselves are in SI units.
+
+    Warns
+    -----
+    ImplausibleWarning
+        If no known fault has such a magnitude, as with a shear modulus of 30 Pa.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is outside its range, missing, given twice or of another unit's dimension.
+
+    Examples
+    --------
+    >>> granite = Fault(
+    ...     shear_modulus="30GPa", poisson_ratio=0.25, normal_stress=[50e6, 100e6],
+    ...     a=0.010, b=0.015, slip_distance="5um",
+    ... )
+    >>> granite.critical_length()
+    array([2.51327412, 1.25663706])
+    """
+
+    shear_modulus: Values = _MISSING
+    poisson_ratio: Values = _MISSING
+    normal_stress: Values = _MISSING
+    a: Values = _MISSING
+    zeta: Values | None = None
+    b: Values | None = None
+    slip_distance: Values = _MISSING
+    friction: Values | None = None
+    velocity: Values | None = None
+    height: Values = math.inf
+    second_shear_modulus: Values | None = None
+    second_poisson_ratio: Values | None = None
+    second_height: Values | None = None
+    far_side: str = "traction"
+    second_far_side: str | None = None
+    zone_thickness: Values | None = None
+    zone_shear_modulus: Values | None = None
+    zone_poisson_ratio: Values | None = None
+    plane: str = "strain"
+    loading: str = "edge"
+    evolution: str | None = None
+    friction_law: Friction | None = None
+    density: Values = 1200.0
+    second_density: Values | None = None
+    initial_state: Values | None = None
+    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
+
+    def __new__(cls, **given: Any) -> Self:
+        for name in given:
+            if name not in QUANTITIES and name != "friction_law":
+                suggestion = hint(name, QUANTITIES) or f"known: {', '.join(QUANTITIES)}"
+                raise ParameterError(
+                    f"the fault got an unexpected keyword argument {name!r}; {suggestion}"
+                )
+        return super().__new__(cls)
+
+    def __post_init__(self) -> None:
+        for name, value in completed(vars(self)).items():
+            object.__setattr__(self, name, value)  # the dataclass is frozen
+
+    def keys(self) -> list[str]:
+        """Names of the parameters with a value; with ``[name]`` they make ``**fault`` possible."""
+        names = [field.name for field in dataclasses.fields(self)]
+        return [n for n in names if getattr(self, n) is not None and not self._follows(n)]
+
+    def _follows(self, name: str) -> bool:
+        """Whether a value follows from others: zeta has b's, the first body or the law has it."""
+        first = name.removeprefix("second_")
+        if first != name:
+            return getattr(self, name) is getattr(self, first)
+        if name in _OF_LAW and self.friction_law is not None and not np.ndim(self.velocity):
+            law = self.friction_law
+            own = dict(
+                zip(_OF_LAW, (*law.expansion(self.velocity), law.slip_distance), strict=True)
+            )
+            return bool(np.all(getattr(self, name) == own[name]))
+        return name in ("b", "registry")
+
+    def __getitem__(self, name: str) -> Any:
+        value = getattr(self, name)
+        if self.registry is None or name in (*WORDS, "friction_law"):
+            return value
+        return self.registry.Quantity(value, QUANTITIES[name].unit)
+
+    def replace(self, **changes: Any) -> Self:
+        """The fault with other parameters.
+
+        Parameters
+        ----------
+        **changes
+            By name; ``b`` replaces ``zeta``, and the other way round.
+
+        Returns
+        -------
+        Fault
+
+        Examples
+        --------
+        >>> from nucleation.api import PAPER
+        >>> round(PAPER.replace(height="5cm").critical_length(), 3)
+        0.519
+        """
+        kept = {name: self[name] for name in self.keys() if name not in changes}
+        if "b" in changes:
+            kept.pop("zeta", None)
+        return type(self)(**kept | changes)
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """The fault of a flat mapping, the inverse of :meth:`to_dict`.
+
+        Parameters
+        ----------
+        values : mapping
+            By the names of the parameters; beside them ``second_body`` (same, rigid or
+            MODULUS,POISSON[,HEIGHT]), ``zeta_over_a``, and ``friction_law`` by its name with
+            parameters of the law.
+
+        Returns
+        -------
+        Fault
+        """
+        return cls(**keywords(values))
+
+    @classmethod
+    def from_file(cls, path: Path | str) -> Self:
+        """The fault in a YAML or JSON file, a mapping as of :meth:`from_dict`.
+
+        Parameters
+        ----------
+        path : Path or str
+            Values are in SI units or texts with units.
+
+        Returns
+        -------
+        Fault
+        """
+        return cls(**keywords(read_parameters(path)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The parameters of a single fault as plain values in SI units, with the law's."""
+        return flat(self)
+
+    @property
+    def has_zone(self) -> bool:
+        """Whether there is a zone of other stiffness beside the fault."""
+        return self.zone_thickness is not None
+
+    @property
+    def bodies_differ(self) -> Any:
+        """Whether the second body is no mirror image of the first one (bool or array)."""
+        return bodies_differ(vars(self))
+
+    def law(self) -> Friction:
+        """The full friction law of a single fault with velocity and friction.
+
+        The given law, or the regularised Dieterich-Ruina law, with the fault's constants at V.
+        """
+        f, a, zeta, velocity, distance = (
+            self.single(name) for name in ("friction", "a", "zeta", "velocity", "slip_distance")
+        )
+        return law_of(self.friction_law, str(self.evolution), velocity, distance, f, a, zeta)
+
+    def single(self, name: str) -> float:
+        """The number that a parameter of a single fault has, which is not missing (SI units).
+
+        Parameters
+        ----------
+        name : str
+            Of the parameter.
+
+        Returns
+        -------
+        float
+        """
+        value, entry = getattr(self, name), QUANTITIES[name]
+        if value is None:
+            unit = f" ({entry.unit})" if entry.unit != "1" else ""
+            raise ParameterError(f"{name}{unit} is missing: give the {entry.description}")
+        if np.size(value) != 1:
+            raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
+        return float(np.ravel(value)[0])
+
+    def age(self) -> float:
+        """phi0 (s) of a single fault: the given one, or 20 D/V."""
+        if self.initial_state is not None:
+            return self.single("initial_state")
+        return AGE * self.single("slip_distance") / self.single("velocity")
+
+    def critical_length(self) -> Any:
+        """Critical nucleation length L_c of the linear theory of homogeneous sliding.
+
+        k_c is the largest wavenumber at which a root of Eq. (5) is marginal. Two half-spaces of one
+        material have Eq. (6), of different ones Eq. (9), a thin layer on a rigid body Eq. (11).
+
+        Returns
+        -------
+        float, ndarray or DataArray
+            ``L_c = 2 pi/k_c`` (m); NaN where homogeneous sliding is stable (:meth:`lengths` has the
+            reason). A DataArray if there is one among the parameters, else a pint quantity if there
+            is one.
+        """
+        return self._critical().length
+
+    def critical_mode(self) -> CriticalMode:
+        """Critical length (m), wavenumber (1/m) and angular frequency (rad/s); needs `velocity`.
+
+        Returns
+        -------
+        CriticalMode
+            Each field as :meth:`critical_length` returns it.
+        """
+        self._require_velocity()
+        return self._critical()
+
+    def spectrum(self, wavenumber: Values) -> Any:
+        """Growth rates of both modes of homogeneous sliding, the roots of Eq. (5).
+
+        Parameters
+        ----------
+        wavenumber : array_like or DataArray
+            k (1/m), not zero; broadcasts with the parameters.
+
+        Returns
+        -------
+        ndarray or DataArray
+            Lambda (1/s), complex, of perturbations ``exp(Lambda t - i k x)``; shape ``(2,)`` and
+            the broadcast shape, the faster root first. The first dimension of a DataArray is
+            ``root``.
+        """
+        self._require_velocity()
+
+        def rates(systems: Systems, k: Any) -> Any:
+            return systems.growth_rates(as_wavenumber(k))
+
+        found = self._at(wavenumber, rates, dtype=complex)
+        if labelled(found):
+            found = found.rename(row="root")
+        return named(found, "growth_rate", "1/s", "growth rate of the mode", self)
+
+    def transfer_functions(self, wavenumber: Values) -> tuple[Any, Any]:
+        """Elastic transfer functions G1 and G2 of the pair of bodies (Eqs. 7, 10).
+
+        Parameters
+        ----------
+        wavenumber : array_like or DataArray
+            k (1/m), not zero; broadcasts with the parameters.
+
+        Returns
+        -------
+        G1, G2 : ndarray or DataArray
+            ``delta sigma_xy = -mu k G1 delta epsilon``, ``delta sigma_yy = i mu k G2 delta
+            epsilon`` with mu of the first body; dimensionless, broadcast shape.
+        """
+
+        def functions(systems: Systems, k: Any) -> Any:
+            return systems.pair.transfer_functions(as_wavenumber(k))
+
+        shear, normal = self._at(wavenumber, functions)
+        return (
+            named(shear, "G1", "1", "shear response", self),
+            named(normal, "G2", "1", "normal response", self),
+        )
+
+    def stability_length(self) -> Any:
+        """Stability length L_s: where the creeping patch turns unstable.
+
+        Returns
+        -------
+        float, ndarray or DataArray
+            L_s (m); NaN where there is none (:meth:`lengths` has the reason).
+        """
+        from ..theory.creep.lengths import stability_answers
+
+        found = stability_answers(self)[0]
+        return named(found, "stability_length", "m", "stability length of the creeping patch", self)
+
+    def runaway_length(self) -> Any:
+        """Runaway length L_run, beyond which a creeping patch can't slip slowly.
+
+        Between L_s and L_run a patch slips slowly in a limit cycle. Where friction weakens little,
+        zeta/a below about 2, the force drops at L_run or later.
+
+        Returns
+        -------
+        float, ndarray or DataArray
+            L_run (m), of constant a and b; NaN where there is none.
+        """
+        from ..theory.creep.runaway import runaway_lengths
+
+        return named(runaway_lengths(self), "runaway_length", "m", "runaway length", self)
+
+    def weakening_patch_length(self, outside_zeta: Values, outside_a: Values | None = None) -> Any:
+        """Smallest width W_c of a weakening patch that nucleates among strengthening surroundings.
+
+        A narrower patch creeps at V like its surroundings, whatever disturbs it a little; on a
+        wider one slip oscillates with a growing amplitude. It ends in slow slip or in an event.
+
+        Parameters
+        ----------
+        outside_zeta : array_like
+            zeta of the surroundings, negative where they strengthen with slip rate.
+        outside_a : array_like, optional
+            Their direct effect; that of the patch by default.
+
+        Returns
+        -------
+        float, ndarray or DataArray
+            W_c (m), within 1e-4; NaN where sliding is stable with the friction of the patch or
+            unstable with that of the surroundings, and where no patch up to ``10 L_c`` is unstable.
+        """
+        from ..theory.weakening_patch import weakening_patch_values
+
+        found = weakening_patch_values(self, outside_zeta, outside_a)
+        return named(found, "weakening_patch_length", "m", "smallest patch that nucleates", self)
+
+    def lengths(
+        self,
+        perturbation: str = "normal_load",
+        strength: float = 1e-4,
+        *,
+        correlation_time: float = 1.0,
+        correlation_length: float | None = None,
+        weakening_rate: Values | None = None,
+    ) -> Lengths:
+        """All nucleation lengths, each with value, range, status, reason and doubt.
+
+        Parameters
+        ----------
+        perturbation : {"normal_load", "drive_velocity", "strength", "state", "none"}
+            Of the length at the drop L; with "none" L_run and L are left out, which take a second
+            for each fault.
+        strength : float
+            Its relative strength.
+        correlation_time : float
+            Over D/V.
+        correlation_length : float, optional
+            In m; a fifth of L_b by default.
+        weakening_rate : array_like, optional
+            Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default.
+
+        Returns
+        -------
+        Lengths
+            By key: ``critical_length`` L_c, ``stability_length`` L_s, ``runaway_length`` L_run,
+            ``drop_length`` L, ``process_zone``, and those of the literature. ``dataset()`` makes a
+            Dataset of it.
+
+        Examples
+        --------
+        >>> granite = Fault(
+        ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.015, b=0.010,
+        ...     slip_distance=5e-6,
+        ... )
+        >>> granite.lengths()["critical_length"].status
+        'stable'
+        """
+        from ..lengths.answer import (
+            Lengths,
+            answers_of_literature,
+            answers_of_theory,
+            process_zone_answer,
+        )
+
+        found = answers_of_theory(self)
+        if perturbation != "none":
+            from ..drop.answer import answers_of_drop
+
+            if correlation_length is None:
+                correlation_length = self._roughness() if perturbation in ALONG_X else 1.0
+            declared = Perturbation(perturbation, strength, correlation_time, correlation_length)
+            found |= answers_of_drop(self, declared)
+        found["process_zone"] = process_zone_answer(self)
+        return Lengths(found | answers_of_literature(self, weakening_rate))
+
+    def _roughness(self) -> float:
+        modulus = self.single("shear_modulus") / (1.0 - self.single("poisson_ratio"))
+        strength = self.single("b") * self.single("normal_stress")
+        return roughness_length(modulus, self.single("slip_distance"), strength)
+
+    def specimen(
+        self,
+        unknown: str,
+        length: Values,
+        criterion: str = "critical",
+        within: tuple[float, float] | None = None,
+    ) -> Fit:
+        """Values of one parameter at which a nucleation length fits a specimen.
+
+        Parameters
+        ----------
+        unknown : {"normal_stress", "slip_distance", "shear_modulus"}
+            The parameter to find: sigma0 (Pa), D (m) or mu (Pa) of the first body; its value in
+            this fault has no effect. A second body like the first has the same mu.
+        length : float or text
+            Length of the specimen along the fault (m).
+        criterion : {"critical", "stability"}
+            The length that has to fit: L_c, or L_s of a creeping patch.
+        within : (float, float), optional
+            Range of the search, in SI units; by default all known values.
+
+        Returns
+        -------
+        Fit
+
+        Examples
+        --------
+        >>> from nucleation.api import PAPER
+        >>> fit = PAPER.replace(height="10cm").specimen("normal_stress", "20cm")
+        >>> [[f"{value:.3g}" for value in interval] for interval in fit.intervals]
+        [['3.58e+06', '1e+10']]
+        """
+        from ..lengths.specimen import specimen_fit
+
+        return specimen_fit(self, unknown, length, criterion, within)
+
+    def _critical(self) -> CriticalMode:
+        length, k, omega = evaluate(self, critical_modes, rows=3)
+        mirrored = np.logical_not(self.bodies_differ)
+        omega = omega + (abs(omega) - omega) * mirrored  # keeps the dimensions' names
+        frequency = "frequency of the critical mode"
+        return CriticalMode(
+            length=named(length, "critical_length", "m", "critical nucleation length", self),
+            wavenumber=named(k, "critical_wavenumber", "1/m", "critical wavenumber", self),
+            angular_frequency=named(omega, "critical_frequency", "rad/s", frequency, self),
+        )
+
+    def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
+        """Two rows of a function of Systems and wavenumbers."""
+        k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
+        require_broadcast(numbers_of(self) | {"wavenumber": k})
+        return evaluate(self, function, k, rows=2, dtype=dtype)
+
+    def _require_velocity(self) -> None:
+        if self.velocity is None:
+            raise ParameterError("velocity (m/s) is missing: rates and frequencies depend on it")
+
+
+_own = inspect.signature(Fault.__init__).parameters.values()
+Fault.__signature__ = inspect.Signature([x for x in _own if x.name != "self"])  # type: ignore

@@ -1,0 +1,20 @@
+"""The fault of the paper: a block of PMMA on a rigid base, with its friction law."""
+
+import math
+
+from ..model.friction.law import Friction
+from .fault import Fault
+
+PAPER = Fault(
+    shear_modulus=3.1e9,
+    poisson_ratio=1.0 / 3.0,
+    density=1200.0,
+    height=0.005,
+    second_shear_modulus=math.inf,
+    far_side="free",
+    normal_stress=1.0e6,
+    velocity=1.0e-5,
+    friction_law=Friction(),
+    initial_state=1.0,
+)
+"""The fault of Aldam et al. (2017), with its lowest block; ``PAPER.replace(height="5cm")``."""

@@ -1,0 +1,242 @@
+"""The lengths of a fault, each with value, range, status, reason and doubt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..theory.creep.lengths import stability_answers
+from ..theory.critical import stability_reason
+from ..theory.crossings import largest_crossings
+from ..theory.evaluation import evaluate
+from ..theory.spectrum import Systems
+from ..theory.status import STABLE, UNKNOWN, VALUE
+from ..theory.values import FaultLike, Numbers, Values, labelled
+from .in_use import LENGTHS, values_of
+from .length import TWO_MATERIALS, Length, number
+from .process_zone import process_zone
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TITLES = {
+    "critical_length": "critical length L_c",
+    "stability_length": "stability length L_s",
+    "runaway_length": "runaway length L_run",
+    "drop_length": "length at the drop L",
+    "process_zone": "process zone",
+}
+TITLES |= {length.key: length.title for length in LENGTHS}
+"""Title of each length by key: those of the theory, and of the literature."""
+
+FIELDS = ("value", "low", "high", "status", "reason", "doubt")
+
+
+class Answer(NamedTuple):
+    """A length of one or many faults; numbers, arrays or DataArrays of equal shape."""
+
+    value: Any
+    """In metres, NaN where there is none."""
+    low: Any
+    """Lower end of its range (m)."""
+    high: Any
+    """Upper end of its range (m)."""
+    status: Any
+    """``value``; else ``stable``, ``beyond`` or ``unknown``."""
+    reason: Any
+    """Why there is no value; empty where there is one."""
+    doubt: Any = ""
+    """Why the value is uncertain beyond its range; empty if it is not."""
+
+    @property
+    def exists(self) -> bool:
+        """Whether a single fault has the length."""
+        return bool(np.isfinite(self.value))
+
+
+class Lengths(Mapping[str, Answer]):
+    """The lengths of a fault: :class:`Answer` by key, as a table where it is printed.
+
+    Examples
+    --------
+    >>> from nucleation.api import PAPER
+    >>> found = PAPER.lengths()
+    >>> round(float(found["critical_length"].value), 3), found["drop_length"].status
+    (0.238, 'value')
+    """
+
+    def __init__(self, answers: Mapping[str, Answer]) -> None:
+        self._answers = dict(answers)
+
+    def __getitem__(self, key: str) -> Answer:
+        return self._answers[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._answers)
+
+    def __len__(self) -> int:
+        return len(self._answers)
+
+    def dataset(self) -> xr.Dataset:
+        """The table as a Dataset over ``length`` and the dimensions of the fault.
+
+        Returns
+        -------
+        Dataset
+            ``value``, ``low``, ``high`` (m), ``status``, ``reason`` and ``doubt``. Arrays without
+            named dimensions have the dimensions ``axis_0``, ``axis_1``, ...
+        """
+        import xarray as xr
+
+        found = {}
+        for field in FIELDS:
+            columns = _with_dimensions({key: getattr(x, field) for key, x in self.items()})
+            alike = xr.broadcast(*columns.values())
+            index = xr.IndexVariable("length", list(self))
+            parts = [x.drop_attrs() for x in alike]
+            found[field] = xr.concat(parts, index).rename(field)
+        for field in ("value", "low", "high"):
+            found[field] = found[field].assign_attrs(units="m")
+        titles = [TITLES[key] for key in self]
+        return xr.Dataset(found).assign_coords(title=("length", titles))
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        rows = []
+        for key, answer in self.items():
+            shown = [f"{TITLES[key]}", "", "", ""]
+            if answer.exists:
+                shown[1] = f"{answer.value:.4g} m"
+                if answer.high > answer.low * 1.0001:
+                    shown[2] = f"{answer.low:.4g} to {answer.high:.4g} m"
+                shown[3] = str(answer.doubt)
+            else:
+                shown[3] = f"{answer.status}: {answer.reason}"
+            rows.append(tuple(shown))
+        return rows
+
+    def _is_single(self) -> bool:
+        return all(np.size(answer.value) == 1 for answer in self.values())
+
+    def __repr__(self) -> str:
+        if not self._is_single():
+            return repr(self.dataset())
+        rows = self._rows()
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)][:-1]
+        lines = []
+        for *cells, last in rows:
+            padded = [cell.ljust(width) for cell, width in zip(cells, widths, strict=True)]
+            lines.append("  ".join([*padded, last]).rstrip())
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        if not self._is_single():
+            return self.dataset()._repr_html_()
+        from html import escape
+
+        head = "<tr><th>length<th>value<th>range<th>doubt, or why there is none</tr>"
+        rows = ["<tr><td>" + "<td>".join(map(escape, row)) + "</tr>" for row in self._rows()]
+        return f"<table>{head}{''.join(rows)}</table>"
+
+
+def _with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+    """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
+    import xarray as xr
+
+    plain = {key: array for key, array in found.items() if not labelled(array)}
+    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
+    dims = [f"axis_{n}" for n in range(len(shape))]
+    named = dict(found)
+    for key, array in plain.items():
+        named[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
+    return named
+
+
+def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
+    """L_c and L_s."""
+    critical = _critical_answer(fault)
+    length, _, error, status, reason = stability_answers(fault)
+    low, high = length * (1.0 - error), length * (1.0 + error)
+    stability = Answer(length, low, high, status, reason)
+    return {"critical_length": critical, "stability_length": stability}
+
+
+def _critical_answer(fault: FaultLike) -> Answer:
+    def points(systems: Systems) -> NDArray[np.object_]:
+        lengths = 2.0 * np.pi / largest_crossings(systems)
+        found = np.full((3, systems.a.size), "", dtype=object)
+        found[0] = lengths
+        found[1] = VALUE
+        for i in np.flatnonzero(np.isnan(lengths)):
+            found[1, i] = STABLE
+            found[2, i] = stability_reason(systems.at(np.array([i])))
+        return found
+
+    rows = evaluate(fault, points, rows=3, dtype=object)
+    length = rows[:1].astype(float)[0]
+    return Answer(length, length, length, rows[1], rows[2])
+
+
+def process_zone_answer(fault: FaultLike) -> Answer:
+    """The process zone of the bodies as they are."""
+    length = process_zone(fault)
+
+    def reason_of(value: float, b: float) -> str:
+        return "" if np.isfinite(value) else f"needs b > 0: b = {b:.4g}"
+
+    status = _elementwise(lambda x: VALUE if np.isfinite(x) else UNKNOWN, length)
+    reason = _elementwise(reason_of, length, number(fault, "b"))
+    return Answer(length, length, length, status, reason)
+
+
+def answers_of_literature(
+    fault: FaultLike, weakening_rate: Values | None = None
+) -> dict[str, Answer]:
+    """The lengths of the literature, with W (Pa/m) of Uenishi and Rice's."""
+    used = [one for one in LENGTHS if one.system != TWO_MATERIALS or _has_two_materials(fault)]
+    values = values_of(fault, weakening_rate, used)
+    return {one.key: _literature_answer(one, values[one.key], fault) for one in used}
+
+
+def _has_two_materials(fault: FaultLike) -> bool:
+    second = fault.second_shear_modulus
+    differ = (second != fault.shear_modulus) | (fault.second_poisson_ratio != fault.poisson_ratio)
+    return bool(np.any(np.isfinite(second) & differ))
+
+
+def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:
+    """A length of the literature; NaN means a stable fault if zeta <= 0, else another range."""
+    facts = one.facts(fault)
+    names = list(facts)
+
+    def reason_of(value: float, *numbers: float) -> str:
+        if np.isfinite(value):
+            return ""
+        known = []
+        for name, fact in zip(names, numbers, strict=True):
+            unit = " m" if name == "H" else ""
+            known.append(f"{name} = {fact:.4g}{unit}")
+        return f"needs {one.needs}: {', '.join(known)}"
+
+    def status_of(value: float, zeta: float) -> str:
+        if np.isfinite(value):
+            return VALUE
+        return STABLE if zeta <= 0.0 else UNKNOWN
+
+    reason = _elementwise(reason_of, length, *facts.values())
+    status = _elementwise(status_of, length, number(fault, "zeta"))
+    if not labelled(status):
+        length, status, reason = (x[()] for x in np.broadcast_arrays(length, status, reason))
+    return Answer(length, length, length, status, reason)
+
+
+def _elementwise(function: Callable[..., str], *arrays: Numbers) -> Any:
+    """The texts that a function of numbers returns at every point of arrays or DataArrays."""
+    at_each = np.vectorize(function, otypes=[object])
+    if not any(map(labelled, arrays)):
+        return at_each(*arrays)[()]
+    import xarray as xr
+
+    return xr.apply_ufunc(at_each, *arrays)

@@ -1,0 +1,60 @@
+"""Methods of a fault as functions of its parameters, for tests of many faults."""
+
+from nucleation.api import Fault
+from nucleation.drop.of_run import drop_of_run
+from nucleation.lengths.in_use import values_of
+
+
+def critical_length(**fault):
+    return Fault(**fault).critical_length()
+
+
+def critical_mode(**fault):
+    return Fault(**fault).critical_mode()
+
+
+def spectrum(wavenumber, **fault):
+    return Fault(**fault).spectrum(wavenumber)
+
+
+def transfer_functions(wavenumber, **fault):
+    neutral = {"normal_stress": 1e6, "a": 0.01, "slip_distance": 1e-6, "friction": 0.0}
+    if not {"zeta", "b"} & fault.keys():
+        neutral["zeta"] = 0.01
+    return Fault(**neutral | fault).transfer_functions(wavenumber)
+
+
+def stability_length(**fault):
+    return Fault(**fault).stability_length()
+
+
+def runaway_length(**fault):
+    return Fault(**fault).runaway_length()
+
+
+def weakening_patch_length(outside_zeta, outside_a=None, **fault):
+    return Fault(**fault).weakening_patch_length(outside_zeta, outside_a)
+
+
+def specimen_fit(unknown, length, criterion="critical", within=None, **fault):
+    middle = {"normal_stress": 1e6, "slip_distance": 1e-6, "shear_modulus": 1e9}
+    sought = unknown if unknown in middle else "normal_stress"
+    given = {sought: middle[sought]} | fault
+    return Fault(**given).specimen(unknown, length, criterion, within)
+
+
+def lengths(weakening_rate=None, **fault):
+    """All lengths but L_run and L."""
+    return Fault(**fault).lengths("none", weakening_rate=weakening_rate)
+
+
+def lengths_in_use(weakening_rate=None, **fault):
+    """Lengths of the literature by key, also those for two materials where there is one."""
+    return values_of(Fault(**fault), weakening_rate)
+
+
+def expected_drop(parameters):
+    return drop_of_run(parameters)
+
+
+CRITERIA = {"critical_length": critical_length, "stability_length": stability_length}
