@@ -127,9 +127,15 @@ def _begin(work: Callable[[int], Any], ended: Any) -> None:
     """In a process of the pool, before its first call: it ends when the job is killed."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
-    parent = multiprocessing.parent_process()
-    Thread(target=lambda: (parent and parent.join(), os._exit(1)), daemon=True).start()
+    Thread(target=_end_with_job, daemon=True).start()
     _TASK[:] = [work, ended]
+
+
+def _end_with_job() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)
 
 
 def _call(number: int) -> Any:

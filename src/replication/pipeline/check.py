@@ -10,7 +10,6 @@ show. The last line says whether all is current.
 import contextlib
 import json
 import os
-import stat
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -136,7 +135,8 @@ def prune(results: Path, expected: Expected, remove: bool) -> str:
         name = ""
         with contextlib.suppress(DatasetError):
             name = str(read_note(entry).get("name", ""))[:200]
-        megabytes = _size(entry) / 1e6
+        whole = entry.is_dir() and not entry.is_symlink()  # it may be anything else
+        megabytes = sum(file.lstat().st_size for file in entry.iterdir()) / 1e6 if whole else 0.0
         lines.append(f"{entry}  {plain(name)}  {megabytes:.1f} MB")
         if remove:
             try:
@@ -145,13 +145,6 @@ def prune(results: Path, expected: Expected, remove: bool) -> str:
                 lines[-1] += f"  not removed: {error.strerror}"
     done = "removed" if remove else "that nothing refers to; PRUNE=yes removes them"
     return "\n".join([*lines, f"{len(keys)} results {done}"])
-
-
-def _size(entry: Path) -> int:
-    """Bytes of the files in an entry, which may be anything else."""
-    if not stat.S_ISDIR(entry.lstat().st_mode):
-        return 0
-    return sum(file.lstat().st_size for file in entry.iterdir())
 
 
 def main(command: str, results: str, expected_file: str) -> None:

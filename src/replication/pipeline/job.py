@@ -8,12 +8,13 @@ is appended to LOG; warnings and errors also appear on the terminal.
 """
 
 import contextlib
+import logging
 import os
 import sys
 import time
 from pathlib import Path
 
-from .messages import LOGGER, warnings_on
+from .messages import LOGGER
 from .recipes import Recipe, read
 from .store import others
 from .views import show
@@ -32,11 +33,12 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     began = time.monotonic()
     os.environ |= dict.fromkeys(_ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
-    terminal = sys.stderr
+    terminal = logging.StreamHandler(sys.stderr)
+    terminal.setLevel(logging.WARNING)
+    LOGGER.addHandler(terminal)
     with (
         Path(log).open("a", buffering=1, encoding="utf-8") as stream,
         contextlib.redirect_stderr(stream),
-        warnings_on(terminal),
     ):
         try:
             _run(read(recipe_file), rule, int(threads))
@@ -49,25 +51,14 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
 def _run(recipe: Recipe, rule: str, threads: int) -> None:
     named = os.environ.get(FORCED, "").split("\n")
     forced = not {"*", rule, *recipe.files}.isdisjoint(named)
-    if forced or not _is_there(recipe):
+    store = recipe.store
+    for source in recipe.obtained(store, others(strict=False)):
+        LOGGER.info(f"taken from {source}")
+    if forced or not recipe.is_in(store):
         from .making import make
 
         make(recipe, rule, threads, forced)
     show(recipe)
-
-
-def _is_there(recipe: Recipe) -> bool:
-    """Whether the store has all results of a recipe; those of other stores are copied first."""
-    store = recipe.store
-    elsewhere = others(strict=False)
-    for one in recipe.needed:
-        if store.has(one.key, one.names):
-            continue
-        source = store.take(one.key, one.names, elsewhere)
-        if source is None:
-            return False
-        LOGGER.info(f"taken from {source}")
-    return True
 
 
 if __name__ == "__main__":

@@ -4,13 +4,11 @@ A job redirects its standard error to its log, with the messages and everything 
 print. Warnings and errors of a job also appear on the terminal.
 """
 
-import contextlib
 import logging
 import signal
 import sys
-from collections.abc import Iterator
 from types import FrameType
-from typing import Any, TextIO
+from typing import Any
 
 LOGGER = logging.getLogger("replication.pipeline")
 
@@ -25,18 +23,6 @@ class _StandardError(logging.Handler):
 LOGGER.setLevel(logging.INFO)
 LOGGER.propagate = False  # Snakemake's options for quiet or coloured output are about its own lines
 LOGGER.addHandler(_StandardError())
-
-
-@contextlib.contextmanager
-def warnings_on(terminal: TextIO) -> Iterator[None]:
-    """Within this context warnings and errors are written to `terminal`, too."""
-    handler = logging.StreamHandler(terminal)
-    handler.setLevel(logging.WARNING)
-    LOGGER.addHandler(handler)
-    try:
-        yield
-    finally:
-        LOGGER.removeHandler(handler)
 
 
 def end_in_one_line(logger: logging.Logger) -> None:

@@ -75,7 +75,7 @@ class Plan:
             taken = f", {self._taken} of them taken from other stores" if self._taken else ""
             LOGGER.info(f"Shown without a job: {self._shown} results{taken}")
 
-    @cached_property
+    @property
     def results(self) -> str:
         """The directory of results for Snakemake, with the prefix of a module."""
         return self.prefix + self._configured
@@ -88,7 +88,9 @@ class Plan:
             raise ValueError("results are links, which no storage keeps: use NUCLEATION_STORES")
         before, found, _ = str(first).partition(self._configured)
         if not found:
-            raise ValueError(f"{first} is not in {self._configured}: use prefix, no replace_prefix")
+            raise ValueError(
+                f"{first} is not in {self._configured}: use prefix, not replace_prefix"
+            )
         return before
 
     @cached_property
@@ -114,7 +116,9 @@ class Plan:
         only_lists = workflow.executor_plugin is None or workflow.dryrun or workflow.touch
         if only_lists or any(Path(_LOCKS).glob("*")):
             return False
-        os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
+        asked = workflow.dag_settings
+        forced = {*asked.forcerun, *(asked.targets if asked.forcetargets else ())}
+        os.environ[FORCED] = "*" if asked.forceall else "\n".join(map(str, forced))
         Path(self._place).mkdir(parents=True, exist_ok=True)
         write(Path(self._place, _PLANNED), "")
         return True
@@ -144,27 +148,19 @@ class Plan:
     @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
         """Rules by their files, and pairs of a pattern with wildcards and its rule."""
-        fixed: dict[str, str] = {}
-        patterns: list[tuple[Any, str]] = []
-        for rule in self._names:
-            # the proxy of a rule lacks the constraints of wildcards
-            for file in getattr(self._rules, rule).rule.output:
-                if "{" in str(file):
-                    patterns.append((file, rule))
-                else:
-                    fixed[str(file)] = rule
-        return fixed, patterns
+        # the proxy of a rule lacks the constraints of wildcards
+        own = [(f, rule) for rule in self._names for f in getattr(self._rules, rule).rule.output]
+        patterns = [(file, rule) for file, rule in own if "{" in str(file)]
+        return {str(file): rule for file, rule in own if "{" not in str(file)}, patterns
 
     def _recipe(self, path: str) -> Recipe | None:
         """The recipe of a file; None if no rule makes it."""
         fixed, patterns = self._makers
         if path in fixed:
             return self._of_rule(fixed[path], {})
-        for pattern, rule in patterns:
-            found = pattern.match(path)
-            if found:
-                return self._of_rule(rule, found.groupdict())
-        return None
+        matches = ((pattern.match(path), rule) for pattern, rule in patterns)
+        found, rule = next(((found, rule) for found, rule in matches if found), (None, ""))
+        return self._of_rule(rule, found.groupdict()) if found else None
 
     def write_expected(self, more: list[str]) -> str:
         """Write which result each file of the workflow should show; return the written path.
@@ -203,21 +199,18 @@ class Plan:
         """Make the recipe of a rule from its outputs, inputs and parameters."""
         asked = getattr(self._rules, rule)
         names = SimpleNamespace(**wildcards)
-        outputs = [file.apply_wildcards(wildcards) for file in asked.output]
-        files = [str(file) for file in outputs]
-        self._files |= dict(zip(files, outputs, strict=True))
-        inputs = {}
-        for role, value in asked.input.items():
-            if role != "recipe":
-                inputs[role] = _evaluated(value, names)
+        files = {str(file): file for file in (f.apply_wildcards(wildcards) for f in asked.output)}
+        self._files |= files
+        own = ((role, value) for role, value in asked.input.items() if role != "recipe")
+        inputs = {role: _evaluated(value, names) for role, value in own}
         params = {name: _evaluated(value, names) for name, value in asked.params.items()}
         waited_for = inputs.pop("after", [])  # batches; `reads` names the files that are read
         reads = params.pop("reads", {})
         sources = inputs | {role: self._placed(paths) for role, paths in reads.items()}
         parts = [self._recipe(path) for path in self._placed(params.pop("makes", []))]
         recipe = Recipe(
-            name=self._name(files[0]),
-            files=files,
+            name=self._name(next(iter(files))),
+            files=[*files],
             results=self.results,
             call=params.pop("call", ""),
             loads=list(params.pop("loads", [])),
@@ -225,8 +218,8 @@ class Plan:
             parts=[part for part in parts if part is not None],
             values=params,
         )
-        needed = [listed(paths) for paths in (*inputs.values(), waited_for)]
-        self._inputs[recipe.name] = [path for paths in needed for path in paths]
+        needed = (*inputs.values(), waited_for)
+        self._inputs[recipe.name] = [path for paths in needed for path in listed(paths)]
         return recipe
 
     def _placed(self, paths: Paths) -> Paths:
@@ -283,22 +276,16 @@ class Plan:
             write(file, recipe.text(str(time.time_ns())))
             if newest >= _time(str(file)):  # a clock was wrong
                 os.utime(file, (newest + 1.0, newest + 1.0))
-        if self.runs:
-            self._keep_alone(recipe)
         self._refresh(str(file))
-
-    def _keep_alone(self, recipe: Recipe) -> None:
-        """Note a recipe for its job, and remove recipes of other results of the same name."""
-        with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as file:
-            print(recipe.name, recipe.key, file=file)
-        for key in self._written.get(recipe.name, set()) - {recipe.key}:
-            Path(f"{self._place}/{recipe.name}.{key}.json").unlink(missing_ok=True)
+        if self.runs:  # note it for its job, and leave no recipe of another result of this name
+            with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as planned:
+                print(recipe.name, recipe.key, file=planned)
+            for key in self._written.get(recipe.name, set()) - {recipe.key}:
+                Path(f"{self._place}/{recipe.name}.{key}.json").unlink(missing_ok=True)
 
     def _update_views(self, recipe: Recipe) -> None:
         """Show the results that the stores have, and remove files that show other ones."""
-        for one in recipe.needed:
-            if not self.store.has(one.key, one.names):
-                self._taken += self.store.take(one.key, one.names, self._others) is not None
+        self._taken += len(recipe.obtained(self.store, self._others))
         for one in (recipe, *recipe.parts):
             if is_shown(one, self.store) and is_linked(one):
                 continue
@@ -347,12 +334,3 @@ def _evaluated(value: Any, wildcards: SimpleNamespace) -> Any:
     if hasattr(value, "apply_wildcards") and "{" in value:
         return str(value.apply_wildcards(vars(wildcards)))
     return value
-
-
-def _forced(dag_settings: Any) -> Iterator[str]:
-    """Rules and files that Snakemake makes even if they are there; * for all."""
-    if dag_settings.forceall:
-        yield "*"
-    yield from map(str, dag_settings.forcerun)
-    if dag_settings.forcetargets:
-        yield from map(str, dag_settings.targets)

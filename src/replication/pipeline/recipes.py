@@ -117,6 +117,12 @@ class Recipe(_Ingredients):
         """Whether a store has the result; of a batch all parts."""
         return all(store.has(one.key, one.names) for one in self.needed)
 
+    def obtained(self, store: Store, others: list[Store]) -> list[Path]:
+        """Copy what a store lacks from others; return the stores that had it."""
+        lacking = [one for one in self.needed if not store.has(one.key, one.names)]
+        found = (store.take(one.key, one.names, others) for one in lacking)
+        return [source for source in found if source is not None]
+
     def stored(self, file: str) -> str:
         """The path in the store of one of the result's files."""
         suffix = file.removeprefix(f"{self.results}/{self.name}")

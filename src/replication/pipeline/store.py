@@ -50,20 +50,19 @@ def read_note(
     """
     key = key or entry.name
     try:
-        note = json.loads(_read(entry / NOTE))
+        note = json.loads(_regular(entry / NOTE, 1, _LARGEST_NOTE).read_bytes())
         files = note["files"].items()
         if note["key"] != key:
             raise DatasetError(f"{entry} holds the result of another key")
-        if entry.is_symlink() or not files:
-            raise DatasetError(f"{entry} is damaged: it is a link, or has no files")
-        if not all(_FILE.fullmatch(name) for name in note["files"]):  # none leads out of the entry
-            raise DatasetError(f"{entry} is damaged: its note names other files")
+        plain = all(_FILE.fullmatch(name) for name in note["files"])  # none leads out of the entry
+        if entry.is_symlink() or not files or not plain:
+            raise DatasetError(f"{entry} is damaged: it is a link, or its note names other files")
         if not note["files"].keys() >= set(names):
             raise DatasetError(f"{entry} is damaged: it lacks files of the result")
         for name, about in files:
-            _check(entry / name, about["size"])
+            path = _regular(entry / name, about["size"], about["size"])
             if whole:
-                _check_bytes(entry / name, about["sha256"], key)
+                _check_bytes(path, about["sha256"], key)
     except DatasetError:
         raise
     except OSError as error:
@@ -73,19 +72,12 @@ def read_note(
     return dict(note)
 
 
-def _read(note: Path) -> bytes:
-    """The bytes of a note; a pipe does not block here."""
-    found = note.lstat()
-    if not stat.S_ISREG(found.st_mode) or found.st_size > _LARGEST_NOTE:
-        raise DatasetError(f"{note} is damaged: it is no note")
-    return note.read_bytes()
-
-
-def _check(path: Path, size: int) -> None:
-    """Raise DatasetError if a file of an entry has another kind or size (bytes)."""
+def _regular(path: Path, smallest: int, largest: int) -> Path:
+    """The path of a regular file, which can't block, of a size (bytes) in this range."""
     found = path.lstat()
-    if not stat.S_ISREG(found.st_mode) or found.st_size != size:
+    if not stat.S_ISREG(found.st_mode) or not smallest <= found.st_size <= largest:
         raise DatasetError(f"{path} is damaged: it does not have its original size")
+    return path
 
 
 def _check_bytes(path: Path, digest: str, key: str) -> None:
