@@ -25,7 +25,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
 
-min_version("9.20")
+min_version("9.27")
 
 BASE = Path(workflow.current_basedir)  # of this file, also where it is a module of another
 
