@@ -44,14 +44,14 @@ help: ## This list
 
 install: $(STAMP) ## Install what `make paper` needs, in .venv
 
-paper: $(if $(findstring replication,$(TARGETS)),$(DEV_STAMP),$(STAMP)) ## Make every figure, table and verdict, in results/
+paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $$TARGETS $(OPTIONS)
 
 report: $(STAMP) ## Make results/report.html: all figures with captions, and verdicts, in half an hour to an hour
 	$(LAUNCH) figures $(OPTIONS)
 	$(LAUNCH) figures --report results/report.html $(OPTIONS)
 
-replication: $(DEV_STAMP) ## Make the article with all figures as PDF, results/replication.pdf
+replication: $(STAMP) ## Make the article with all figures, results/replication.md
 	$(LAUNCH) replication $(OPTIONS)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/

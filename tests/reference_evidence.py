@@ -50,8 +50,12 @@ def evidence(**changes):
 
 STATED = table_of_claims.stated()
 PAIRED = {subject: STATED.pop(subject) for subject in ["two bodies, simulated"]}
-CLAIMS = [claim for s, entries in STATED.items() for claim in table_of_claims.claims_on(s, entries)]
-BY_ID = {claim.id: claim for claim in CLAIMS}
+ENTRIES = {id: entry for entries in STATED.values() for id, entry in entries.items()}
+
+
+def judged(id, evidence):
+    """The row of one claim that needs no pairs."""
+    return table_of_claims.evaluate_one(id, ENTRIES[id], evidence)
 
 
 def evaluate(evidence):

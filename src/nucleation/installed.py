@@ -13,7 +13,6 @@ DISTRIBUTION = "nucleation-length"
 EXTRAS = {
     "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
     "figures": ("matplotlib",),
-    "article": ("pypandoc", "typst"),
 }
 """Modules of each extra."""
 

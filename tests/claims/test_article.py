@@ -79,3 +79,10 @@ def test_citations_and_references_are_the_same():
     assert len(entries) == len(re.findall("^- ", listed, re.M)) > 4
     cited = re.findall(r"([A-Z]\w+)(?: and \w+)?, (\d{4})\b", text)
     assert {*cited, ("Aldam", "2017")} == set(entries)  # the paper itself, by its title
+
+
+def test_figures_of_the_workflow_are_those_of_the_template():
+    shown = re.findall(r"figures/(\w+)\.png", TEMPLATE)
+    rules = (ROOT / "workflow/rules/claims.smk").read_text("utf-8")
+    named = re.search(r"PAPERS_FIGURES = .*\nFIGURES_BEYOND = .*", rules)[0]
+    assert shown == re.findall(r'"(\w+)"', named)

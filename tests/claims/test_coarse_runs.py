@@ -8,7 +8,7 @@ from reference_evidence import ROOT, evaluate, evidence
 
 from replication.claims import phrases
 from replication.claims.article import render
-from replication.claims.claim import Verdict
+from replication.claims.expected import Verdict
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 HEIGHTS = [0.005, 0.1]
@@ -58,7 +58,7 @@ def test_reasons_of_coarse_runs(claims):
     for row in claims:
         assert_reads_well(row["reason"])
     by_id = {row["id"]: row for row in claims}
-    assert "On a mesh of 80 x 10 elements it holds" in by_id["theory-agreement"]["reason"]
+    assert "On a mesh of 80 x 10 elements it holds" in by_id["length-increases"]["reason"]
     assert by_id["mesh-along"]["verdict"] == Verdict.UNCHECKED
     assert "these runs have another" in by_id["mesh-along"]["reason"]
 

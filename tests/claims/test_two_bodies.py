@@ -7,11 +7,10 @@ import xarray as xr
 from reference_evidence import PAIRED, REFERENCE
 from reference_evidence import table as of_reference
 
+from replication.claims import printed
 from replication.claims import table as table_of_claims
-from replication.claims.independent import printed
 
-CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
-FOUND = {claim.id: claim for claim in CLAIMS}
+FOUND = PAIRED["two bodies, simulated"]
 
 
 def table(ratio=0.8, slope=-1.0):
@@ -80,7 +79,8 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
 
 
 def judged(name, table=None, modes_=None):
-    return FOUND[name].evaluate({"pairs": table, "modes": modes_})
+    evidence = {"pairs": table, "modes": modes_}
+    return table_of_claims.evaluate_one(name, FOUND[name], evidence)
 
 
 @pytest.mark.parametrize(("ratio", "verdict"), [(0.8, "replicated"), (0.6, "not supported")])

@@ -76,14 +76,23 @@ def test_agreement_with_the_theory():
     paper, declared = over_theory("paper"), over_theory("converged")
     own = 0.15 / of_study("paper", height=SHOWN)["critical_length"].iloc[0]
     apart = {name: max_ratio(found) for name, found in (("d", declared), ("p", paper))}
-    assert (paper > 0.75).sum() == 2 and not (declared > 0.75).any()
+    counts = [
+        [int((found > least).sum()) for least in (0.6, 0.67, 0.7, 0.75)]
+        for found in (paper, declared)
+    ]
+    assert counts == [[9, 7, 5, 2], [9, 9, 2, 0]]
+    rows = of_study("converged", evolution="aging", initial_state=1.0)
+    wide = rows["length_high_start"] / rows["critical_length"]
+    lowest = wide.groupby(rows["height"]).mean().min()
     says(
         "results.md",
         f"$L/L_c$ is {span(paper)} on the paper's mesh and {span(declared)} declared, so the "
         f"dependence on height agrees within {100 * (apart['p'] - 1):.0f} and "
         f"{100 * (apart['d'] - 1):.0f} %.",
         f"its own 0.15 m is {own:.2f} of its theory",
-        "within 25 % for two of nine heights on the paper's mesh, and for none declared.",
+        "Of nine heights 9, 7, 5 and 2 are within 40, 33, 30 and 25 % of the theory on the paper's "
+        "mesh, and 9, 9, 2 and none declared.",
+        rf"With the edge at $0.5\,V$ the lowest is {lowest:.2f}.",
     )
     says("article.md.in", f"a length {100.0 * (1.0 - own):.0f} % below it")
     says(

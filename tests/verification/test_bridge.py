@@ -20,7 +20,7 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.of_runs import systems_of
-from replication.claims.independent import printed
+from replication.claims import printed
 from replication.tables import dispersion, pair_modes, sliding_modes
 from replication.tables.sliding_modes import sliding_period, sliding_state
 

@@ -219,7 +219,7 @@ def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     assert set(re.findall(r"^rule (\w+):$", rules, re.M)) == texts.keys()
 
 
-def test_article_on_paper_has_the_figures_beyond(workflow):
+def test_article_of_the_replication_has_the_figures_beyond(workflow):
     planned = workflow.planned("replication")
     made = {"write_article", "figure_3", "figure_drop", "figure_map"}
-    assert planned["print_article"] == 1 and made <= planned.keys()
+    assert planned["write_replication"] == 1 and made <= planned.keys()

@@ -2,7 +2,7 @@
 # article on them. If the configuration lacks the runs of a claim, its verdict is "cannot be checked".
 PAIRED = "two bodies, simulated"
 PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
-PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
+FIGURES_BEYOND = ["figure_patch_stability", "figure_drop", "figure_map"]
 
 
 @functools.cache
@@ -25,7 +25,7 @@ rule claims:
     log:
         f"{RESULTS}/logs/tables/claims.log",
     params:
-        call="replication.claims.evaluation:of_paper",
+        call="replication.claims.table:of_paper",
         loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
         reads=lambda wildcards: {
             "longer": simulations(longer()),
@@ -56,7 +56,7 @@ rule evaluate_pairs:
     log:
         f"{RESULTS}/logs/tables/claims_pairs.log",
     params:
-        call="replication.claims.evaluation:of_pairs",
+        call="replication.claims.table:of_pairs",
         statements=lambda wildcards: {PAIRED: statements()[PAIRED]},
     shell:
         JOB
@@ -75,27 +75,25 @@ rule write_article:
         f"{RESULTS}/logs/article.log",
     localrule: True
     params:
-        call="replication.claims.evaluation:write_article",
+        call="replication.claims.article:write_article",
     shell:
         JOB
 
 
-rule print_article:
-    """The article with its figures, as PDF and LaTeX"""
+rule write_replication:
+    """The article with the figures of L_s, drop and map"""
     input:
         template=ours("docs/article.md.in"),
-        citation=ours("CITATION.cff"),
         claims=f"{RESULTS}/tables/claims.json",
         lengths=lambda wildcards: lengths_of(*CLAIMED),
-        figures=[f"{RESULTS}/figures/{name}.png" for name in PRINTED],
-        recipe=recipe("print_article"),
+        recipe=recipe("write_replication"),
     output:
-        multiext(f"{RESULTS}/replication", ".pdf", ".tex", ".md"),
+        f"{RESULTS}/replication.md",
     log:
         f"{RESULTS}/logs/replication.log",
     localrule: True
     params:
-        call="replication.claims.printing:write",
-        names=PRINTED,
+        call="replication.claims.article:write_article",
+        beyond=True,
     shell:
         JOB

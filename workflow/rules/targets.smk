@@ -36,10 +36,11 @@ rule article:
 
 
 rule replication:
-    """The article with figures of L_s, drop and map: PDF, LaTeX and Markdown"""
+    """The article with figures of L_s, drop and map"""
     input:
         rules.article.input,
-        rules.print_article.output,
+        rules.write_replication.output,
+        [f"{RESULTS}/figures/{name}.png" for name in FIGURES_BEYOND],
 
 
 rule figures:

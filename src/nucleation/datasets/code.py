@@ -28,7 +28,7 @@ ALWAYS = ("nucleation.datasets.netcdf",)
 """Code of every dataset: the writer of its file."""
 
 # libraries whose distribution has another name than the module
-_DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml", "pypandoc": "pypandoc_binary"}
+_DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
 # libraries that do the work of others and are not imported here
 _COMPANIONS = {
     "numba": ("llvmlite",),

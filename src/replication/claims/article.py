@@ -1,16 +1,30 @@
 """The article on the replication: a template whose numbers come from the results alone."""
 
+import json
 import math
 from collections.abc import Iterable
+from pathlib import Path
 
 import jinja2
 import xarray as xr
 
 from ..tables.lengths import over_realisations
 from ..tables.rows import rows_of
-from .claim import Row, Verdict
+from .evidence import Row
+from .expected import Verdict
 from .phrases import caution, mesh, span
 from .table import counts, escaped
+
+
+def write_article(
+    template: Path,
+    claims: Path,
+    lengths: Iterable[xr.Dataset],
+    beyond: bool = False,
+) -> dict[str, str]:
+    """The step ``article``: its text from the template, the claims as JSON and the lengths."""
+    rows = json.loads(claims.read_text("utf-8"))
+    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
 
 
 def render(
@@ -19,37 +33,16 @@ def render(
     lengths: Iterable[xr.Dataset],
     beyond: bool = False,
 ) -> str:
-    """The article's text.
+    """The article's text; `beyond` includes the figures of L_s, the drop and the map.
 
-    Parameters
-    ----------
-    template : str
-        Markdown with Jinja2's expressions. The template can use ``claim(id)``, a claim's row;
-        ``ours(id)``, our number with range and unit; ``checked(id)``, whether it has a verdict;
-        ``mesh``, that of the role ``paper`` in words, and the ``caution`` that a coarse one needs;
-        ``verdicts``, their counts; ``verdict``, :class:`~replication.claims.claim.Verdict`;
-        ``claims``, all rows; ``runs(role)``, the role's rows of lengths, one for each fault;
-        ``pairs``, the faults of the paper's study, each with its row of the converged study;
-        ``by_theory(role)``, the range of L_s/L_c by theory; and the filters ``digits(n)``,
-        ``span(n)`` of numbers, ``percent(n)`` and ``typeset``, the last for texts with formulas.
-    claims : list of dict
-        Rows of :func:`replication.claims.table.evaluate`.
-    lengths : iterable of Dataset
-        Tables of lengths, one for each study.
-    beyond : bool
-        Whether the text includes the figures of L_s, the drop and the map.
-
-    Returns
-    -------
-    str
-        Markdown.
-
-    Raises
-    ------
-    jinja2.UndefinedError
-        For a name that the results do not have.
-    KeyError
-        For an unknown claim.
+    The template is Markdown with Jinja2's expressions. It can use ``claim(id)``, a claim's row;
+    ``ours(id)``, our number with range and unit; ``checked(id)``, whether it has a verdict;
+    ``mesh``, that of the role ``paper`` in words, and the ``caution`` that a coarse one needs;
+    ``verdicts``, their counts; ``verdict``, :class:`Verdict`; ``claims``, all rows; ``runs(role)``,
+    the role's rows of lengths, one for each fault; ``pairs``, the faults of the paper's study, each
+    with its row of the converged study; ``by_theory(role)``, the range of L_s/L_c by theory; and
+    the filters ``digits(n)``, ``span(n)`` of numbers, ``percent(n)`` and ``typeset``, the last for
+    texts with formulas. A name that the results lack is an error.
     """
     environment = jinja2.Environment(
         undefined=jinja2.StrictUndefined,
@@ -64,7 +57,7 @@ def render(
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}
-    faults = _faults(lengths)
+    faults = [row for table in lengths for row in rows_of(over_realisations(table))]
 
     def runs(role: str) -> list[Row]:
         return [row for row in faults if row["role"] == role]
@@ -90,27 +83,8 @@ def render(
     )
 
 
-def _faults(lengths: Iterable[xr.Dataset]) -> list[Row]:
-    """The rows of all tables, one for each fault."""
-    rows: list[Row] = []
-    for table in lengths:
-        rows += rows_of(over_realisations(table))
-    return rows
-
-
-def digits(
-    value: float | None,
-    number: int,
-) -> str:
-    """A number with some significant digits, or a dash for None.
-
-    Parameters
-    ----------
-    value : float or None
-        The number.
-    number : int
-        How many digits.
-    """
+def digits(value: float | None, number: int) -> str:
+    """A value with some significant digits, or a dash for None."""
     if value is None:
         return "–"
     mantissa, _, power = f"{value:.{number}g}".partition("e")

@@ -18,33 +18,20 @@ from ..configuration.roles import JUDGED, PAPERS
 from ..tables.lengths import over_realisations, realisations
 from ..tables.rows import rows_of
 from . import phrases
-from .claim import Result, Row
-from .expected import Estimates, Missing
+from .expected import Found, Missing, Result
 
-MESH = "A coarse mesh lets the force drop early"
-"""Section of docs/results.md on the difference between the paper's mesh and the converged one."""
+Row = dict[str, Any]
+"""A row of a table: values by column."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Evidence:
     """Datasets and settings of one configuration.
 
-    Attributes
-    ----------
-    material, friction, loading : Material, Friction, Loading
-        Those of the configuration.
-    interface : InterfaceState
-        The main text's rounded friction.
-    theory : Dataset
-        The theory's curves.
-    dispersion : Dataset
-        Single modes integrated in time.
-    lengths : tuple of Dataset
-        Tables of lengths, one for each study with a role of the paper's, and of the role
-        :data:`~replication.configuration.roles.LONGER`.
-    patches : dict
-        Stability of the patches with the role :data:`JUDGED`, by the id of each fault's first
-        realisation.
+    `interface` has the main text's rounded friction, `theory` the theory's curves, `dispersion`
+    single modes integrated in time. `lengths` are tables of lengths, one for each study with a role
+    of the paper's or :data:`~replication.configuration.roles.LONGER`. `patches` are the stability
+    of the patches with the role JUDGED, by the id of each fault's first realisation.
     """
 
     material: Material
@@ -62,83 +49,32 @@ class Evidence:
         return self.material.in_plane_ratio
 
     def rows(self, role: str, **labels: str | float) -> list[Row]:
-        """The faults of a study, sorted by height, with the configuration's material and loads.
+        """The faults of a role by height, means of their realisations; Missing if there are none.
 
-        Parameters
-        ----------
-        role : str
-            The study's role.
-        **labels
-            Values of columns that select rows, such as ``evolution="aging"``; SI units.
-
-        Returns
-        -------
-        list of dict
-            Rows of the table of lengths, one for each fault: the mean of its realisations. The
-            realisations' own rows are its ``members``.
-
-        Raises
-        ------
-        Missing
-            If there is no such row.
+        Labels select by column, such as ``evolution="aging"``. The realisations' own rows are the
+        ``members`` of a row. Only faults with the configuration's material and loads are there.
         """
         wanted = {"role": role, **labels}
-        found = [row for row in self._own if _matches(row, wanted)]
+        found = [
+            row
+            for row in self._own
+            if all(_same(row[column], value) for column, value in wanted.items())
+        ]
         if not found:
             which = ", ".join(f"{name} {value}" for name, value in wanted.items())
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(
-        self,
-        role: str,
-        law: str,
-        height: float,
-        initial_state: float = 1.0,
-    ) -> Row:
-        """One fault of a study.
-
-        Parameters
-        ----------
-        role : str
-            The study's role.
-        law : str
-            Name of the evolution law.
-        height : float
-            Height of the block (m).
-        initial_state : float
-            Initial age of the interface (s).
-
-        Returns
-        -------
-        dict
-            Its row, as in :meth:`rows`.
-
-        Raises
-        ------
-        Missing
-            If there is no such row.
-        """
-        rows = self.rows(role, evolution=law, height=height, initial_state=initial_state)
-        return rows[0]
+    def row(self, role: str, law: str, height: float, age: float = 1.0) -> Row:
+        """The fault of a role with an evolution law, height (m) and initial age (s)."""
+        return self.rows(role, evolution=law, height=height, initial_state=age)[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
         return self.rows(role, evolution="aging", initial_state=1.0)
 
     def each(self, role: str, **labels: str | float) -> list[Row]:
-        """The rows of all realisations of the faults that :meth:`rows` returns.
-
-        Parameters
-        ----------
-        role, **labels
-            As in :meth:`rows`.
-
-        Raises
-        ------
-        Missing
-            If there is no such row.
-        """
+        """The rows of all realisations of the faults that :meth:`rows` gives."""
         return [run for row in self.rows(role, **labels) for run in row["members"]]
 
     @property
@@ -146,11 +82,11 @@ class Evidence:
         """Mesh of the runs with the role :data:`PAPERS`, in words."""
         return phrases.mesh(self.each(PAPERS))
 
-    def patch(self, row: Row) -> xr.Dataset:
-        """The stability of the patch of a fault's first realisation; raises Missing without it."""
+    def stability_length(self, row: Row) -> float:
+        """The length (m) at which the patch of a fault becomes unstable; Missing without it."""
         if row["id"] not in self.patches:
             raise Missing(f"The stability of the patch of {row['id']} was not computed")
-        return self.patches[row["id"]]
+        return float(self.patches[row["id"]]["stability_length"])
 
     @cached_property
     def _own(self) -> list[Row]:
@@ -159,49 +95,24 @@ class Evidence:
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
-        age = float(row["initial_state"])
-        height = float(row["height"])
-        law = {"evolution": row["evolution"]}
         own = Parameters(
             material=self.material,
-            friction=self.friction.changed(law),
-            loading=dataclasses.replace(self.loading, initial_state=age),
-            geometry=Geometry(height=height),
+            friction=self.friction.changed({"evolution": row["evolution"]}),
+            loading=dataclasses.replace(self.loading, initial_state=float(row["initial_state"])),
+            geometry=Geometry(height=float(row["height"])),
         )
         return bool(row["fault"] == fault(own))
 
 
-def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence], Result]:
-    """Judge numbers of the runs with a role by the converged, perturbed runs.
-
-    If the statement holds on the mesh of the study ``paper`` only, the mesh is the cause.
-
-    Parameters
-    ----------
-    numbers : callable
-        Our number, or several, from the evidence and a role.
-
-    Returns
-    -------
-    callable
-        The claim's function.
-    """
+def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
+    """The function of numbers by role: of the converged runs, and of those on the paper's mesh."""
 
     def of_both(evidence: Evidence) -> Result:
-        judged = numbers(evidence, JUDGED)
+        found = numbers(evidence, JUDGED)
         try:
-            papers = numbers(evidence, PAPERS)
+            return Result(found, papers=numbers(evidence, PAPERS), mesh=evidence.papers_mesh)
         except Missing:
-            return Result(judged)
-        mesh = evidence.papers_mesh
-        return Result(
-            judged,
-            on_papers_mesh=papers,
-            mesh=mesh,
-            without_cause=papers,
-            cause=f"On {mesh} our number is",
-            finding=MESH,
-        )
+            return Result(found)
 
     return of_both
 
@@ -209,34 +120,13 @@ def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence
 def of_runs(
     column: str,
     unit: Callable[[Evidence], float] = lambda evidence: 1.0,
+    **labels: str,
 ) -> Callable[[Evidence], Result]:
-    """The claim's function for a column of every run, judged as :func:`on_both` does.
-
-    Parameters
-    ----------
-    column : str
-        Column of the table of lengths.
-    unit : callable
-        Unit of the number, from the evidence and in the column's unit; by default one.
-
-    Returns
-    -------
-    callable
-        The claim's function.
-    """
-
-    @on_both
-    def numbers(
-        evidence: Evidence,
-        role: str,
-    ) -> list[float]:
-        runs = evidence.each(role)
-        return [run[column] / unit(evidence) for run in runs]
-
-    return numbers
+    """The claim's function for a column of every run with some labels, over a unit."""
+    return on_both(lambda e, role: [run[column] / unit(e) for run in e.each(role, **labels)])
 
 
-class _LengthsRow(dict[str, Any]):
+class _LengthsRow(Row):
     """A row of a table of lengths; columns that were not recorded are missing results."""
 
     def __missing__(self, column: str) -> Any:
@@ -246,16 +136,8 @@ class _LengthsRow(dict[str, Any]):
 def _faults(table: xr.Dataset) -> list[Row]:
     """The rows of a table of lengths, one for each fault, with the rows of its realisations."""
     runs = [_LengthsRow(row) for row in rows_of(table)]
-    means = rows_of(over_realisations(table))
-    faults: list[Row] = []
-    for row, members in zip(means, realisations(table), strict=True):
-        own = [runs[i] for i in members]
-        faults.append(_LengthsRow(row, members=own))
-    return faults
-
-
-def _matches(row: Row, wanted: dict[str, str | float]) -> bool:
-    return all(_same(row[column], value) for column, value in wanted.items())
+    groups = zip(rows_of(over_realisations(table)), realisations(table), strict=True)
+    return [_LengthsRow(row, members=[runs[i] for i in members]) for row, members in groups]
 
 
 def _same(one: str | float, other: str | float) -> bool:

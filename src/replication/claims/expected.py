@@ -1,17 +1,15 @@
-"""The paper's statements and our results as numbers with ranges, and the rule that compares them.
+"""What a statement allows, what we found, and the verdict that follows (docs/claims.md).
 
 A statement of the paper allows a range of numbers (:class:`Expected`); its width follows from the
-kind of statement. Our result is a number with a range (:class:`Estimate`). The rule is in
-docs/claims.md.
+kind of statement. Our result is one number or several, each with or without a range.
 """
 
-from __future__ import annotations
-
 import dataclasses
+import enum
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from decimal import Decimal
-from typing import Any, Literal, SupportsFloat
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,11 +21,13 @@ FORMULA_TOLERANCE = 1e-6
 WIDEST_ALLOWANCE = 0.10
 """Our uncertainty widens the range of a printed number by at most this part of the number."""
 
+READINGS = (0.4, 0.33, 0.3, 0.25, 0.1)
+"""Differences from one for which numbers are counted, where words are left to the reader."""
+
 WORDS: dict[str, tuple[float, float, str]] = {
     "perfect": (0.98, 1.02, "within 2 % of one"),
     "extremely well": (0.98, 1.02, "within 2 % of one"),
     "computed": (0.99, 1.01, "within 1 % of one"),
-    "reasonably good": (0.6, 1.4, "within 40 % of one"),
     "expected": (0.75, 1.25, "within 25 % of one"),
     "small variation": (-0.10, 0.10, "less than 10 %"),
     "significant": (0.10, math.inf, "more than 10 %"),
@@ -42,123 +42,88 @@ WORDS: dict[str, tuple[float, float, str]] = {
 }
 """How words are read: lower and upper end of the range that they allow, and the range in words."""
 
-REASONED = (
-    "perfect",
-    "extremely well",
-    "computed",
-    "reasonably good",
-    "small variation",
-    "significant",
-)
+REASONED = ("perfect", "extremely well", "computed", "small variation", "significant")
 """Words whose reading follows from the paper or from the accuracy of a number. The readings of the
-other words are our choice (docs/claims.md)."""
+other words are our choice."""
+
+
+class Verdict(enum.StrEnum):
+    """Verdicts on claims, from best to worst."""
+
+    REPLICATED = "replicated"
+    GIVEN = "taken as given"
+    WIDENED = "replicated within our uncertainty"
+    EXPLAINED = "replicated with a deviation that is explained"
+    OPEN = "left to the reader"
+    NOT_SUPPORTED = "not supported"
+    NOT_REPLICATED = "not replicated"
+    UNCHECKED = "cannot be checked"
 
 
 class Missing(LookupError):
     """A claim needs a result that is not there; the message names it."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Estimate:
-    """A number of ours and its range."""
+class Estimate(NamedTuple):
+    """A number of ours and the ends of its range."""
 
     value: float
     low: float
     high: float
 
-    @classmethod
-    def exactly(cls, value: SupportsFloat) -> Estimate:
-        """A number without uncertainty."""
-        return cls(float(value), float(value), float(value))
 
-    @classmethod
-    def between(
-        cls,
-        value: float,
-        low: float,
-        high: float,
-    ) -> Estimate:
-        """A number and two ends of its range.
-
-        Parameters
-        ----------
-        value : float
-            The number.
-        low, high : float
-            The ends, in either order. The range is widened if it does not contain the number.
-        """
-        return cls(
-            value=float(value),
-            low=float(min(low, high, value)),
-            high=float(max(low, high, value)),
-        )
-
-    @classmethod
-    def within(
-        cls,
-        value: float,
-        error: float,
-    ) -> Estimate:
-        """A number with a symmetric uncertainty.
-
-        Parameters
-        ----------
-        value : float
-            The number.
-        error : float
-            Half the width of the range; its sign is ignored.
-        """
-        error = abs(error)
-        return cls.between(value, value - error, value + error)
-
-    def __float__(self) -> float:
-        return self.value
+def between(value: float, *ends: float) -> Estimate:
+    """A number with the range that contains it and some ends."""
+    numbers = [float(value), *map(float, ends)]
+    return Estimate(numbers[0], min(numbers), max(numbers))
 
 
-Estimates = Estimate | SupportsFloat | Iterable[SupportsFloat]
-"""The result of a claim's function: one number or several, each with or without a range."""
+Found = Any
+"""One number or several, also as an array; in a list each may be an Estimate."""
+
+
+def listed(found: Found) -> list[Estimate | float]:
+    """The numbers one by one."""
+    if isinstance(found, Estimate):
+        return [found]
+    return found if isinstance(found, list) else np.ravel(found).tolist()
+
+
+def value_of(one: Estimate | float) -> float:
+    """A number without its range."""
+    return one.value if isinstance(one, Estimate) else float(one)
 
 
 @dataclasses.dataclass(frozen=True)
 class Expected:
     """The range of numbers that a statement of the paper allows.
 
-    Attributes
-    ----------
-    kind : "number", "formula", "bound" or "words"
-        Kind of statement.
-    low, high : float
-        Ends of the range.
-    text : str
-        The number, formula, bound or words as Markdown.
-    value : float, optional
-        The printed number, or the formula's value.
-    chosen : bool
-        Whether the reading of the words is our choice.
+    Its kind is number, formula, bound, words or reading; `value` is the printed number or the
+    formula's. `chosen`: the reading of the words is our choice.
     """
 
-    kind: Literal["number", "formula", "bound", "words"]
+    kind: str
     low: float
     high: float
     text: str
     value: float | None = None
     chosen: bool = False
 
-    def worst(self, estimates: Estimates) -> Estimate:
+    def worst(self, found: Found) -> Estimate:
         """The least favourable of our numbers; NaN if one of them is NaN.
 
         A number without a range gets the range of all numbers, except for a formula.
         """
-        several = np.ravel(np.asarray(estimates))
-        values = several.astype(float)
+        several = listed(found)
+        values = np.array([value_of(one) for one in several])
         if not np.isfinite(values).all():
-            return Estimate.exactly(math.nan)
-        worst = several[np.argmax(self._distance(values))]
+            return between(math.nan)
+        worst = several[int(np.argmax(self._distance(values)))]
         if isinstance(worst, Estimate):
             return worst
         if self.kind == "formula":
-            return Estimate.exactly(worst)
-        return Estimate.between(worst, values.min(), values.max())
+            return between(worst)
+        return between(worst, values.min(), values.max())
 
     def _distance(self, values: Array) -> Array:
         """Distances from the number at which the statement holds best."""
@@ -175,113 +140,147 @@ class Expected:
 def number(printed: str) -> Expected:
     """A printed number such as ``"0.15"``, exact to half a unit of its last digit."""
     decimal = Decimal(printed)
-    unit = Decimal(1).scaleb(int(decimal.as_tuple().exponent))
-    return Expected(
-        kind="number",
-        low=float(decimal - unit / 2),
-        high=float(decimal + unit / 2),
-        text=printed,
-        value=float(decimal),
-    )
+    half = Decimal(1).scaleb(int(decimal.as_tuple().exponent)) / 2
+    ends = float(decimal - half), float(decimal + half)
+    return Expected("number", *ends, printed, float(decimal))
 
 
-def formula(
-    value: float,
-    text: str = "",
-) -> Expected:
-    """A formula's value, exact except for round-off.
-
-    Parameters
-    ----------
-    value : float
-        The value.
-    text : str
-        The formula as Markdown; by default the value with six digits.
-    """
+def formula(value: float, text: str = "") -> Expected:
+    """A formula's value, exact except for round-off, and the formula as Markdown."""
     margin = FORMULA_TOLERANCE * (abs(value) or 1.0)
-    return Expected(
-        kind="formula",
-        low=value - margin,
-        high=value + margin,
-        text=text or f"{value:.6g}",
-        value=value,
-    )
-
-
-def below(bound: float) -> Expected:
-    """Less than a bound."""
-    return Expected("bound", -math.inf, bound, f"< {bound:g}")
-
-
-def above(bound: float) -> Expected:
-    """More than a bound."""
-    return Expected("bound", bound, math.inf, f"> {bound:g}")
+    text = text or f"{value:.6g}"
+    return Expected("formula", value - margin, value + margin, text, value)
 
 
 def words(expression: str) -> Expected:
     """Words, read by the table :data:`WORDS`."""
     low, high, reading = WORDS[expression]
-    return Expected(
-        kind="words",
-        low=low,
-        high=high,
-        text=f"{expression}: {reading}",
-        chosen=expression not in REASONED,
-    )
+    chosen = expression not in REASONED
+    return Expected("words", low, high, f"{expression}: {reading}", chosen=chosen)
 
 
-_KINDS: dict[str, Callable[..., Expected]] = {
+KINDS: dict[str, Callable[..., Expected]] = {
     "number": number,
     "formula": formula,
-    "below": below,
-    "above": above,
+    "below": lambda bound: Expected("bound", -math.inf, bound, f"< {bound:g}"),
+    "above": lambda bound: Expected("bound", bound, math.inf, f"> {bound:g}"),
     "words": words,
+    "reading": lambda text: Expected("reading", -math.inf, math.inf, text, 1.0),
 }
 
 
 def read(entry: Mapping[str, Any]) -> Expected:
     """The range of an entry such as ``{number: "0.15"}`` or ``{formula: [1, Eq. (10)]}``."""
     ((kind, values),) = entry.items()
-    arguments = values if isinstance(values, list) else [values]
-    return _KINDS[kind](*arguments)
+    return KINDS[kind](*(values if isinstance(values, list) else [values]))
 
 
-def holds(
-    expected: Expected,
-    ours: Estimate,
-) -> bool | None:
-    """Whether our number agrees with the statement.
+@dataclasses.dataclass(frozen=True)
+class Result:
+    """What a claim's function found, if it is more than our numbers.
 
-    - A printed *number* holds if ours is within half a unit of its last digit. Our uncertainty
-      towards the number widens this range, by at most :data:`WIDEST_ALLOWANCE` of the number.
-    - A *formula* holds to :data:`FORMULA_TOLERANCE`. If our number is less certain than that, it
-      decides nothing.
-    - A *bound* or *words* hold if our number, without its range, is inside.
+    `expected` replaces that of the claim, `papers` are the numbers on the paper's mesh, which is
+    `mesh` in words. `explained` has our number without the cause of a difference, and a sentence.
+    """
 
-    Parameters
-    ----------
-    expected : Expected
-        The statement.
-    ours : Estimate
-        Our number, in the same unit.
+    found: Found
+    expected: Expected | None = None
+    papers: Found = None
+    mesh: str = ""
+    explained: tuple[Found, str] | None = None
+    note: str = ""
 
-    Returns
-    -------
-    bool or None
-        None if our number decides nothing.
+
+Computation = Callable[[Any], Found | Result]
+"""A claim's function: it computes our number from the evidence."""
+
+
+def holds(expected: Expected, ours: Estimate) -> bool | None:
+    """Whether our number agrees with the statement; None if it decides nothing.
+
+    Our uncertainty towards a printed number widens its range. A number that is less certain than
+    the tolerance of a formula decides nothing. Ranges do not matter for bounds and words.
     """
     if not math.isfinite(ours.value):
         return None
-    up = ours.high - ours.value
-    down = ours.value - ours.low
+    up, down = ours.high - ours.value, ours.value - ours.low
+    low, high = expected.low, expected.high
     if expected.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(expected.value or 0.0)
-        low = expected.low - min(up, widest)
-        high = expected.high + min(down, widest)
-        return low <= ours.value <= high
-    if expected.kind == "formula":
-        margin = 0.5 * (expected.high - expected.low)
-        if max(up, down) > margin:
+        low, high = low - min(up, widest), high + min(down, widest)
+    elif expected.kind == "formula":
+        if max(up, down) > 0.5 * (high - low):
             return None
-        return expected.low <= ours.value <= expected.high
-    return expected.low < ours.value < expected.high
+    else:
+        return low < ours.value < high
+    return low <= ours.value <= high
+
+
+def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
+    """The verdict on our numbers, and the reason in Markdown sentences."""
+    ours = expected.worst(result.found)
+    held = holds(expected, ours)
+    if held is None and math.isnan(ours.value):
+        return Verdict.UNCHECKED, "A run has no such event."
+    if held is None:
+        width = max(ours.high - ours.value, ours.value - ours.low)
+        return Verdict.UNCHECKED, f"Our number is known to {width:.1g} only."
+    if expected.kind == "reading":
+        return Verdict.OPEN, _by_reading(result)
+    reason = _comparison(expected, ours, held)
+    if not held and result.explained is not None:
+        without, sentence = result.explained
+        if holds(expected, expected.worst(without)):
+            return Verdict.EXPLAINED, f"{reason} {sentence}"
+    reason += _on_papers_mesh(expected, result, held)
+    if held and (expected.low <= ours.value <= expected.high):
+        return Verdict.REPLICATED, reason
+    if held:
+        return Verdict.WIDENED, reason
+    return (Verdict.NOT_SUPPORTED if expected.chosen else Verdict.NOT_REPLICATED), reason
+
+
+def _by_reading(result: Result) -> str:
+    """How many of our numbers are within each difference from one."""
+
+    def counts(found: Found) -> str:
+        values = np.array([value_of(one) for one in listed(found)])
+        near = [int(np.count_nonzero(np.abs(values - 1.0) < width)) for width in READINGS]
+        return f"{', '.join(map(str, near))} of {values.size}"
+
+    widths = ", ".join(f"{100 * width:.0f}" for width in READINGS)
+    reason = f"Within {widths} % of one: {counts(result.found)}."
+    if result.papers is not None:
+        reason += f" On {result.mesh}: {counts(result.papers)}."
+    return reason
+
+
+def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:
+    """Sentences that compare our number with the paper's."""
+    if expected.kind == "formula" and expected.value is not None:
+        difference = abs(ours.value - expected.value) / (abs(expected.value) or 1.0)
+        return f"The difference is {difference:.1g}."
+    if expected.kind == "number":
+        inside = expected.low <= ours.value <= expected.high
+        widened = ", but by less than its own range" if held and not inside else ""
+        where = "within" if inside else "outside"
+        return f"{ours.value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
+    bound = expected.text.partition(": ")[2] if expected.kind == "words" else expected.text
+    reason = f"{ours.value:.4g} is {'' if held else 'not '}{bound}."
+    nearest = min((expected.low, expected.high), key=lambda end: abs(end - ours.value))
+    if ours.low <= nearest <= ours.high:
+        reason += f" Its range reaches across the bound, {nearest:g}."
+    return reason
+
+
+def _on_papers_mesh(expected: Expected, result: Result, held: bool) -> str:
+    """A sentence on whether the statement holds for the study ``paper`` too."""
+    if result.papers is None:
+        return ""
+    other = expected.worst(result.papers)
+    if not math.isfinite(other.value):
+        return ""
+    agrees = "does not hold"
+    if holds(expected, other):
+        agrees = "holds as well" if held else "holds"
+    return f" On {result.mesh} it {agrees}, with {other.value:.4g}."

@@ -1,35 +1,38 @@
-"""The claims with their verdicts as JSON, CSV and Markdown."""
+"""The claims with their verdicts: the table as JSON, CSV and Markdown, and its steps."""
 
+import dataclasses
 import json
+import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import resources
-from types import ModuleType
 from typing import Any
 
 import pandas as pd
+import xarray as xr
 import yaml
 
-from .claim import Claim, Computation, Row, Verdict
-from .evidence import Evidence
-from .expected import read
-from .pair_evidence import Tables
-from .statements import bimaterial, course, finite_height, friction, lengths, sliding, two_bodies
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.parameters import Loading
 
-Entry = Mapping[str, Any]
-"""An entry of ``claims.yaml``: the attributes of one claim."""
+from ..tables import lengths as table_of_lengths
+from . import friction as of_friction
+from . import pairs as of_two_bodies
+from . import simulations, theory
+from .evidence import Evidence, Row
+from .expected import Computation, Estimate, Missing, Result, Verdict, judge, read
 
-SUBJECTS = {
-    "homogeneous sliding": sliding,
-    "bimaterial interfaces": bimaterial,
-    "finite height": finite_height,
-    "friction law": friction,
-    "critical lengths": lengths,
-    "course of simulations": course,
-    "two bodies, simulated": two_bodies,
-}
-"""The module with the functions of each subject. The last one has its own evidence and table."""
+Statements = Mapping[str, Mapping[str, Mapping[str, Any]]]
+"""The entries of ``claims.yaml`` by subject and id."""
+
+NUMBERS: dict[str, Computation] = (
+    theory.NUMBERS | of_friction.NUMBERS | simulations.NUMBERS | of_two_bodies.NUMBERS
+)
+"""The function that computes our number for each claim, by its id."""
 
 COLUMNS = (
     "id",
@@ -53,67 +56,76 @@ _HEADER = (
 )
 
 
-def stated() -> dict[str, dict[str, Entry]]:
+def stated() -> dict[str, dict[str, Mapping[str, Any]]]:
     """The entries of ``claims.yaml``, by subject and id."""
     text = resources.files(__package__).joinpath("claims.yaml").read_text(encoding="utf-8")
     return dict(yaml.safe_load(text))
 
 
-def claims_on(
-    subject: str,
-    entries: Mapping[str, Entry],
-) -> list[Claim]:
-    """The claims of one subject, each with the function that has its name.
-
-    Parameters
-    ----------
-    subject : str
-        A key of :data:`SUBJECTS`.
-    entries : mapping
-        The subject's entries by id.
-
-    Raises
-    ------
-    KeyError
-        For an unknown subject, or a claim without a function.
-    """
-    functions = _functions(SUBJECTS[subject])
-    claims = []
-    for id, entry in entries.items():
-        fields = dict(entry)
-        if "expected" in fields:
-            fields["expected"] = read(fields["expected"])
-        compute = None if entry["method"] == "none" else functions[id]
-        claims.append(Claim(id=id, compute=compute, **fields))
-    return claims
+def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) -> list[Row]:
+    """The rows of all claims: the paper's number and ours, the verdict and its reason."""
+    return [
+        {"subject": subject, **evaluate_one(id, entry, evidence)}
+        for subject, entries in statements.items()
+        for id, entry in entries.items()
+    ]
 
 
-def _functions(module: ModuleType) -> dict[str, Computation]:
-    """The functions of a subject's module by the ids of their claims."""
-    functions = {}
-    for name, value in vars(module).items():
-        functions[name.replace("_", "-")] = value
-    return {**functions, **module.SHORT}
+def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
+    """The row of one claim."""
+    expected = read(entry["expected"]) if "expected" in entry else None
+    ours = other = None
+    note = entry.get("note", "")
+    try:
+        if entry["method"] == "none":
+            raise Missing(note.rstrip("."))
+        found = NUMBERS[id](evidence)
+    except Missing as missing:
+        verdict, reason = Verdict.UNCHECKED, f"{missing}."
+    else:
+        result = found if isinstance(found, Result) else Result(found)
+        expected = result.expected or expected
+        if expected is None:
+            raise ValueError(f"the claim {id} has nothing to compare with")
+        if entry.get("carried"):  # the paper says it of another problem
+            expected = dataclasses.replace(expected, chosen=True)
+        verdict, reason = judge(expected, result)
+        if entry.get("input"):
+            verdict, reason = _of_input(verdict, reason)
+        reason = f"{reason} {result.note or note}".rstrip()
+        ours = _known(expected.worst(result.found))
+        other = None if result.papers is None else _known(expected.worst(result.papers))
+    return {
+        "id": id,
+        "where": entry["where"],
+        "statement": entry["statement"],
+        "quotation": entry["quotation"],
+        "paper": expected and expected.text,
+        "paper_range": expected and [_finite(expected.low), _finite(expected.high)],
+        "kind": expected and expected.kind,
+        "ours": ours and ours.value,
+        "uncertainty": ours and [ours.low, ours.high],
+        "on_papers_mesh": other and other.value,
+        "unit": entry.get("unit", "1"),
+        "method": entry["method"],
+        "verdict": str(verdict),
+        "reason": reason,
+    }
 
 
-def evaluate(
-    statements: Mapping[str, Mapping[str, Entry]],
-    evidence: Evidence | Tables,
-) -> list[Row]:
-    """The rows of all claims: the paper's number and ours, the verdict and its reason.
+def _of_input(verdict: Verdict, reason: str) -> tuple[Verdict, str]:
+    """The verdict on an input of ours: no result, whether it is the paper's or another."""
+    if verdict is Verdict.REPLICATED:
+        return Verdict.GIVEN, f"It is an input of the paper and of our runs. {reason}"
+    return Verdict.UNCHECKED, f"It is an input, and these runs have another. {reason}"
 
-    Parameters
-    ----------
-    statements : mapping
-        Entries by subject and id.
-    evidence : Evidence or mapping
-        The datasets that these subjects need.
-    """
-    rows = []
-    for subject, entries in statements.items():
-        for claim in claims_on(subject, entries):
-            rows.append({"subject": subject, **claim.evaluate(evidence)})
-    return rows
+
+def _known(number: Estimate) -> Estimate | None:
+    return None if math.isnan(number.value) else number
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def counts(rows: Iterable[Row]) -> dict[str, int]:
@@ -157,11 +169,8 @@ def _number_text(row: Row) -> str:
     if row["ours"] is None:
         return ""
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    value = f"{row['ours']:.4g}"
-    low, high = (f"{end:.4g}" for end in row["uncertainty"])
-    if low == high == value:
-        return f"{value}{unit}"
-    return f"{value} ({low} to {high}){unit}"
+    value, low, high = (f"{end:.4g}" for end in (row["ours"], *row["uncertainty"]))
+    return f"{value}{unit}" if low == high == value else f"{value} ({low} to {high}){unit}"
 
 
 def escaped(text: str) -> str:
@@ -169,3 +178,49 @@ def escaped(text: str) -> str:
     parts = text.replace("\n", " ").split("$")
     parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)
+
+
+def of_paper(
+    statements: Statements,
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+    interface: InterfaceState,
+    settings: ExtractionSettings,
+    theory: xr.Dataset,
+    dispersion: xr.Dataset,
+    lengths: Iterable[xr.Dataset],
+    longer: Sequence[xr.Dataset],
+    longer_runs: list[dict[str, Any]],
+    patches: Iterable[xr.Dataset],
+    patch_ids: Sequence[str],
+) -> dict[str, str]:
+    """The step ``claims``: the table's text by file extension.
+
+    `longer` are simulations with longer blocks and those that they are compared with, of the runs
+    `longer_runs`; `patch_ids` are the names of the runs with the `patches`.
+    """
+    tables = list(lengths)
+    if len(longer):
+        tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
+    evidence = Evidence(
+        material=material,
+        friction=friction,
+        loading=loading,
+        interface=interface,
+        theory=theory,
+        dispersion=dispersion,
+        lengths=tuple(tables),
+        patches=dict(zip(patch_ids, patches, strict=True)),
+    )
+    rows = evaluate(statements, evidence)
+    return _files(rows) | {".json": to_json(rows)}
+
+
+def of_pairs(statements: Statements, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+    """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations."""
+    return _files(evaluate(statements, {"pairs": pairs, "modes": modes}))
+
+
+def _files(rows: list[Row]) -> dict[str, str]:
+    return {".csv": to_csv(rows), ".md": to_markdown(rows)}

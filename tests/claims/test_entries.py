@@ -1,4 +1,4 @@
-"""The entries are complete, quoted and documented; their numbers are computed in other ways."""
+"""The entries are complete, quoted and documented; their numbers are read in other ways."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
+from reference_evidence import ENTRIES, PAIRED, REFERENCE, ROOT, STATED, evaluated, evidence, judged
 from reference_evidence import table as reference_table
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -21,8 +21,7 @@ from nucleation.extraction.measures import BY_DEFINITION, MEASURES
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
 from replication.claims import table
-from replication.claims.claim import Verdict
-from replication.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
+from replication.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS, Verdict, read
 from replication.configuration.roles import LONGER
 
 RESULTS = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
@@ -52,15 +51,18 @@ def reference():
         return {row["id"]: row for row in csv.DictReader(stream)}
 
 
-@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
-def test_claim_is_complete(claim):
-    assert re.fullmatch(r"[a-z0-9-]+", claim.id)
-    assert claim.statement.endswith(".")
-    for text in (claim.where, claim.quotation, claim.method, claim.unit):
+@pytest.mark.parametrize("id", [*ENTRIES, *PAIRED["two bodies, simulated"]])
+def test_claim_is_complete(id):
+    entry = {**ENTRIES, **PAIRED["two bodies, simulated"]}[id]
+    assert re.fullmatch(r"[a-z0-9-]+", id)
+    assert entry["statement"].endswith(".")
+    for text in (entry[name] for name in ("where", "quotation", "method")):
         assert text.strip() == text != ""
-    assert "~" not in claim.where and r"\!" not in claim.quotation
-    if claim.expected is not None and claim.expected.kind == "number":
-        assert claim.expected.text in claim.quotation, "the quotation has the printed number"
+    assert "~" not in entry["where"] and r"\!" not in entry["quotation"]
+    assert (id in table.NUMBERS) == (entry["method"] != "none")
+    expected = read(entry["expected"]) if "expected" in entry else None
+    if expected is not None and expected.kind == "number":
+        assert expected.text in entry["quotation"], "the quotation has the printed number"
 
 
 def test_rows_are_valid_by_the_schema(rows):
@@ -114,8 +116,11 @@ def test_most_of_the_paper_is_replicated_and_the_exceptions_are_named(reference)
     assert Verdict.NOT_REPLICATED not in verdicts.values()
     failed = {id for id, verdict in verdicts.items() if verdict == Verdict.NOT_SUPPORTED}
     assert failed == {"stability-lost-at-length"}
-    shown = ("onset-time", "length-shown", "slip-law-approximation", "theory-agreement")
-    assert {verdicts[id] for id in shown} == {Verdict.REPLICATED}
+    assert verdicts["slip-law-approximation"] == Verdict.REPLICATED
+    widened = {id for id, verdict in verdicts.items() if verdict == Verdict.WIDENED}
+    assert widened == {"onset-time", "length-shown"}
+    left = {id for id, verdict in verdicts.items() if verdict == Verdict.OPEN}
+    assert left == {"theory-agreement", "height-dependence"}
     given = {id for id, row in reference.items() if row["verdict"] == Verdict.GIVEN}
     assert given == {"mesh-along", "mesh-across", "usual-step", "slip-rate-over-v0"}
     unchecked = {id for id, row in reference.items() if row["verdict"] == Verdict.UNCHECKED}
@@ -131,7 +136,7 @@ def test_onset_and_length_of_figure_s2(rows):
         ends = [converged[f"{column}_low"].min(), converged[f"{column}_high"].max()]
         assert row["uncertainty"] == ends
         assert row["on_papers_mesh"] == papers[column].item()
-        assert row["verdict"] == Verdict.REPLICATED
+        assert row["verdict"] == Verdict.WIDENED
     onset = converged.onset_time.mean()
     stated = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
     assert stated in rows["onset-time"]["reason"]
@@ -149,20 +154,26 @@ def test_the_onset_depends_on_the_kind_of_noise(rows):
     assert "With a fluctuating state the force drops later" in rows["onset-time"]["reason"]
 
 
-def test_agreement_says_how_many_heights_are_within_a_quarter(rows):
+def test_agreement_has_its_numbers_by_reading(rows):
+    """How many heights are within each part of one, by the mean of all realisations."""
     aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.initial_state == 1)]
     reason = rows["theory-agreement"]["reason"]
-    for study in ("converged", "paper"):
-        own = aging[aging.study == study].groupby("height")[["length", "critical_length"]].mean()
+    columns = ["length", "length_high_start", "critical_length"]
+    for study, label in (("converged", "% of one"), ("paper", "paper's mesh")):
+        own = aging[aging.study == study].groupby("height")[columns].mean()
         ratio = own.length / own.critical_length
-        near = int((ratio > 0.75).sum())
-        assert f"{ratio.min():.2f} to {ratio.max():.2f}, {near} of 9 within 25 %" in reason
+        near = [int((abs(ratio - 1.0) < width).sum()) for width in (0.4, 0.33, 0.3, 0.25, 0.1)]
+        assert f"{label}: {', '.join(map(str, near))} of 9" in reason
+        if study == "converged":
+            wide = (own.length_high_start / own.critical_length).min()
+            assert f"{ratio.min():.2f} to {ratio.max():.2f}, with the edge at 0.5 V" in reason
+            assert f"at least {wide:.2f}." in reason and wide < 0.6
 
 
 def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
     """By finite differences of the thin layer's equation (T) of docs/creeping_patch.md."""
     reason = rows["stability-lost-at-length"]["reason"]
-    stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\. So", reason)
+    stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\.$", reason)
     lengths, weakenings = ([float(x) for x in part.split(", ")] for part in stated.groups())
     assert weakenings == [0.1, 0.2, 0.3, 0.4, 0.5]
     for length, weakening in zip(lengths, weakenings, strict=True):
@@ -257,41 +268,27 @@ def test_agreement_with_the_theory(rows):
 
 def test_dependence_on_height_is_judged_at_all_heights():
     """A bug: only the least and the largest height were compared."""
-    claim = BY_ID["height-dependence"]
     on = evidence()
-    assert claim.evaluate(on)["verdict"] == Verdict.REPLICATED
     changed = [lengths.copy(deep=True) for lengths in on.lengths]
     for lengths in changed:
         at = np.isclose(lengths["height"], 0.03)
         lengths["length"] = lengths["length"] * xr.where(at, 1.6, 1.0)
-    row = claim.evaluate(evidence(lengths=tuple(changed)))
-    assert row["verdict"] == Verdict.NOT_REPLICATED and row["ours"] > 1.4
-
-
-def test_theory_by_hand(rows):
-    """The main text's numbers put into the formulas by hand."""
-    expected = {
-        "half-spaces-wavenumber": 2 * (2 / 3) * 0.016 * 1e6 / 3.1e9 / 0.5e-6,
-        "eta": 1.5 * math.pi,
-        "uncoupled-frequency": math.sqrt(0.016 / 0.0068) * 20.0,
-        "half-spaces-g1": 0.75,
-        "block-high-limit": 0.25,
-    }
-    assert {name: rows[name]["ours"] for name in expected} == pytest.approx(expected, rel=1e-6)
+    row = judged("height-dependence", evidence(lengths=tuple(changed)))
+    assert row["ours"] > 1.4 and "of one: 33, 28, 28, 28, 28 of 36" in row["reason"]
 
 
 def test_configuration_without_the_runs_can_not_be_checked():
     nothing = evidence(lengths=(), patches={})
     for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
-        row = BY_ID[name].evaluate(nothing)
+        row = judged(name, nothing)
         assert row["verdict"] == Verdict.UNCHECKED
         assert "no such run: role" in row["reason"]
-    assert BY_ID["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
+    assert judged("eta", nothing)["verdict"] == Verdict.REPLICATED
 
 
 def test_numbers_that_were_not_read_can_not_be_checked():
     bare = [table.drop_vars(list(MEASURES)) for table in evidence().lengths]
-    row = BY_ID["no-radiation"].evaluate(evidence(lengths=tuple(bare)))
+    row = judged("no-radiation", evidence(lengths=tuple(bare)))
     assert row["verdict"] == Verdict.UNCHECKED and "has no onset_rate" in row["reason"]
 
 
@@ -306,8 +303,8 @@ def test_tables_hold_every_row(rows):
     body = [line for line in lines if line.startswith("| ")]
     assert len(body) == len(rows) + 1
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {8}
-    for claim, text in zip(CLAIMS, body[1:], strict=True):
-        assert table.escaped(claim.method) in text
+    for entry, text in zip(ENTRIES.values(), body[1:], strict=True):
+        assert table.escaped(entry["method"]) in text
     assert sum(table.counts(listed).values()) == len(rows)
 
 
@@ -324,10 +321,9 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
         ensemble=("run", ids),
     )
     longer = longer.assign(dict.fromkeys(BY_DEFINITION, longer["length"]))
-    claim = BY_ID["length-plays-no-role"]
-    row = claim.evaluate(evidence(lengths=(*on.lengths[:2], longer)))
+    row = judged("length-plays-no-role", evidence(lengths=(*on.lengths[:2], longer)))
     assert row["ours"] == pytest.approx(0.015) and row["verdict"] == Verdict.NOT_SUPPORTED
-    assert claim.evaluate(on)["verdict"] == Verdict.UNCHECKED
+    assert judged("length-plays-no-role", on)["verdict"] == Verdict.UNCHECKED
 
 
 def test_runs_of_another_material_are_ignored():

@@ -6,20 +6,14 @@ solves equilibrium at Chebyshev points with the bodies' boundary conditions. Fie
 real. Lengths are in units of 1/k, stresses in units of k times the upper body's shear modulus.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.linalg import block_diag
-
-from nucleation.types import Array, ComplexArray
-
-from ..expected import Estimate
 
 HALF_SPACE = 40.0
 """Layer number k H of a body that counts as a half-space, ``exp(-40) = 4e-18``."""
 
 
-def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
+def _chebyshev(points, end):
     """Points from 0 to `end` and the matrix that differentiates values at them."""
     index = np.arange(points)
     x = np.cos(np.pi * index / (points - 1))
@@ -36,41 +30,16 @@ class Layer:
     """A layer from the interface to its far side, and its discrete equations.
 
     The equations are rows of coefficients of (U, W) at the collocation points.
-
-    Parameters
-    ----------
-    q : float
-        ``k H``, dimensionless; negative for a layer below the interface.
-    poisson_ratio : float
-        Poisson's ratio in the plane.
-    modulus : float
-        Shear modulus over the upper body's.
-    far_side : str
-        Condition at the far side besides zero normal stress: zero displacement along it
-        ("velocity") or zero shear stress ("traction").
-    points : int
-        Number of collocation points.
-
-    Attributes
-    ----------
-    y : array, shape (points,)
-        Distance from the interface.
-    u, w : array, shape (points, 2 points)
-        Rows that give U and W at the points.
-    at_interface : array, shape (4, 2 points)
-        Rows that give U, W, T and N at the interface.
-    own : array, shape (2 points - 2, 2 points)
-        Rows that vanish: equilibrium at the inner points, and the conditions at the far side.
     """
 
     def __init__(
         self,
-        q: float,
-        poisson_ratio: float,
-        modulus: float = 1.0,
-        far_side: str = "velocity",
-        points: int = 64,
-    ) -> None:
+        q,
+        poisson_ratio,
+        modulus=1.0,
+        far_side="velocity",
+        points=64,
+    ):
         lame = 2.0 * modulus * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
         stiffness = lame + 2.0 * modulus
         self.y, d = _chebyshev(points, q)
@@ -91,48 +60,30 @@ class Layer:
 
     def field(
         self,
-        rows: Array,
-        values: tuple[float, float],
-    ) -> Array:
-        """(U, W) for the values of two rows at the interface.
-
-        Parameters
-        ----------
-        rows : array, shape (2, 2 points)
-            Two of the rows at the interface.
-        values : tuple of float
-            The value that each has.
-
-        Returns
-        -------
-        array, shape (2 points,)
-        """
+        rows,
+        values,
+    ):
+        """(U, W) for the values of two rows at the interface."""
         equations = np.vstack([self.own, rows])
         return _solve(equations, values)
 
-    def field_of_slip(self) -> Array:
+    def field_of_slip(self):
         """(U, W) for a rigid other body, if the layer slips by one."""
         displacement = self.at_interface[:2]
         return self.field(displacement, (1.0, 0.0))
 
 
 def pair_transfer(
-    upper: Layer,
-    lower: Layer | None = None,
-) -> tuple[float, float]:
-    """G1 and G2 of two layers in contact.
-
-    Parameters
-    ----------
-    upper, lower : Layer
-        The layers; None is a rigid lower body.
-    """
+    upper,
+    lower=None,
+):
+    """G1 and G2 of two layers in contact."""
     field = upper.field_of_slip() if lower is None else _joint_field(upper, lower)
     _, _, t, n = upper.at_interface
     return -float(t @ field), float(n @ field)
 
 
-def _joint_field(above: Layer, below: Layer) -> Array:
+def _joint_field(above, below):
     """(U, W) of the upper one of two layers that slip by one."""
     own = block_diag(above.own, below.own)
     jumps = np.hstack([above.at_interface, -below.at_interface])
@@ -142,24 +93,12 @@ def _joint_field(above: Layer, below: Layer) -> Array:
 
 
 def half_spaces(
-    nu: float,
-    psi: float = 1.0,
-    nu2: float | None = None,
-    points: int = 64,
-) -> tuple[float, float]:
-    """G1 and G2 of two half-spaces.
-
-    Parameters
-    ----------
-    nu : float
-        Poisson's ratio of the upper body.
-    psi : float
-        Shear modulus of the lower body over the upper body's.
-    nu2 : float, optional
-        Poisson's ratio of the lower body, by default that of the upper one.
-    points : int
-        Number of collocation points in each body.
-    """
+    nu,
+    psi=1.0,
+    nu2=None,
+    points=64,
+):
+    """G1 and G2 of two half-spaces."""
     upper = Layer(HALF_SPACE, nu, points=points)
     if nu2 is None:
         nu2 = nu
@@ -167,14 +106,7 @@ def half_spaces(
     return pair_transfer(upper, lower)
 
 
-def refined(number: Callable[[int], float]) -> Estimate:
-    """A number with 64 points; its error is the difference from that with 48."""
-    value = number(64)
-    error = value - number(48)
-    return Estimate.within(value, error)
-
-
-def compliance(layer: Layer) -> ComplexArray:
+def compliance(layer):
     """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus, (2, 2)."""
     u, w = layer.at_interface[:2]
     tractions = layer.at_interface[2:]
@@ -185,24 +117,13 @@ def compliance(layer: Layer) -> ComplexArray:
     return matrix * [1.0, -1j]  # sigma_yy = i N
 
 
-def block_field(layer: Layer) -> tuple[Array, Array, Array]:
-    """The displacement of a layer on a rigid base that slips by one.
-
-    Parameters
-    ----------
-    layer : Layer
-        The layer.
-
-    Returns
-    -------
-    y, u, w : array, shape (points,)
-        Distance from the interface, U and W.
-    """
+def block_field(layer):
+    """The displacement of a layer on a rigid base that slips by one."""
     field = layer.field_of_slip()
     return layer.y, layer.u @ field, layer.w @ field
 
 
-def _solve(rows: Array, values: tuple[float, ...]) -> Array:
+def _solve(rows, values):
     """The solution of equations with the given right-hand sides in the last rows, else zero.
 
     Derivatives have large entries. Rows are therefore scaled to one, and the solution is improved

@@ -6,23 +6,16 @@ In units of V/ell the growth rate x solves ``a x^2 + (g - zeta) x + g = 0`` with
 
 import cmath
 import itertools
-from collections.abc import Callable
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from nucleation.model.linearised import InterfaceState
-from nucleation.types import Array
-
-Transfer = Callable[[float], tuple[float, float]]
-"""G1 and G2 at a wavenumber (1/m)."""
-
 
 def _growth(
-    load: complex,
-    a: float,
-    zeta: float,
-) -> complex:
+    load,
+    a,
+    zeta,
+):
     """The root with the larger real part, over V/ell."""
     half = 0.5 * (load - zeta) / a
     root = cmath.sqrt(half**2 - load / a)
@@ -31,24 +24,12 @@ def _growth(
 
 
 def growth_at(
-    wavenumber: float,
-    transfer: Transfer,
-    modulus: float,
-    interface: InterfaceState,
-) -> complex:
-    """The root of Eq. (5) with the larger real part, over V/ell.
-
-    Parameters
-    ----------
-    wavenumber : float
-        Wavenumber (1/m).
-    transfer : callable
-        G1 and G2 at a wavenumber (1/m).
-    modulus : float
-        Shear modulus of the upper body (Pa).
-    interface : InterfaceState
-        Friction and its derivatives at V.
-    """
+    wavenumber,
+    transfer,
+    modulus,
+    interface,
+):
+    """The root of Eq. (5) with the larger real part, over V/ell."""
     g1, g2 = transfer(wavenumber)
     scale = modulus * wavenumber * interface.slip_length / interface.normal_stress
     load = scale * (g1 - 1j * interface.friction * g2)
@@ -56,29 +37,14 @@ def growth_at(
 
 
 def critical_wavenumber(
-    transfer: Transfer,
-    modulus: float,
-    interface: InterfaceState,
-    guess: float,
-) -> tuple[float, float]:
-    """The largest wavenumber with growth.
+    transfer,
+    modulus,
+    interface,
+    guess,
+):
+    """The largest wavenumber with growth."""
 
-    Parameters
-    ----------
-    transfer, modulus, interface
-        As in :func:`growth_at`.
-    guess : float
-        Wavenumber (1/m). The search starts at 30 times this and ends at a thousandth of it.
-
-    Returns
-    -------
-    wavenumber : float
-        The wavenumber (1/m).
-    frequency : float
-        Frequency of its mode over V/ell.
-    """
-
-    def rate(wavenumber: float) -> complex:
+    def rate(wavenumber):
         return growth_at(wavenumber, transfer, modulus, interface)
 
     tried = guess * np.geomspace(30.0, 1e-3, 400)
@@ -87,21 +53,13 @@ def critical_wavenumber(
 
 
 def half_space_load(
-    f_beta: float,
-    a: float,
-    zeta: float,
-) -> float:
-    """The largest real part of the load with growth, for two half-spaces: ``zeta L_c^M / L_c``.
+    f_beta,
+    a,
+    zeta,
+):
+    """The largest real part of the load with growth, for two half-spaces: ``zeta L_c^M / L_c``."""
 
-    Parameters
-    ----------
-    f_beta : float
-        Friction coefficient times beta.
-    a, zeta : float
-        Direct effect and velocity weakening.
-    """
-
-    def rate(load: float) -> complex:
+    def rate(load):
         return _growth(load * (1.0 - 1j * f_beta), a, zeta)
 
     scale = a + abs(zeta)
@@ -109,10 +67,10 @@ def half_space_load(
     return _largest_growing(rate, tried)
 
 
-def _largest_growing(rate: Callable[[float], complex], falling: Array) -> float:
+def _largest_growing(rate, falling):
     """The largest value with growth, bracketed by a falling grid and found to round-off."""
 
-    def growth(logarithm: float) -> float:
+    def growth(logarithm):
         value = float(np.exp(logarithm))
         return rate(value).real
 
@@ -125,19 +83,13 @@ def _largest_growing(rate: Callable[[float], complex], falling: Array) -> float:
 
 
 def strengthening_threshold(
-    a: float,
-    zeta: float,
-) -> float:
-    """The least f beta at which two half-spaces with ``zeta < 0`` slide unstably.
+    a,
+    zeta,
+):
+    """The least f beta at which two half-spaces with ``zeta < 0`` slide unstably."""
 
-    Parameters
-    ----------
-    a, zeta : float
-        Direct effect and velocity weakening.
-    """
-
-    def largest_rate(f_beta: float) -> float:
-        def decay(log_load: float) -> float:
+    def largest_rate(f_beta):
+        def decay(log_load):
             load = np.exp(log_load) * (1.0 - 1j * f_beta)
             return -_growth(load, a, zeta).real
 

@@ -1,0 +1,209 @@
+"""The paper's formulas and the library against evaluations that use neither.
+
+Navier's equation by collocation (elastic_layers.py) gives the transfer functions, a search for
+growing roots of Eq. (5) (search.py) the critical wavenumbers. Each claim that needs no run is
+compared with these: the printed formula by :mod:`replication.claims.printed`, the library by the
+number in the table.
+"""
+
+import elastic_layers
+import numpy as np
+import pytest
+import search
+from elastic_layers import HALF_SPACE, Layer, compliance, half_spaces, pair_transfer
+from reference_evidence import evidence, judged
+from scipy.optimize import brentq
+from theory import layer_problem
+
+from replication.claims import printed, theory
+from replication.claims.expected import Verdict
+
+NU = 1.0 / 3.0
+WEAKENINGS = evidence().theory["zeta_over_a"].values
+
+
+def block(q, points):
+    """A block of kH = q, free of stress on top."""
+    return Layer(q, NU, far_side="traction", points=points)
+
+
+def block_transfer(q):
+    """G1 and G2 of a block on a rigid base; with more points, round-off spoils thin blocks."""
+    points = 16 if q < 0.1 else 32 if q < 10.0 else 64
+    return pair_transfer(block(min(q, HALF_SPACE), points))
+
+
+@pytest.mark.parametrize("far_side", ["velocity", "traction"])
+@pytest.mark.parametrize("q", [0.3, 4.0, -1.0])
+def test_compliance_is_that_of_the_general_solution_with_150_digits(q, far_side):
+    (xx, xy), (yx, yy) = layer_problem.compliance(1.0, q, 1.0, 0.3, far_side)
+    expected = np.array([[float(xx), -1j * float(xy)], [1j * float(yx), float(yy)]])
+    ours = compliance(Layer(q, 0.3, far_side=far_side, points=32))
+    np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8)
+
+
+def linearised(law, velocity):
+    """``[[f_v, f_phi], [g_v, g_phi]]`` at steady sliding, by central differences (SI units)."""
+    state = float(law.steady_state(velocity))
+    columns = []
+    for dv, dphi in ((1e-5 * velocity, 0.0), (0.0, 1e-5 * state)):
+        ends = (velocity + dv, state + dphi), (velocity - dv, state - dphi)
+        change = [f(*ends[0]) - f(*ends[1]) for f in (law.coefficient, law.state_rate)]
+        columns.append(np.array(change) / (2.0 * (dv + dphi)))
+    return np.transpose(columns)
+
+
+def test_spring_block_is_unstable_below_the_printed_stiffness():
+    """The stiffness at which a root of the linearised law and spring gets a positive real part."""
+    on = evidence()
+    law, velocity = on.friction, on.loading.velocity
+    (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
+
+    def growth(stiffness):
+        # K dx + f_v dv + f_phi dphi = 0 per normal force, dx' = dv, dphi' = g_v dv + g_phi dphi
+        dv = np.array([-stiffness / f_v, -f_phi / f_v])
+        matrix = np.array([dv, g_v * dv + [0.0, g_phi]])
+        return np.linalg.eigvals(matrix).real.max()
+
+    expected = law.expansion(velocity).zeta / law.slip_distance
+    found = brentq(growth, 0.2 * expected, 5.0 * expected, rtol=1e-12)
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_perturbed_friction_is_the_printed_one():
+    on = evidence()
+    law, velocity = on.friction, on.loading.velocity
+    ell = law.slip_distance
+    _, a, zeta = law.expansion(velocity)
+    (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
+    for relative in (0.3 + 1j, 0.1 + 2j, 1j):
+        rate = relative * velocity / ell
+        ours = rate * (f_v + f_phi * g_v / (rate - g_phi))
+        expected = rate * (a * rate * ell - zeta * velocity) / (velocity * (velocity + rate * ell))
+        assert ours == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("pair", theory.PAIRS)
+def test_two_half_spaces(pair):
+    """Eqs. (7) and (8), by formula, library and collocation."""
+    psi, nu, nu2 = pair
+    expected = half_spaces(nu, psi, nu2)
+    assert printed.bimaterial_transfer(*pair) == pytest.approx(expected, rel=1e-10)
+    assert theory.half_spaces(nu, psi, nu2) == pytest.approx(expected, rel=1e-10)
+
+
+def test_identical_and_mirrored_bodies_are_not_coupled():
+    assert half_spaces(NU) == pytest.approx((1.0 / (2.0 * (1.0 - NU)), 0.0), abs=1e-10)
+    for q in (0.1, 1.0, 3.0):
+        mirrored = (Layer(side, NU, points=32) for side in (q, -q))
+        layer = theory.layer(q, NU, far_side="velocity")
+        assert pair_transfer(*mirrored) == pytest.approx(theory.transfer(layer, layer), abs=1e-9)
+
+
+@pytest.mark.parametrize("q", [1e-3, *theory.LAYER_NUMBERS, HALF_SPACE])
+def test_block_on_a_rigid_base(q):
+    """Eq. (10) and its limits, by formula, library and collocation."""
+    expected = block_transfer(q)
+    assert theory.transfer(theory.layer(q, NU)) == pytest.approx(expected, rel=1e-6)
+    if q > 0.01:  # thinner, the printed formula cancels
+        assert printed.block_transfer(q, NU) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("q", [0.3, 1.0, 3.0, 10.0])
+def test_response_matrix_and_field(q):
+    ours = compliance(Layer(q, NU, points=40))
+    np.testing.assert_allclose(printed.response_matrix(q, NU), ours, rtol=1e-8, atol=1e-8)
+    y, u, w = elastic_layers.block_field(block(q, points=40))
+    field = printed.block_field(q, y / q, NU)
+    np.testing.assert_allclose(field / field[0, 0], [u, 1j * w], atol=1e-9)
+
+
+def test_response_matrix_of_a_half_space():
+    ours = compliance(Layer(HALF_SPACE, NU))
+    np.testing.assert_allclose(printed.half_space_response(NU), ours, atol=1e-10)
+
+
+def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():
+    """Identical half-spaces and a thin and a high block, with transfer functions by collocation."""
+    on = evidence()
+    at, modulus = on.interface, on.material.shear_modulus
+    curve = on.theory
+    cases = [(lambda k: half_spaces(NU), *theory._critical(on))]
+    for i in (0, -1):
+        own = curve.isel(height=i)
+        height = float(own["height"])
+        numbers = (float(own[f"critical_{name}"]) for name in ("wavenumber", "frequency"))
+        cases.append((lambda k, h=height: block_transfer(k * h), *numbers))
+    for transfer, wavenumber, frequency in cases:
+        k, rate = search.critical_wavenumber(transfer, modulus, at, 2.0 * wavenumber)
+        assert k == pytest.approx(wavenumber, rel=1e-8)
+        assert rate * at.velocity / at.slip_length == pytest.approx(abs(frequency), rel=1e-6)
+        short = [search.growth_at(k * r, transfer, modulus, at).real for r in (1.001, 1.1, 10.0)]
+        assert max(short) < 0.0
+
+
+@pytest.mark.parametrize("f_beta", theory.CONTRASTS)
+def test_length_of_two_half_spaces(f_beta):
+    """Eq. (9), and Eq. (6) with M for no contrast."""
+    for z in WEAKENINGS:
+        expected = printed.bimaterial_ratio(f_beta, z)
+        assert z / search.half_space_load(f_beta, 1.0, z) == pytest.approx(expected, rel=1e-9)
+        assert z / search.half_space_load(0.0, 1.0, z) == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("a", "zeta"), theory.STRENGTHENING)
+def test_velocity_strengthening(a, zeta):
+    threshold = printed.strengthening_threshold(a, zeta)
+    assert search.strengthening_threshold(a, zeta) == pytest.approx(threshold, rel=1e-7)
+    for factor in (1.2, 2.0):
+        ours = zeta / search.half_space_load(factor * threshold, a, zeta)
+        expected = printed.bimaterial_ratio(factor * threshold, zeta / a)
+        assert ours == pytest.approx(expected, rel=1e-9)
+
+
+def test_search_without_growth_is_an_error():
+    with pytest.raises(ValueError, match="no growth in the range of the search"):
+        search.half_space_load(0.0, a=0.01, zeta=-0.005)
+
+
+def test_theory_by_hand():
+    """The main text's numbers put into the formulas by hand."""
+    expected = {
+        "half-spaces-wavenumber": 2 * (2 / 3) * 0.016 * 1e6 / 3.1e9 / 0.5e-6,
+        "eta": 1.5 * np.pi,
+        "uncoupled-frequency": np.sqrt(0.016 / 0.0068) * 20.0,
+        "half-spaces-g1": 0.75,
+        "block-high-limit": 0.25,
+    }
+    on = evidence()
+    found = {id: judged(id, on)["ours"] for id in expected}
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def factors(g1, g2):
+    """A change of transfer functions by factors."""
+    return lambda transfer: lambda *case: np.array(transfer(*case)) * (g1, g2)
+
+
+WRONG = [
+    ("block_transfer", factors(1.001, 1.0), "block-g1"),
+    ("block_transfer", factors(1.0, 0.999), "block-g2"),
+    ("bimaterial_transfer", factors(1.0, 1.001), "bimaterial-g2"),
+    ("bimaterial_ratio", lambda f: lambda rho, z: f(rho, 1.001 * z), "bimaterial-length"),
+    ("strengthening_threshold", lambda f: lambda *c: 0.999 * f(*c), "strengthening-threshold"),
+    ("response_matrix", lambda f: lambda q, nu: f(q, 1.001 * nu), "response-matrix"),
+    ("block_field", lambda f: lambda q, y, nu: f(q, y, 1.001 * nu), "block-field"),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "id"), WRONG)
+def test_wrong_formula_is_not_replicated(monkeypatch, name, change, id):
+    assert judged(id, evidence())["verdict"] == Verdict.REPLICATED
+    monkeypatch.setattr(printed, name, change(getattr(printed, name)))
+    assert judged(id, evidence())["verdict"] == Verdict.NOT_REPLICATED
+
+
+def test_a_longer_thin_limit_is_not_replicated(monkeypatch):
+    longer = theory.thin_limit_length
+    monkeypatch.setattr(theory, "thin_limit_length", lambda *case: 1.02 * longer(*case))
+    assert judged("thin-length", evidence())["verdict"] == Verdict.NOT_REPLICATED
