@@ -23,7 +23,7 @@ from ..model.parameters import Parameters
 from .grid import Components, Field, Grid, Motion, Motions, Terms
 from .layer import Layers
 from .modes import BlockModes
-from .operator import BlockOperator, Operator, PeriodOperator
+from .operator import Operator
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
@@ -53,7 +53,7 @@ class Body(Layers):
 
     def operator(self, s: float) -> Operator:
         """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2); zero is statics."""
-        return BlockOperator(self, s) if self.modes.has_edge else PeriodOperator(self, s)
+        return Operator(self, s)
 
     def far_load(self, normal: float, shear: float = 0.0) -> Field:
         """Nodal forces (N/m) of a compressive and, in a period, a shear stress (Pa).

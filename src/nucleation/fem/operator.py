@@ -25,14 +25,12 @@ mean of a period stay.
 from __future__ import annotations
 
 import dataclasses
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import circulant
 
 from ..types import Array
 from . import edge_kernels, kernels
@@ -146,7 +144,7 @@ class Balance(NamedTuple):
     edge_error: float  # relative, of edge values that were foreseen
 
 
-class Operator(ABC):
+class Operator:
     """``K + s M`` of a body for one ``s`` (1/s^2), with ``s = 0`` for statics.
 
     `modal` has D and N per mode, a right edge held, times 2/n_x (N/m per m), (2, n_x). For a pair
@@ -165,8 +163,13 @@ class Operator(ABC):
         else:
             self.modal = self.factors[0].pivot[:2]  # the first row, as u_y is zero
         self._no_load = np.zeros(self.modal.shape)
+        self._last_key: tuple[bytes, type] | None = None
+        rows = [factors.edge for factors in self.factors if factors.edge is not None]
+        series = (self.compliance, self.forces) if len(rows) == 2 else None
+        self.edge = EdgeValues(body, rows, self.moves, series) if rows else None
 
     def _put_in_series(self) -> None:
+        body = self.body
         (a1, b1, c1), (a2, b2, c2) = (factors.pivot for factors in self.factors)
         b2 = -b2  # by the mirror
         # not compiled: with fused products, identical bodies would not decouple exactly
@@ -181,6 +184,12 @@ class Operator(ABC):
             products += [a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy]
         self.forces = np.array(products)
         self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
+        if not (body.modes.has_edge or body.is_held_along_y or self.moves):
+            # the mean: both layers transmit the forces in balance, and do not move
+            self.modal[:, 0] = 0.0
+            self.compliance[:, 0] = 0.0
+            self.forces[:, 0] = np.tile(0.5 * np.eye(2).ravel(), 2)
+            self.by_slip[:, 0] = 0.5, 0.0
 
     @property
     def megabytes(self) -> float:
@@ -189,45 +198,6 @@ class Operator(ABC):
         levels = sum(layer.levels for layer in self.body.layers)
         pairs = 13 * self.body.modes.n_x + 2 * levels**2 if len(self.factors) == 2 else 0
         return own + 8e-6 * pairs
-
-    @property
-    @abstractmethod
-    def diagonal(self) -> Array:
-        """Diagonal of D (N/m per m) at the nodes 1..n_x."""
-
-    @abstractmethod
-    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
-        """Dense blocks of D and N (N/m per m) between some of the nodes 1..n_x, sorted."""
-
-    @abstractmethod
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
-        """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
-
-        Edge values (m) that are given are assumed to be in balance; this saves half of the work.
-        """
-
-    @abstractmethod
-    def balance(
-        self,
-        response: Response,
-        w: Array,
-        before: Before | None = None,
-        foreseen: Array | None = None,
-    ) -> Balance:
-        """The body for w (m) after a response, which must not be used again.
-
-        If :meth:`tolerates` denies the error of the edge values (m) that were `foreseen`, a
-        response with these was not accurate enough.
-        """
-
-    def tolerates(self, error: float) -> bool:
-        """Whether a relative error of the edge values is round-off."""
-        return False
-
-    def apply(self, w: Array) -> Components:
-        """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
-        amplitudes = self.body.modes.sine_amplitudes(w)
-        return self.body.modes.forces(self.modal, amplitudes, self._no_load)
 
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
@@ -254,10 +224,10 @@ class Operator(ABC):
         amplitudes: Array,
         start: Array | float,
         before: Before | None = None,
-    ) -> Array | None:
+    ) -> Array:
         """Replace a swept load by the displacement (m), given w per mode and :meth:`reduced`.
 
-        Returns the rate (m/s), if the displacements before are known.
+        Returns the rate (m/s), zero if no displacements before are known.
         """
         parts = self.body.split(swept)
         self._move_interface(parts[0], amplitudes, start)
@@ -267,7 +237,7 @@ class Operator(ABC):
         if before is None:
             for factors, part in zip(self.factors, parts, strict=True):
                 factors.substitute(part)
-            return None
+            return np.zeros_like(swept)
         rate = np.empty_like(swept)
         split = self.body.split
         newest, oldest = split(before.newest.modes), split(before.oldest.modes)
@@ -283,38 +253,26 @@ class Operator(ABC):
         else:
             above[0] = start + self.by_slip * amplitudes
 
-    def _with_velocity(
-        self, displacement: Field, rate: Array | None, before: Before | None, edge_error: float
-    ) -> Balance:
-        if before is None or rate is None:
-            return Balance(displacement, displacement.times(0.0), edge_error)
-        (c1, c2), beta, newest, oldest = before
-        edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
-        return Balance(displacement, Field(rate, edge), edge_error)
-
-
-class BlockOperator(Operator):
-    """The operator of blocks with a free right edge."""
-
-    def __init__(self, body: Layers, s: float) -> None:
-        super().__init__(body, s)
-        rows = [factors.edge for factors in self.factors if factors.edge is not None]
-        series = None if len(rows) == 1 else (self.compliance, self.forces)
-        self.edge = EdgeValues(body, rows, self.moves, series)
-        self._last_key: tuple[bytes, type] | None = None
-        self._last_blocks: Blocks
-
-    def tolerates(self, error: float) -> bool:
-        return error < self.edge.round_off
-
     def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+        """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
+
+        Edge values (m) that are given are assumed to be in balance; this saves half of the work.
+        """
         amplitudes = self.body.modes.sine_amplitudes(w)
         given = np.zeros_like(load.edge) if edge is None else edge
         swept = self.swept_down(load, given)
         reduced, start = self.reduced(swept)
         tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
+        if self.edge is None:
+            return Response(w, tangential, normal, load, given, swept, start)
         if edge is not None:
-            normal[-1] = self._corner_reaction(load, swept, edge, amplitudes, start)
+            # the normal force on the corner follows from the two lowest levels alone
+            lowest = swept[:2].copy()
+            self._move_interface(lowest, amplitudes, start)
+            self.factors[0].substitute(lowest)
+            above = self.body.parts(load)[0]
+            corner = self.edge.rows[0].residual(above, lowest, edge[: above.edge.size], 1)
+            normal[-1] = -corner[0]
             return Response(w, tangential, normal, load, edge, swept, start)
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
@@ -323,17 +281,6 @@ class BlockOperator(Operator):
         normal[-1] = self.edge.schur[0] @ found - residual[0]
         return Response(w, tangential, normal, load, found)
 
-    def _corner_reaction(
-        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | float
-    ) -> float:
-        """Normal force (N/m) on the corner of the upper body, from its two lowest levels alone."""
-        lowest = swept[:2].copy()
-        self._move_interface(lowest, amplitudes, start)
-        self.factors[0].substitute(lowest)
-        load_above, *_ = self.body.parts(load)
-        edge_above = edge[: self.body.layers[0].levels]
-        return -self.edge.rows[0].residual(load_above, lowest, edge_above, 1)[0]
-
     def balance(
         self,
         response: Response,
@@ -341,8 +288,14 @@ class BlockOperator(Operator):
         before: Before | None = None,
         foreseen: Array | None = None,
     ) -> Balance:
-        given = response.edge
-        edge = given if w is response.w else given + self.edge.change(w - response.w)
+        """The body for w (m) after a response, which must not be used again.
+
+        If :meth:`tolerates` denies the error of the edge values (m) that were `foreseen`, a
+        response with these was not accurate enough.
+        """
+        given = edge = response.edge
+        if self.edge is not None and w is not response.w:
+            edge = given + self.edge.change(w - response.w)
         modes, start = response.swept, response.start
         solved = modes is None
         if modes is None:
@@ -350,41 +303,58 @@ class BlockOperator(Operator):
             _, start = self.reduced(modes)
         rate = self.substitute_up(modes, self.body.modes.sine_amplitudes(w), start, before)
         own = edge
-        if not solved:
+        if self.edge is not None and not solved:
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
-        error = np.inf
-        if foreseen is not None:
-            error = edge_kernels.relative_error(own, foreseen, edge)
-        return self._with_velocity(Field(modes, own), rate, before, error)
+        error = np.inf if foreseen is None else edge_kernels.relative_error(own, foreseen, edge)
+        if before is None:
+            return Balance(Field(modes, own), Field(rate, np.zeros_like(own)), error)
+        (c1, c2), beta, newest, oldest = before
+        edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
+        return Balance(Field(modes, own), Field(rate, edge_rate), error)
+
+    def tolerates(self, error: float) -> bool:
+        """Whether a relative error of the edge values is round-off."""
+        return self.edge is not None and error < self.edge.round_off
 
     def apply(self, w: Array) -> Components:
-        tangential, normal = super().apply(w)
-        edge_kernels.add_edge_in_balance(
-            w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
-        )
+        """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, self._no_load)
+        if self.edge is not None:
+            edge_kernels.add_edge_in_balance(
+                w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
+            )
         return tangential, normal
 
     @cached_property
-    def _toeplitz(self) -> tuple[Array, Array]:
-        """Kernels d and h with ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)``.
+    def _first_columns(self) -> tuple[Array, Array]:
+        """Kernels d and h of D and N between nodes.
 
-        Both hold the arguments 0..2 n_x; d is even and h is odd.
+        In a block ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)``; both hold the
+        arguments 0..2 n_x, d is even and h odd. In a period D and N are circulant.
         """
-        n = self.body.modes.n_x
-        d = self.body.modes.cosine_values(self.modal[0]) / n
-        h = np.append(0.0, self.body.modes.sine_values(self.modal[1])) / n
+        modes = self.body.modes
+        n = modes.n_x
+        if self.edge is None:
+            tangential, normal = self.apply(np.eye(n)[0])
+            return tangential, normal[1:]
+        d = modes.cosine_values(self.modal[0]) / n
+        h = np.append(0.0, modes.sine_values(self.modal[1])) / n
         # about the right edge i = n_x, the cosine modes are odd and the sine modes even
         d = np.concatenate((d, [0.0], -d[:0:-1], [-d[0]]))
         return d, np.concatenate((h, h[-2::-1]))
 
     @cached_property
     def diagonal(self) -> Array:
-        return self._diagonal_of_modes + self.edge.diagonal
+        """Diagonal of D (N/m per m) at the nodes 1..n_x."""
+        d, _ = self._first_columns
+        return np.full(d.size, d[0]) if self.edge is None else self._of_modes + self.edge.diagonal
 
     @cached_property
-    def _diagonal_of_modes(self) -> Array:
-        d, _ = self._toeplitz
+    def _of_modes(self) -> Array:
+        """The diagonal of a block without the edge's part."""
+        d, _ = self._first_columns
         diagonal = d[0] - d[2::2]
         diagonal[-1] *= 0.25
         return diagonal
@@ -392,84 +362,39 @@ class BlockOperator(Operator):
     @cached_property
     def _edge_reach(self) -> int:
         """The first node (1..n_x) on which the right edge acts beyond round-off."""
-        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self._diagonal_of_modes
+        assert self.edge is not None
+        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self._of_modes
         return int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
 
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
+        """Dense blocks of D and N (N/m per m) between some of the nodes 1..n_x, sorted."""
         key = (nodes.tobytes(), dtype)
         if key != self._last_key:  # mostly the same nodes slip in the next step
             self._last_key = key
-            self._last_blocks = self._between(nodes, dtype)
+            blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+            if self.edge is None:
+                between = np.subtract.outer(nodes, nodes)
+                blocks[:] = [column[between] for column in self._first_columns]
+            else:
+                self._fill_between(nodes, self.edge, *blocks)
+            self._last_blocks = blocks[0], blocks[1]
         return self._last_blocks
 
-    def _between(self, nodes: NDArray[np.intp], dtype: type) -> Blocks:
+    def _fill_between(
+        self, nodes: NDArray[np.intp], edge: EdgeValues, stiffness: NDArray, coupling: NDArray
+    ) -> None:
         n = self.body.modes.n_x
-        blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
-        stiffness, coupling = blocks
-        d, h = self._toeplitz
+        d, h = self._first_columns
         edge_kernels.interface_blocks(d, h, n, nodes, stiffness, coupling)
         near = int(np.searchsorted(nodes, self._edge_reach))
         if near == nodes.size:
-            return stiffness, coupling
+            return
         own = nodes[near:]
-        tangential, normal = self.edge.to_interface
+        tangential, normal = edge.to_interface
         tangential = tangential[:, own - 1]
-        normal = np.append(normal, self.edge.schur[:, :1], axis=1)[:, own]
-        edge = self.edge.response[:, own - 1]
-        stiffness[near:, near:] += tangential.T @ edge
-        coupling[near:, near:] += normal.T @ edge
+        normal = np.append(normal, edge.schur[:, :1], axis=1)[:, own]
+        response = edge.response[:, own - 1]
+        stiffness[near:, near:] += tangential.T @ response
+        coupling[near:, near:] += normal.T @ response
         if own[-1] == n:
             coupling[-1, near:] += tangential[0]
-        return stiffness, coupling
-
-
-class PeriodOperator(Operator):
-    """The operator of a period, where D and N between nodes are circulant matrices."""
-
-    def _put_in_series(self) -> None:
-        super()._put_in_series()
-        if not (self.body.is_held_along_y or self.moves):
-            # the mean: both layers transmit the forces in balance, and do not move
-            self.modal[:, 0] = 0.0
-            self.compliance[:, 0] = 0.0
-            self.forces[:, 0] = np.tile(0.5 * np.eye(2).ravel(), 2)
-            self.by_slip[:, 0] = 0.5, 0.0
-
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
-        swept = self.swept_down(load, np.zeros_like(load.edge))
-        reduced, start = self.reduced(swept)
-        amplitudes = self.body.modes.sine_amplitudes(w)
-        tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
-        return Response(w, tangential, normal, load, np.zeros_like(load.edge), swept, start)
-
-    def balance(
-        self,
-        response: Response,
-        w: Array,
-        before: Before | None = None,
-        foreseen: Array | None = None,
-    ) -> Balance:
-        modes = response.swept
-        assert modes is not None
-        amplitudes = self.body.modes.sine_amplitudes(w)
-        rate = self.substitute_up(modes, amplitudes, response.start, before)
-        return self._with_velocity(Field(modes, response.edge), rate, before, np.inf)
-
-    @cached_property
-    def _dense(self) -> Components:
-        unit = np.zeros(self.body.modes.n_x)
-        unit[0] = 1.0
-        tangential, normal = self.apply(unit)
-        return circulant(tangential), circulant(normal[1:])
-
-    @property
-    def diagonal(self) -> Array:
-        stiffness, _ = self._dense
-        return np.ascontiguousarray(stiffness.diagonal())
-
-    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
-        stiffness, coupling = self._dense
-        if nodes.size < len(stiffness):
-            block = np.ix_(nodes - 1, nodes - 1)
-            stiffness, coupling = stiffness[block], coupling[block]
-        return stiffness.astype(dtype), coupling.astype(dtype)
