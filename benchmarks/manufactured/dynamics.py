@@ -26,7 +26,7 @@ from nucleation.fem.operator import Operator, Response
 from nucleation.model.parameters import Parameters
 from nucleation.simulation.drive import Drive, Imposed
 from nucleation.simulation.interface import Interface, InterfaceSolution, Past
-from nucleation.simulation.state import State
+from nucleation.simulation.step import State
 from nucleation.simulation.step import Dynamics, StepReport
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array

@@ -79,7 +79,7 @@ def test_without_density_every_step_is_a_static_field():
         np.testing.assert_allclose(p, expected.tangential, rtol=1e-7, atol=1e-7 * scale)
         np.testing.assert_allclose(report.interface.normal, expected.normal, rtol=1e-7)
         assert report.driving_force == report.interface.tangential.sum()
-        assert state.momentum == 0.0
+        assert state.motions[0].momentum == 0.0
 
 
 def test_a_step_changes_nothing_and_repeats_exactly():

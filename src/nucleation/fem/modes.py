@@ -4,8 +4,6 @@ In modes of one angle theta per element each, the equations decouple: one block-
 along y for each mode. There are the modes of a block with two ends, and those of a period.
 """
 
-from abc import ABC, abstractmethod
-
 import numpy as np
 import rocket_fft  # noqa: F401 - lets numba compile scipy.fft
 from scipy import fft
@@ -15,10 +13,8 @@ from .compiling import compiled
 from .grid import Components, Grid
 
 
-class Modes(ABC):
+class _Modes:
     """The modes of a grid, with the integral of each mode of u_x along x (m)."""
-
-    has_edge: bool  # whether the right edge has unknowns u_y of its own
 
     def __init__(self, grid: Grid, theta: Array, x_integral: Array) -> None:
         self.n_x = grid.n_x
@@ -29,32 +25,8 @@ class Modes(ABC):
         self.x_integral = x_integral
         self.edge_weights = np.zeros((3, grid.n_x))  # of each mode in the forces on the edge
 
-    @abstractmethod
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Amplitudes of values of u_x at the nodes 1..n_x (last axis)."""
 
-    @abstractmethod
-    def sine_values(self, amplitudes: Array) -> Array:
-        """Values of u_x at the nodes 1..n_x (last axis)."""
-
-    @abstractmethod
-    def cosine_values(self, amplitudes: Array) -> Array:
-        """Values of u_y (last axis): at 0..n_x - 1 of a block, at 1..n_x of a period."""
-
-    @abstractmethod
-    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
-        """Nodal forces (N/m) at 1..n_x and 0..n_x of ``stiffness * amplitudes - reduced``."""
-
-    @abstractmethod
-    def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Values at the nodes 0..n_x, given those at 1..n_x and at a driven edge."""
-
-    @abstractmethod
-    def uniform_load(self, grid: Grid, normal: float, shear: float) -> tuple[Array, float]:
-        """Load (N/m) of stresses (Pa) on a far side: per mode, (2, n_x), and on its edge value."""
-
-
-class BlockModes(Modes):
+class BlockModes(_Modes):
     """The modes of a block: ``theta_m = (m + 1/2) pi / n_x``.
 
     ``w_x = sum_m W_m sin(theta_m i)`` at i = 1..n_x vanishes at the left edge and is free of
@@ -62,7 +34,7 @@ class BlockModes(Modes):
     right one, where edge values of its own are added.
     """
 
-    has_edge = True
+    has_edge = True  # the right edge has unknowns u_y of its own
 
     def __init__(self, grid: Grid) -> None:
         mode = np.arange(grid.n_x)
@@ -74,12 +46,15 @@ class BlockModes(Modes):
         self.edge_weights = self._alternating * np.array(weights)
 
     def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of values of u_x at the nodes 1..n_x (last axis)."""
         return _sine_amplitudes(nodal)
 
     def sine_values(self, amplitudes: Array) -> Array:
+        """Values of u_x at the nodes 1..n_x (last axis)."""
         return 0.5 * fft.dst(amplitudes, type=2)
 
     def cosine_values(self, amplitudes: Array) -> Array:
+        """Values of u_y at the nodes 0..n_x - 1 (last axis)."""
         return 0.5 * fft.dct(amplitudes, type=2)
 
     def cosine_amplitudes(self, nodal: Array) -> Array:
@@ -87,6 +62,7 @@ class BlockModes(Modes):
         return fft.dct(nodal, type=3) / self.n_x
 
     def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
+        """Nodal forces (N/m) at 1..n_x and 0..n_x of ``stiffness * amplitudes - reduced``."""
         return _nodal_forces(stiffness, amplitudes, reduced, self._alternating)
 
     def interface_forces(self, modal: Array) -> Components:
@@ -102,12 +78,14 @@ class BlockModes(Modes):
         return tangential, normal
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
+        """Values at the nodes 0..n_x, given those at 1..n_x and at the driven edge."""
         nodal = np.empty(values.size + 1)
         nodal[0] = driven
         nodal[1:] = values
         return nodal
 
     def uniform_load(self, grid: Grid, normal: float, shear: float) -> tuple[Array, float]:
+        """Load (N/m) of stresses (Pa) on a far side: per mode, (2, n_x), and its edge value."""
         assert shear == 0.0, "a block bears no shear stress on its far side"
         forces = -normal * grid.nodal_lengths
         inner = np.array(forces[:-1])
@@ -117,7 +95,7 @@ class BlockModes(Modes):
         return np.array([np.zeros(self.n_x), along_y]), forces[-1]
 
 
-class PeriodModes(Modes):
+class PeriodModes(_Modes):
     """The modes of a period of n_x nodes, an odd number: ``theta_m = 2 pi m / n_x``.
 
     ``u_x = W0 + sum_m A_m sin(theta_m i) + B_m cos(theta_m i)`` and ``u_y = U0 + sum_m A_m
@@ -156,6 +134,7 @@ class PeriodModes(Modes):
         return self._values(mean, b - 1j * a)
 
     def cosine_values(self, amplitudes: Array) -> Array:
+        """Values of u_y at the nodes 1..n_x (last axis)."""
         mean, a, b = self._split(amplitudes)
         return self._values(mean, a + 1j * b)
 
@@ -170,6 +149,9 @@ class PeriodModes(Modes):
         load = np.zeros((2, self.n_x))
         load[:, 0] = shear * grid.dx, -normal * grid.dx
         return load, 0.0
+
+
+Modes = BlockModes | PeriodModes
 
 
 # An interface has some hundred nodes: calling a transform of SciPy takes three times as long as the

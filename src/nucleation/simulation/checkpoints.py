@@ -37,16 +37,8 @@ class Stopped(Exception):
 class Checkpoint:
     """The checkpoint of one run, in a file beside that of its result.
 
-    Parameters
-    ----------
-    path : path
-        The checkpoint's file.
-    fingerprint : str
-        Identifies the parameters and the code; a checkpoint with another one is refused.
-    every : float, optional
-        Wall time (s) between checkpoints, by default that of :func:`interval`.
-    log : file, optional
-        Receives the messages, by default stderr.
+    One with another fingerprint, of parameters and code, is refused. `every` is the wall time (s)
+    between checkpoints, by default :func:`interval`.
     """
 
     def __init__(
@@ -99,15 +91,7 @@ class Checkpoint:
     def keep(self, arrays: Callable[[], Arrays]) -> None:
         """Store a checkpoint if the interval is over, or if a signal stops the run.
 
-        Parameters
-        ----------
-        arrays : callable
-            Returns the arrays to be stored.
-
-        Raises
-        ------
-        Stopped
-            After the checkpoint, if a signal stops the run.
+        Then it raises Stopped.
         """
         if self._signal is None and time.monotonic() - self._last < self._every:
             return
@@ -148,13 +132,7 @@ class Checkpoint:
 
 
 def interval() -> float:
-    """Wall time (s) between checkpoints, set by the environment: the result does not depend on it.
-
-    Raises
-    ------
-    ParameterError
-        If the variable is not a number of seconds.
-    """
+    """Wall time (s) between checkpoints, which the environment may set; no result depends on it."""
     text = os.environ.get(VARIABLE, "")
     if not text:
         return EVERY

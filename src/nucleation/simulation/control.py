@@ -7,8 +7,7 @@ import numpy as np
 from ..model.stepping import Stepping
 from .event import Outcome
 from .interface import NewtonFailure
-from .state import State
-from .step import Dynamics, StepReport
+from .step import Dynamics, State, StepReport
 from .stepping import BDF, rung_below, rung_value
 
 SAFETY = 0.85  # of the step size against the estimated error
@@ -17,24 +16,9 @@ RESOLVED = 16.0  # shortest step over the round-off of the time
 
 
 class SimulationFailure(RuntimeError):
-    """The time integration cannot continue.
+    """The time integration cannot continue after a state."""
 
-    Parameters
-    ----------
-    outcome : Outcome
-        How the run ended.
-    state : State
-        State after the last accepted step.
-    reason : str
-        More about the failure, for the message.
-    """
-
-    def __init__(
-        self,
-        outcome: Outcome,
-        state: State,
-        reason: str,
-    ) -> None:
+    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
         super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 
@@ -66,26 +50,8 @@ def accepted_step(
 ) -> Instant:
     """Make the next step, so short that its error is within the tolerance.
 
-    Parameters
-    ----------
-    dynamics : Dynamics
-        Makes a step of a given size.
-    stepping : Stepping
-        Tolerance and shortest step.
-    state, control : State, Control
-        Result of the last accepted step.
-    longest : float
-        Largest leading coefficient beta (s).
-
-    Returns
-    -------
-    Instant
-
-    Raises
-    ------
-    SimulationFailure
-        If the step would have to be shorter than ``stepping.shortest_step``, or than the time's
-        round-off.
+    `longest` is the largest leading coefficient beta (s). Raises SimulationFailure if the step
+    would have to be shorter than ``stepping.shortest_step``.
     """
     scheme = dynamics.scheme
     wanted = control.wanted

@@ -19,25 +19,11 @@ def slipping_edge(
     slip_rate: Array,
     threshold: float,
 ) -> Array:
-    """Find the furthest position that slips faster than a threshold, if an edge is pushed.
+    """The furthest position (m) that slips faster than a threshold (m/s), if an edge is pushed.
 
     Only the part of the block next to the pushed edge is searched: slip at the far corner does not
     count. Before the event this position moves back and forth; the patch is as long as it has ever
-    been.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    slip_rate : ndarray, shape (..., n)
-        Slip rates (m/s).
-    threshold : float
-        Slip rate (m/s) at the edge of the patch.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Position (m) at every instant, zero where nothing slips faster.
+    been. Slip rates (m/s) have the shape (..., nodes); the position is zero where nothing slips.
     """
     rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)  # in double precision
     near = int(np.searchsorted(x, NEAR * x[-1], side="right"))
@@ -82,25 +68,7 @@ def slipping_zone(
     threshold: float,
     periodic: bool = False,
 ) -> tuple[float, float]:
-    """Find the zone about the fastest node that slips faster than a threshold at one instant.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    slip_rate : ndarray, shape (n,)
-        Slip rates (m/s).
-    threshold : float
-        Slip rate (m/s) at both ends of the zone.
-    periodic : bool
-        Whether the last node repeats the first one.
-
-    Returns
-    -------
-    begin, end : float
-        Positions (m), both zero where nothing slips faster. In a period the zone may begin below
-        zero or end beyond its length.
-    """
+    """Find the zone about the fastest node that slips faster than a threshold at one instant."""
     rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)
     fastest = int(np.argmax(rate))
     if rate[fastest] <= threshold:
@@ -132,22 +100,6 @@ def patch_lengths(
     """Length of the patch at every instant, by the slip rates of that instant alone.
 
     A pushed edge is one end of the patch. Otherwise the patch is the zone about the fastest node.
-
-    Parameters
-    ----------
-    kind : str
-        Kind of the loading.
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    slip_rates : ndarray, shape (instants, n)
-        Slip rates (m/s).
-    threshold : float
-        Slip rate (m/s) at the edge of the patch.
-
-    Returns
-    -------
-    ndarray, shape (instants,)
-        Lengths (m).
     """
     if kind == "edge":
         return slipping_edge(x, slip_rates, threshold)

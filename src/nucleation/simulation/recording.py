@@ -12,8 +12,7 @@ from ..types import Array, Arrays
 from . import passes, remarks
 from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
-from .state import State
-from .step import Dynamics, StepReport
+from .step import Dynamics, State, StepReport
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node

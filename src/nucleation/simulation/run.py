@@ -24,8 +24,7 @@ from .event import Outcome
 from .interface import Interface
 from .recording import Recorder
 from .start import at_rest
-from .state import State
-from .step import Dynamics
+from .step import Dynamics, State
 from .stepping import BDF
 
 NEWTON = 1e-3

@@ -12,8 +12,7 @@ from ..fem.operator import Operator, Response
 from ..model.parameters import Loading
 from ..types import Array
 from .interface import InterfaceSolution
-from .state import State
-from .step import Dynamics, StepReport
+from .step import Dynamics, State, StepReport
 
 
 def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:

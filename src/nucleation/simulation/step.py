@@ -7,9 +7,12 @@ stored state restarts the run exactly. A step combines four parts that do not kn
 scheme (:mod:`.stepping`).
 """
 
+from __future__ import annotations
+
 import dataclasses
 import math
 from collections import OrderedDict
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -17,11 +20,10 @@ import numpy as np
 from ..fem.body import Body
 from ..fem.grid import Field, Motion
 from ..fem.operator import Before, Operator, foreseen_edge
-from ..types import Array
+from ..types import Array, Arrays
 from . import passes
 from .drive import Drive, Imposed
 from .interface import Interface, InterfaceSolution, Past
-from .state import State, pushed
 from .stepping import BDF, Step
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
@@ -29,6 +31,75 @@ LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
 SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
 SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
+
+
+@dataclasses.dataclass(frozen=True)
+class State:
+    """A body and its interface at one instant: all past values from which the next step follows.
+
+    The past includes the present, and begins with it; it is as long as the scheme needs.
+    """
+
+    motions: tuple[Motion, ...]
+    past_times: Array  # s
+    past_slip_rates: Array  # m/s, (past, nodes 0..n_x)
+    past_log_states: Array  # (past, nodes 0..n_x)
+    past_w: Array  # m, slip less that of the driven edge, (past, nodes 1..n_x)
+    edge_error: float = np.inf  # relative, of the right edge's values as foreseen
+
+    @classmethod
+    def beginning(cls, motion: Motion, slip_rate: Array, log_state: Array, w: Array) -> State:
+        """The state at time zero, without a past."""
+        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None])
+
+    def to_arrays(self) -> Arrays:
+        """The exact state as plain arrays by name, to be stored."""
+        arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}
+        for i, motion in enumerate(self.motions):
+            arrays |= motion.to_arrays(f"motion_{i}")
+        return arrays
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
+        """The inverse of :meth:`to_arrays`."""
+        motions: list[Motion] = []
+        while f"motion_{len(motions)}_momentum" in arrays:
+            motions.append(Motion.from_arrays(f"motion_{len(motions)}", arrays))
+        plain = {name: arrays[name] for name in _PLAIN}
+        return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
+
+    @property
+    def time(self) -> float:
+        """Present time (s)."""
+        return float(self.past_times[0])
+
+    @property
+    def last_step(self) -> float:
+        """Length of the last step (s), zero at the start."""
+        before = min(1, self.past_times.size - 1)
+        return float(self.past_times[0] - self.past_times[before])
+
+    @property
+    def displacement(self) -> Field:
+        """(w_x, u_y) of the body (m), with u_x = U(t) + w_x."""
+        return self.motions[0].displacement
+
+    @property
+    def velocity(self) -> Field:
+        """Rate (m/s) of the displacement."""
+        return self.motions[0].velocity
+
+
+_PLAIN = ("past_times", "past_slip_rates", "past_log_states", "past_w")
+
+
+def _pushed(newest: Array | float, past: Array, most: int) -> Array:
+    """The past values, newest first, with one more before them; at most a number of them."""
+    kept = past[: most - 1]
+    result = np.empty((kept.shape[0] + 1, *past.shape[1:]))
+    result[0] = newest
+    result[1:] = kept
+    return result
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,17 +116,6 @@ class Dynamics:
 
     With ``u_x = U(t) + w_x`` the body is seen from its driven edge. Where the edge accelerates,
     inertia acts as a body force ``-rho U''`` along x.
-
-    Parameters
-    ----------
-    body : Body
-        The elastic body, or the pair of bodies.
-    interface : Interface
-        The interface on which it slides.
-    drive : Drive
-        Loads and boundary conditions.
-    scheme : BDF
-        The formulas of the steps.
     """
 
     def __init__(
@@ -78,24 +138,7 @@ class Dynamics:
         state: State,
         rung: int,
     ) -> tuple[State, StepReport]:
-        """Make one step.
-
-        Parameters
-        ----------
-        state : State
-            State before the step.
-        rung : int
-            Rung of the step's leading coefficient.
-
-        Returns
-        -------
-        State, StepReport
-
-        Raises
-        ------
-        NewtonFailure
-            If the interface's equations were not solved; a lower rung may help.
-        """
+        """Make one step of a rung; raises NewtonFailure if a lower rung may help."""
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
         operator = self.operator(step.s)
@@ -195,10 +238,10 @@ class Dynamics:
         motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
             self.body.settled(motions, time - state.time, slid),
-            pushed(time, state.past_times, most),
-            pushed(solution.slip_rate, state.past_slip_rates, most),
-            pushed(solution.log_state, state.past_log_states, most),
-            pushed(solution.w, state.past_w, most),
+            _pushed(time, state.past_times, most),
+            _pushed(solution.slip_rate, state.past_slip_rates, most),
+            _pushed(solution.log_state, state.past_log_states, most),
+            _pushed(solution.w, state.past_w, most),
             edge_error,
         )
 

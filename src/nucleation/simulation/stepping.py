@@ -42,17 +42,7 @@ class Formula:
         beta: float,
         previous_step: float,
     ) -> Formula:
-        """The BDF2 step with a given leading coefficient.
-
-        Parameters
-        ----------
-        beta, previous_step : float
-            Leading coefficient (s), and length of the step before (s).
-
-        Returns
-        -------
-        Formula
-        """
+        """The BDF2 step of a leading coefficient (s), after a step of some length (s)."""
         half = beta - 0.5 * previous_step
         step = half + math.sqrt(half * half + beta * previous_step)
         r = step / previous_step
@@ -71,19 +61,7 @@ class Formula:
         step: float,
         past_times: Array,
     ) -> Formula:
-        """The BDF3 step: the derivative of the cubic through the new and the past values.
-
-        Parameters
-        ----------
-        step : float
-            Length of the step (s).
-        past_times : ndarray, shape (3,)
-            Past times (s), newest first.
-
-        Returns
-        -------
-        Formula
-        """
+        """The BDF3 step (s): by the cubic through the new value and three past ones."""
         a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
         beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
         past = (
@@ -103,19 +81,7 @@ class Formula:
 
 
 def extrapolation_weights(time: float, past: Array) -> Array:
-    """Lagrange weights that extrapolate past values.
-
-    Parameters
-    ----------
-    time : float
-        Time (s) to which they extrapolate.
-    past : ndarray, shape (n,)
-        Times (s) of the past values.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-    """
+    """Lagrange weights that extrapolate values at past times (s) to a time (s)."""
     times = past.tolist()
     weights = [1.0] * past.size
     for i, own in enumerate(times):
@@ -127,20 +93,6 @@ def extrapolation_weights(time: float, past: Array) -> Array:
 
 def error_factor(formula: Formula, past: Array) -> float:
     """Local error of the BDF2 step over the difference of step and quadratic extrapolation.
-
-    Parameters
-    ----------
-    formula : Formula
-        The BDF2 step.
-    past : ndarray, shape (3,)
-        Past times (s), newest first.
-
-    Returns
-    -------
-    float
-
-    Notes
-    -----
     The local error is ``B y'''`` with ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))``. The extrapolation's
     is ``A y'''`` with ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
     """
@@ -212,19 +164,7 @@ class BDF:
         rung: int,
         past_times: Array,
     ) -> Step:
-        """The next step.
-
-        Parameters
-        ----------
-        rung : int
-            Rung of its leading coefficient.
-        past_times : ndarray, shape (past,)
-            Past times (s), newest first: one, two or three of them.
-
-        Returns
-        -------
-        Step
-        """
+        """The step of a rung after one, two or three past times (s), newest first."""
         beta = rung_value(rung)
         known = past_times.size
         if known == 1:
@@ -260,18 +200,7 @@ class BDF:
         step: float,
         previous_step: float,
     ) -> float:
-        """Leading coefficient of a BDF2 step.
-
-        Parameters
-        ----------
-        step, previous_step : float
-            Length of the step and of the one before (s).
-
-        Returns
-        -------
-        float
-            In s.
-        """
+        """Leading coefficient (s) of a BDF2 step of some length, after another (s)."""
         r = step / previous_step
         return step * (1 + r) / (1 + 2 * r)
 

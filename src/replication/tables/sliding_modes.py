@@ -15,8 +15,7 @@ from nucleation.fem.body import period_of
 from nucleation.model.parameters import Geometry, Mesh, Parameters
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.state import State
-from nucleation.simulation.step import Dynamics
+from nucleation.simulation.step import Dynamics, State
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array, ComplexArray
 
