@@ -61,7 +61,7 @@ from replication.configuration.study_names import study_parameters
 from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
-from replication.figures import catalogue
+from replication import figures
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity

@@ -53,7 +53,7 @@ NEEDED_LATER = {
     "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
     "plan": (PLAN.format(root=ROOT), COMPILED),
     "reading and drawing": (
-        "import replication.tables.lengths, replication.figures.paper.figure_3",
+        "import replication.tables.lengths, replication.figures.figure_3",
         COMPILED,
     ),
 }

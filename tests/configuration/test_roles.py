@@ -5,10 +5,10 @@ import copy
 import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
+from replication import figures
 from replication.configuration.load import configure, load
 from replication.configuration.roles import PAIRS, REFINEMENTS, ROLES
 from replication.configuration.schema import build
-from replication.figures import catalogue
 
 TALL = {"height": 0.1}
 DOCS = CONFIG.parent / "docs" / "studies.md"
@@ -79,10 +79,10 @@ def test_names_can_be_any():
 
 
 def test_figures_stand_on_roles_that_there_are():
-    asked = {role for roles in catalogue.ROLES.values() for role in roles}
+    asked = {role for roles in figures.ROLES.values() for role in roles}
     assert asked | {*PAIRS, *REFINEMENTS} <= set(ROLES)
     found = {own.role for own in load(CONFIG / "quick.yaml").studies.values()}
-    assert catalogue.drawable(found) == list(catalogue.ROLES)
+    assert figures.drawable(found) == list(figures.ROLES)
 
 
 def test_the_schema_has_the_purpose_of_every_role():

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from replication.figures.beyond import figure_sensitivity
-from replication.figures.checks import figure_convergence
+from replication.figures import figure_convergence, figure_sensitivity
 
 HEIGHTS = (0.005, 0.02, 0.1)
 

@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 from nucleation.pictures import style
-from replication.figures.paper import figure_3
+from replication.figures import figure_3
 
 
 @pytest.fixture

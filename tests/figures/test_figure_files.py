@@ -12,7 +12,7 @@ import pytest
 from matplotlib.image import imread
 
 from nucleation.pictures import run, style
-from replication.figures.paper import figure_1, figure_2, figure_3, figure_s1
+from replication.figures import figure_1, figure_2, figure_3, supplement
 
 pytestmark = pytest.mark.slow
 
@@ -27,7 +27,7 @@ def draw(theory, lengths, thin, thin_row, thick, thick_row):
         "figure_1": figure_1.draw,
         "figure_2": lambda: figure_2.draw(theory),
         "figure_3": lambda: figure_3.draw(theory, lengths, thick, thick_row),
-        "figure_s1": lambda: figure_s1.draw(theory),
+        "figure_s1": lambda: supplement.figure_s1(theory),
         "figure_s2": lambda: run.draw(thin, thin_row),
     }
     return lambda name: calls[name]()
@@ -74,7 +74,7 @@ def test_legends_cover_no_data(draw, name):
 def test_bytes_depend_on_no_hash_seed(tmp_path):
     code = (
         "import sys; from nucleation.pictures import style;"
-        "from replication.figures.paper import figure_1;"
+        "from replication.figures import figure_1;"
         "style.save(figure_1.draw(), sys.argv[1])"
     )
     for seed in ("1", "2"):

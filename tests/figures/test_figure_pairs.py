@@ -5,8 +5,7 @@ import pytest
 import xarray as xr
 
 from nucleation.theory.closed_forms import bimaterial_length_ratio
-from replication.figures.beyond import figure_2_simulated, figure_pairs
-from replication.figures.paper import figure_2
+from replication.figures import figure_2, figure_pairs
 
 
 @pytest.fixture
@@ -65,7 +64,7 @@ def test_identical_blocks_have_a_smooth_curve_where_it_is_given(table):
 def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(table, theory):
     unknown = table["f_beta"].values == 0.1
     lost = table["stability_ratio"].where(~xr.DataArray(unknown, dims="run"))
-    panels = figure_2_simulated.draw(table.assign(stability_ratio=lost), theory).axes[:2]
+    panels = figure_2.draw_simulated(table.assign(stability_ratio=lost), theory).axes[:2]
     papers = figure_2.looks(theory["zeta_over_a"].values)
     for axes in panels:
         for weakening in (10.0, 1.0):
@@ -78,7 +77,7 @@ def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(tabl
 
 
 def test_figure_2_has_both_senses_in_units_without_contrast(table, theory):
-    left, right = figure_2_simulated.draw(table, theory).axes[:2]
+    left, right = figure_2.draw_simulated(table, theory).axes[:2]
     assert len(left.containers) == 2
     for panel, ratio in ((left, 0.75), (right, 0.5)):
         for (points, _, bars), weakening in zip(panel.containers, (10.0, 1.0), strict=True):

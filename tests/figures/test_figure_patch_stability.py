@@ -7,7 +7,7 @@ import xarray as xr
 from made_up_theory import critical_length
 
 from nucleation.model.parameters import Parameters
-from replication.figures.beyond import figure_3_extended, figure_patch_stability
+from replication.figures import figure_3_extended, figure_patch
 from replication.tables.lengths import over_realisations
 
 HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1] * 2)
@@ -53,7 +53,7 @@ def patches(table):
 
 @pytest.fixture
 def drawn(table, patches):
-    return figure_patch_stability.draw(table, patches)
+    return figure_patch.draw_stability(table, patches)
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_growth_and_frequency_of_the_converged_runs(drawn):
 
 def test_ranges_follow_the_memory_time(drawn, table, patches):
     slower = Parameters().replaced({"velocity": 1e-6}).to_json()  # D/V is ten times as long
-    slow = figure_patch_stability.draw(
+    slow = figure_patch.draw_stability(
         table, [patch.assign_attrs(parameters=slower) for patch in patches]
     )
     for axes, other in zip(drawn.axes[:2], slow.axes[:2], strict=True):
@@ -83,7 +83,7 @@ def test_ranges_follow_the_memory_time(drawn, table, patches):
 
 
 def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches):
-    drawn = figure_patch_stability.draw(table.isel(run=slice(0, 5)), patches[:5])
+    drawn = figure_patch.draw_stability(table.isel(run=slice(0, 5)), patches[:5])
     assert sum(line.get_marker() == "." for line in drawn.axes[0].lines) == 3
 
 

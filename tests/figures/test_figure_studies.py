@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from replication.configuration.study_names import study_parameters
-from replication.figures.beyond import figure_studies
+from replication.figures import figure_studies
 
 
 def table(theory, length):

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from replication.figures import laws
-from replication.figures.beyond import figure_3_extended, figure_patch_stability
-from replication.figures.paper import figure_3
+from replication.figures import figure_3, figure_3_extended, figure_patch, laws
 
 
 def test_every_law_has_a_look_of_its_own():
@@ -59,5 +57,5 @@ def test_other_laws_are_drawn_beyond_the_paper(theory, others):
     left, right = figure_3_extended.draw(theory, others, patches, others).axes
     assert "halfway law" in [text.get_text() for text in right.get_legend().get_texts()]
     assert len(left.containers) > 3
-    shown = figure_patch_stability._shown(patches)
+    shown = figure_patch._shown(patches)
     assert set(shown["evolution"].values) == {"halfway"}

@@ -13,7 +13,7 @@ from nucleation.drop.delay import growth
 from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
 from nucleation.theory.creep.patches import Patches
-from replication.figures.beyond import figure_drop
+from replication.figures import figure_drop
 from replication.tables import drops as module
 from replication.tables.drops import COLUMNS, NOISE_FLOORS, gather_drops, noise_floors
 

@@ -7,7 +7,7 @@ import xarray as xr
 from made_up_map import lengths
 
 from nucleation.datasets.variables import DatasetError
-from replication.figures.beyond import figure_map
+from replication.figures import figure_map
 from replication.tables.map import AXES, gather_map, mean_over_seeds, on_grid
 
 

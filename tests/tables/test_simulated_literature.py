@@ -13,7 +13,7 @@ from nucleation.lengths.formulas import LOCALISED_LIMIT
 from nucleation.lengths.in_use import LENGTHS
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Parameters
-from replication.figures.beyond import figure_literature
+from replication.figures import figure_literature
 from replication.tables import literature
 
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")

@@ -6,7 +6,7 @@ import xarray as xr
 from configurations import papers
 
 from replication.configuration.load import load
-from replication.figures.beyond import figure_patch_theory
+from replication.figures import figure_patch
 from replication.tables import theory as theory_table
 
 IDS = (
@@ -62,6 +62,6 @@ def test_profiles_are_those_of_creep(table):
 
 @pytest.mark.slow
 def test_figure(table):
-    ratio, parity, creep = figure_patch_theory.draw(table).axes[:3]
+    ratio, parity, creep = figure_patch.draw_theory(table).axes[:3]
     assert ratio.get_xlabel() and parity.get_lines()[0].get_xdata().size == 2
     assert len(creep.get_lines()) == 2 * table.sizes["case"]

@@ -8,7 +8,7 @@ from configurations import papers
 
 from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
-from replication.figures.beyond import figure_weakening_patches
+from replication.figures import figure_weakening
 from replication.tables.weakening_patches import CURVE, outcome, patch_of, weakening_patches_table
 
 FASTEST = {"creep": 1.5, "slow slip": 150.0, "event": 2e5}  # over V
@@ -55,12 +55,12 @@ def test_table_has_the_theory_of_each_patch(runs, table):
 
 @pytest.mark.slow
 def test_figure_has_each_run_by_its_outcome(table):
-    (axes,) = figure_weakening_patches.draw(table).axes
-    looks = {marker: colour for _, marker, colour in figure_weakening_patches.LOOKS.values()}
+    (axes,) = figure_weakening.draw_patches(table).axes
+    looks = {marker: colour for _, marker, colour in figure_weakening.LOOKS.values()}
     drawn = {line.get_marker(): line for line in axes.lines if line.get_marker() in looks}
     assert {marker: line.get_color() for marker, line in drawn.items()} == looks
     over_critical = table["width"] / table["critical_length"]
-    for name, (_, marker, _) in figure_weakening_patches.LOOKS.items():
+    for name, (_, marker, _) in figure_weakening.LOOKS.items():
         own = over_critical[table["outcome"] == name]
         assert drawn[marker].get_ydata() == pytest.approx(own.values)
 

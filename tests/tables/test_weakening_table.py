@@ -10,7 +10,7 @@ from nucleation.model.identity import fault
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.theory.creep.thin import thin_limit
-from replication.figures.beyond import figure_weakening
+from replication.figures import figure_weakening
 from replication.tables.lengths import COLUMNS as LENGTHS
 from replication.tables.weakening import (
     CURVES,

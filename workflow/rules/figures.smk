@@ -20,7 +20,7 @@ rule figure_1:
         f"{RESULTS}/logs/figures/figure_1.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_1:draw",
+        call="replication.figures.figure_1:draw",
     shell:
         JOB
 
@@ -36,7 +36,7 @@ rule figure_2:
         f"{RESULTS}/logs/figures/figure_2.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_2:draw",
+        call="replication.figures.figure_2:draw",
     shell:
         JOB
 
@@ -54,7 +54,7 @@ rule figure_3:
         f"{RESULTS}/logs/figures/figure_3.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_3:draw_run",
+        call="replication.figures.figure_3:draw_run",
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     shell:
@@ -72,7 +72,7 @@ rule figure_s1:
         f"{RESULTS}/logs/figures/figure_s1.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_s1:draw",
+        call="replication.figures.supplement:figure_s1",
     shell:
         JOB
 
@@ -89,7 +89,7 @@ rule figure_s2:
         f"{RESULTS}/logs/figures/figure_s2.log",
     localrule: True
     params:
-        call="replication.figures.paper.figure_s2:draw",
+        call="replication.figures.supplement:figure_s2",
         reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
         id=lambda wildcards: space_time_run().id,
     shell:
@@ -108,7 +108,7 @@ rule figure_patch_stability:
         f"{RESULTS}/logs/figures/figure_patch_stability.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_patch_stability:draw",
+        call="replication.figures.figure_patch:draw_stability",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES["patch_stability"])},
     shell:
         JOB
@@ -128,7 +128,7 @@ rule figure_3_extended:
         f"{RESULTS}/logs/figures/figure_3_extended.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_3_extended:draw",
+        call="replication.figures.figure_3_extended:draw",
     shell:
         JOB
 
@@ -144,7 +144,7 @@ rule figure_drop:
         f"{RESULTS}/logs/figures/figure_drop.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_drop:draw",
+        call="replication.figures.figure_drop:draw",
     shell:
         JOB
 
@@ -160,7 +160,7 @@ rule figure_weakening:
         f"{RESULTS}/logs/figures/figure_weakening.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_weakening:draw",
+        call="replication.figures.figure_weakening:draw",
     shell:
         JOB
 
@@ -176,7 +176,7 @@ rule figure_weakening_patches:
         f"{RESULTS}/logs/figures/figure_weakening_patches.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_weakening_patches:draw",
+        call="replication.figures.figure_weakening:draw_patches",
     shell:
         JOB
 
@@ -192,7 +192,7 @@ rule figure_map:
         f"{RESULTS}/logs/figures/figure_map.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_map:draw",
+        call="replication.figures.figure_map:draw",
     shell:
         JOB
 
@@ -208,7 +208,7 @@ rule figure_patch_theory:
         f"{RESULTS}/logs/figures/figure_patch_theory.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_patch_theory:draw",
+        call="replication.figures.figure_patch:draw_theory",
     shell:
         JOB
 
@@ -224,7 +224,7 @@ rule figure_convergence:
         f"{RESULTS}/logs/figures/figure_convergence.log",
     localrule: True
     params:
-        call="replication.figures.checks.figure_convergence:draw",
+        call="replication.figures.figure_convergence:draw",
     shell:
         JOB
 
@@ -240,7 +240,7 @@ rule figure_sensitivity:
         f"{RESULTS}/logs/figures/figure_sensitivity.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_sensitivity:draw",
+        call="replication.figures.figure_sensitivity:draw",
     shell:
         JOB
 
@@ -264,7 +264,7 @@ rule figure_pairs:
         f"{RESULTS}/logs/figures/figure_pairs.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_pairs:draw",
+        call="replication.figures.figure_pairs:draw",
         theory=lambda wildcards: theory_of_identical_blocks(),
     shell:
         JOB
@@ -282,7 +282,7 @@ rule figure_2_simulated:
         f"{RESULTS}/logs/figures/figure_2_simulated.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_2_simulated:draw",
+        call="replication.figures.figure_2:draw_simulated",
     shell:
         JOB
 
@@ -298,7 +298,7 @@ rule figure_literature:
         f"{RESULTS}/logs/figures/figure_literature.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_literature:draw",
+        call="replication.figures.figure_literature:draw",
     shell:
         JOB
 
@@ -323,7 +323,7 @@ rule draw_study:
         f"{RESULTS}/logs/figures/study_{{study}}.log",
     localrule: True
     params:
-        call="replication.figures.beyond.figure_studies:draw",
+        call="replication.figures.figure_studies:draw",
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),

@@ -16,9 +16,9 @@ def of_studies(names):
 
 OWN_STUDIES = [study for study in SHARED if study not in CLAIMED]
 """Studies that share lengths.csv, except those that claims are about."""
-DRAWABLE = catalogue.drawable({study.role for study in settings.studies.values()})
+DRAWABLE = figures.drawable({study.role for study in settings.studies.values()})
 if DEFAULT != "paper":  # the paper's figures are of the paper's runs
-    DRAWABLE = [name for name in DRAWABLE if name not in catalogue.PAPERS]
+    DRAWABLE = [name for name in DRAWABLE if name not in figures.PAPERS]
 
 
 rule simulations:

@@ -68,7 +68,7 @@ rule table_s1:
         f"{RESULTS}/logs/tables/table_s1.log",
     localrule: True
     params:
-        call="replication.figures.paper.table_s1:files",
+        call="replication.figures.supplement:table_s1",
         loads=plugins(settings.base),
         friction=asdict(settings.base.friction),
     shell:

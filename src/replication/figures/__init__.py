@@ -1,6 +1,33 @@
-"""Figures: functions from datasets to matplotlib figures, and the catalogue of all figures.
+"""Figures: functions from datasets to matplotlib figures, and the roles that each needs.
 
-Figures of the paper are in :mod:`.paper`, further ones in :mod:`.beyond`, and those that support
-the solver in :mod:`.checks`. ``nucleation.pictures.style`` has sizes, fonts and
-colours, and :mod:`.laws` marks runs by their friction law.
+``nucleation.pictures.style`` has sizes, fonts and colours, and :mod:`.laws` marks runs by law.
 """
+
+from collections.abc import Collection
+
+PAPERS = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
+"""Figures of the paper."""
+
+ROLES: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(PAPERS, ()),
+    "figure_3": ("paper",),
+    "figure_s2": ("paper",),
+    "figure_3_extended": ("paper",),
+    "figure_drop": ("drop",),
+    "figure_weakening": ("weakening",),
+    "figure_weakening_patches": ("weakening_patches",),
+    "figure_map": ("map",),
+    "figure_patch_stability": ("paper",),
+    "figure_patch_theory": ("converged",),
+    "figure_sensitivity": ("sensitivity",),
+    "figure_pairs": ("pairs_identical",),
+    "figure_2_simulated": ("pairs_identical", "figure_2_simulated"),
+    "figure_literature": ("literature",),
+    "figure_convergence": ("convergence", "convergence_quiet"),
+}
+"""Roles of studies by figure; figures of a user's studies are not in it."""
+
+
+def drawable(roles: Collection[str]) -> list[str]:
+    """The figures that a configuration with studies of these roles can make."""
+    return [name for name, needed in ROLES.items() if set(needed) <= set(roles)]

@@ -28,13 +28,20 @@ class Look(NamedTuple):
     size: float  # points; the usual kind is the smallest, as it is drawn over the others
     colour: str
     label: str
+    aside: float = 0.0  # points (1/72 inch) by which Figure 3 moves it to the right
+    old: bool = False
+
+    @property
+    def name(self) -> str:
+        """The law, and whether the interface is older than usual."""
+        return self.label + (", older interface" if self.old else "")
 
 
 PAPERS = {
     ("aging", False): Look("o", 4.6, style.AGING, "aging law"),
-    ("slip", False): Look("^", 7.2, style.SLIP, "slip law"),
-    ("aging", True): Look("s", 6.6, style.OLD_AGE, "aging law"),
-    ("slip", True): Look("v", 7.2, style.SLIP, "slip law"),
+    ("slip", False): Look("^", 7.2, style.SLIP, "slip law", -4.0),
+    ("aging", True): Look("s", 6.6, style.OLD_AGE, "aging law", 4.0, True),
+    ("slip", True): Look("v", 7.2, style.SLIP, "slip law", 8.0, True),
 }
 
 _OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
@@ -48,23 +55,16 @@ def looks(laws: Iterable[str]) -> dict[Kind, Look]:
     for old in (False, True):
         for i, law in enumerate(others):
             marker, colour = _OTHERS[i % len(_OTHERS)]
-            if old:
-                colour = style.OLD_AGE
-            found[law, old] = Look(
-                marker,
-                6.6,
-                colour,
-                f"{law.replace('_', ' ')} law",
-            )
+            name = f"{law.replace('_', ' ')} law"
+            found[law, old] = Look(marker, 6.6, style.OLD_AGE if old else colour, name, old=old)
     return found
 
 
-def kinds(table: xr.Dataset) -> Iterator[tuple[Kind, Look, xr.Dataset]]:
-    """Yield each kind of simulation, its marks and its rows."""
+def kinds(table: xr.Dataset) -> Iterator[tuple[Look, xr.Dataset]]:
+    """The marks and the rows of each kind of simulation."""
     laws = _laws(table)
     for (law, old), look in looks(laws).items():
-        rows = where(table, (laws == law) & (aged(table) == old))
-        yield (law, old), look, rows
+        yield look, where(table, (laws == law) & (aged(table) == old))
 
 
 def _laws(table: xr.Dataset) -> NDArray[np.str_]:
@@ -77,10 +77,7 @@ def aged(table: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def usual_law(table: xr.Dataset) -> str:
-    """The law for figures of a single law: the usual one, or else the law of the first row.
-
-    For a table without rows it is the usual one.
-    """
+    """The law for figures of a single law: the usual one, or else that of the first row."""
     laws = _laws(table)
     if USUAL_EVOLUTION in laws or not laws.size:
         return USUAL_EVOLUTION
@@ -95,22 +92,7 @@ def usual(table: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.Dataset:
-    """Select rows of a table.
-
-    Parameters
-    ----------
-    table : Dataset
-        A table on ``run``.
-    chosen : array of bool on ``run``
-        The rows to select from.
-    **labels
-        Values that the columns of these names must have.
-
-    Returns
-    -------
-    Dataset
-        The selected rows.
-    """
+    """The chosen rows of a table, those whose columns have the values of `labels`."""
     found = np.broadcast_to(np.asarray(chosen, dtype=bool), table.sizes["run"])
     for name, value in labels.items():
         found = found & (table[name].values == value)
@@ -118,7 +100,7 @@ def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.D
 
 
 def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
-    """Yield the rows that agree in some columns, group by group, in the order of the table."""
+    """The rows that agree in some columns, group by group, in the order of the table."""
     columns = [table[name].values.tolist() for name in names]
     keys = list(zip(*columns, strict=True))
     for key in dict.fromkeys(keys):
@@ -126,20 +108,9 @@ def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
 
 
 def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
-    """Draw a column as points, with bars from its ``_low`` to its ``_high``.
+    """Draw a column over another as points, with bars from its ``_low`` to its ``_high``.
 
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    x : str
-        The column along the abscissa.
-    table : Dataset
-        A table on ``run``.
-    name : str
-        The column along the ordinate. A bar is left out if an end is NaN or not in the table.
-    **look
-        Options of :meth:`matplotlib.axes.Axes.errorbar`.
+    A bar is left out if an end is NaN or not in the table.
     """
     middle = table[name].values
     low = table.get(f"{name}_low", table[name]).values
@@ -152,5 +123,4 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
 def draw_range(axes: Axes, x: float, values: Array, **look: Any) -> None:
     """Draw the mean of realisations as a point, with a bar from the least to the largest."""
     mean = values.mean()
-    bar = [[mean - values.min()], [values.max() - mean]]
-    axes.errorbar(x, mean, bar, **look)
+    axes.errorbar(x, mean, [[mean - values.min()], [values.max() - mean]], **look)

@@ -61,20 +61,7 @@ COLUMNS = {
 
 
 def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
-    """Find the runs that differ in one numerical parameter alone.
-
-    Parameters
-    ----------
-    lengths : DataFrame
-        Table of lengths.
-    refined : str
-        The parameter, one of :data:`REFINED`.
-
-    Returns
-    -------
-    list of DataFrame
-        Sequences of two or more runs, each from coarse to fine.
-    """
+    """Find the runs that differ in one numerical parameter alone."""
     fixed = [name for name in FIXED if name != refined]
     ascending = not REFINED[refined]
     found = []
@@ -85,19 +72,7 @@ def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
 
 
 def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
-    """The sequences found in tables of lengths, each run beside the finest one.
-
-    Parameters
-    ----------
-    tables : iterable of Dataset
-        Tables of lengths.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``. A run has a row in each of its sequences, with its differences
-        from the finest run of it, NaN without an event.
-    """
+    """The sequences found in tables of lengths, each run beside the finest one."""
     frame = join(tables).to_dataframe()
     rows = []
     for refined in REFINED:

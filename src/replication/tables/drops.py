@@ -118,15 +118,7 @@ class _Law:
         kind: str,
         correlation_length: float = 0.0,
     ) -> Growth:
-        """The mode's growth under one kind of perturbation.
-
-        Parameters
-        ----------
-        kind : str
-            What is perturbed.
-        correlation_length : float
-            Along x (m); 0 is the usual one.
-        """
+        """The mode's growth under one kind of perturbation."""
         key = kind, correlation_length
         if key not in self._known:
             declared = Perturbation(kind=kind)
@@ -136,15 +128,7 @@ class _Law:
         return self._known[key]
 
     def lengths(self, kind: str, strength: float) -> tuple[float, float, float, float]:
-        """Lengths (m) at the drop: the median, 16 and 84 %, and that of the law in one line.
-
-        Parameters
-        ----------
-        kind : str
-            What is perturbed.
-        strength : float
-            Relative strength of the perturbation.
-        """
+        """Lengths (m) at the drop: the median, 16 and 84 %, and that of the law in one line."""
         law = self.growth(kind)
         drop = law.drop(strength)
         return drop.length, drop.low, drop.high, law.closed_form(self.history, strength).length
@@ -182,21 +166,7 @@ def gather_drops(
     runs: Iterable[Row],
     quiet: Iterable[xr.Dataset] = (),
 ) -> xr.Dataset:
-    """The drops of all runs beside the law, for the faults of some runs.
-
-    Parameters
-    ----------
-    drops, quiet : iterable of Dataset
-        Tables with :data:`MEASURED` and ``fault``.
-    runs : iterable of dict
-        One run of each fault, from :meth:`replication.configuration.runs.Run.to_dict`. A fault is
-        left out if the theory cannot follow its patches.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``.
-    """
+    """The drops of all runs beside the law, for the faults of some runs."""
     return _beside(_laws(runs), [*drops, *quiet])
 
 
@@ -205,18 +175,7 @@ def drop_files(
     runs: Iterable[Row],
     quiet: Iterable[xr.Dataset] = (),
 ) -> dict[str, Any]:
-    """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`.
-
-    Parameters
-    ----------
-    drops, runs, quiet : iterable
-        As for :func:`gather_drops`.
-
-    Returns
-    -------
-    dict
-        By the ending of the file's name.
-    """
+    """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`."""
     laws = _laws(runs)
     rows = _beside(laws, [*drops, *quiet])
     return {".nc": rows.merge(law_curves(laws)), ".csv": to_csv(rows)}
@@ -272,20 +231,7 @@ def noise_floors(
     quiet: Iterable[xr.Dataset],
     runs: Iterable[Row],
 ) -> xr.Dataset:
-    """The noise of the meshes of quiet runs with their steps.
-
-    Parameters
-    ----------
-    quiet : iterable of Dataset
-        Tables with :data:`MEASURED` and ``fault``.
-    runs : iterable of dict
-        One run of each fault, from :meth:`replication.configuration.runs.Run.to_dict`.
-
-    Returns
-    -------
-    Dataset
-        :data:`NOISE_FLOORS` on ``run``.
-    """
+    """The noise of the meshes of quiet runs with their steps."""
     found = gather_drops(quiet, runs)
     unperturbed = np.flatnonzero(found["kind"].values == "none")
     return found[list(NOISE_FLOORS)].isel(run=unperturbed)

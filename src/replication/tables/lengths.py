@@ -137,23 +137,7 @@ def lengths_table(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> xr.Dataset:
-    """Extract the lengths of simulations into a table.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    simulations : iterable of Dataset
-        Their records, in the same order.
-    settings : ExtractionSettings
-        How lengths are read.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``. If all runs are loaded at their edge and record the interface,
-        also :data:`.MEASURES`.
-    """
+    """Extract the lengths of simulations into a table."""
     by_theory: dict[str, Row] = {}  # by fault
     rows = []
     for run, simulation in zip(runs, simulations, strict=True):
@@ -283,19 +267,7 @@ def _row(
 
 
 def row(table: xr.Dataset, id: str) -> xr.Dataset:
-    """The row of one simulation.
-
-    Parameters
-    ----------
-    table : Dataset
-        Table of lengths.
-    id : str
-        The simulation's id.
-
-    Returns
-    -------
-    Dataset
-    """
+    """The row of one simulation."""
     (index,) = np.flatnonzero(table["id"].values == id)
     return table.isel(run=int(index))
 

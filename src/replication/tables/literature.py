@@ -94,21 +94,7 @@ def length_of(parameters: Parameters) -> str:
 
 
 def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
-    """Simulated lengths beside their formulas, and the lengths that have no run here.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    simulations : iterable of Dataset
-        Their records, in the same order.
-
-    Returns
-    -------
-    Dataset
-        On ``run``, :data:`COLUMNS`: one row for each run and each of :data:`SLIP_RATES` (m/s),
-        then one for each of the other lengths in use, with the reason in ``definition``.
-    """
+    """Simulated lengths beside their formulas, and the lengths that have no run here."""
     rows: list[Row] = []
     for run, simulation in zip(runs, simulations, strict=True):
         parameters = Parameters.from_dict(run["parameters"])

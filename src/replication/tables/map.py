@@ -62,11 +62,6 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     """The same over the dimensions :data:`AXES`; NaN where the study has no run.
 
     The theory's length depends on height and weakening alone.
-
-    Raises
-    ------
-    DatasetError
-        If runs differ in anything else: each place of the grid has one.
     """
     frame = table.to_dataframe().set_index(list(AXES))
     if not frame.index.is_unique:
@@ -80,20 +75,7 @@ def mean_over_seeds(
     grid: xr.Dataset,
     name: str,
 ) -> xr.DataArray:
-    """The mean of a variable over realisations.
-
-    Parameters
-    ----------
-    grid : Dataset
-        From :func:`on_grid`.
-    name : str
-        One of :data:`ON_GRID`.
-
-    Returns
-    -------
-    DataArray
-        Without the dimension ``seed``; NaN where one of the realisations has none.
-    """
+    """The mean of a variable over realisations."""
     return grid[name].mean("seed", skipna=False)
 
 

@@ -48,20 +48,7 @@ def gather_other_faults(
     drops: xr.Dataset,
     runs: Iterable[Row],
 ) -> xr.Dataset:
-    """The simulated drops of each fault beside the theory.
-
-    Parameters
-    ----------
-    drops : Dataset
-        The study's table of lengths.
-    runs : iterable of dict
-        The first realisation of each fault, from its ``to_dict``.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``. Lengths are NaN where a realisation has no drop.
-    """
+    """The simulated drops of each fault beside the theory."""
     rows = []
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])

@@ -81,25 +81,7 @@ def gather_pairs(
     patches: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> xr.Dataset:
-    """The table of runs of two bodies.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    simulations : iterable of Dataset
-        Their records, in the same order.
-    patches : iterable of Dataset
-        From ``follow_patch``, of each fault's first realisation. The
-        others have the same L_s, which the perturbation hardly changes.
-    settings : ExtractionSettings
-        Definitions of the lengths.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``.
-    """
+    """The table of runs of two bodies."""
     rows = []
     waiting = iter(patches)
     fitted: dict[tuple[str, str], dict[str, float]] = {}

@@ -35,21 +35,7 @@ def rows_of(
     chosen: Iterable[int] | None = None,
     names: Iterable[str] | None = None,
 ) -> list[Row]:
-    """Rows of a table as dictionaries of plain Python values.
-
-    Parameters
-    ----------
-    table : Dataset
-        Columns on ``run``.
-    chosen : iterable of int, optional
-        Numbers of the rows, by default all.
-    names : iterable of str, optional
-        Names of the columns, by default all.
-
-    Returns
-    -------
-    list of dict
-    """
+    """Rows of a table as dictionaries of plain Python values."""
     wanted = table.data_vars if names is None else names
     columns = {str(name): table[name].values.tolist() for name in wanted}
     numbers = range(table.sizes["run"]) if chosen is None else chosen

@@ -30,24 +30,7 @@ def measured_runs(
     settings: ExtractionSettings,
     measure: str,
 ) -> xr.Dataset:
-    """The rows of a batch's runs, without those that have no record.
-
-    Parameters
-    ----------
-    runs : sequence of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    records : _Records
-        Their records.
-    settings : ExtractionSettings
-        Definitions of the lengths.
-    measure : {"lengths", "stability"}
-        Whether :data:`STABILITY` is added.
-
-    Returns
-    -------
-    Dataset
-        :data:`replication.tables.lengths.COLUMNS` on ``run``.
-    """
+    """The rows of a batch's runs, without those that have no record."""
     rows = records.map(lambda i, record: _measured(runs[i], record, settings, measure))
     return lengths.join(rows) if rows else xr.Dataset()  # an empty one is not kept
 
@@ -79,20 +62,7 @@ def study_table(
     tables: Iterable[xr.Dataset],
     ids: Sequence[str],
 ) -> dict[str, Any]:
-    """The table of a study that was run in several batches, as files.
-
-    Parameters
-    ----------
-    tables : iterable of Dataset
-        Tables of the batches.
-    ids : sequence of str
-        Names of the study's runs, in their order.
-
-    Returns
-    -------
-    dict
-        Of :func:`replication.tables.lengths.files`, a row for each run, in this order.
-    """
+    """The table of a study that was run in several batches, as files."""
     joined = lengths.join(tables)
     places = {name: i for i, name in enumerate(joined["id"].values.tolist())}
     return lengths.files(joined.isel(run=[places[name] for name in ids]))

@@ -69,16 +69,6 @@ def variation(run: Row, base: Row) -> Varied:
     The block's length counts if it is another multiple of the theory's critical length. The start
     in uniform shear is named by its shear stress. With another friction law, only parameters that
     both laws have are compared.
-
-    Parameters
-    ----------
-    run, base : dict
-        The run and its base, from :meth:`replication.configuration.runs.Run.to_dict`.
-
-    Returns
-    -------
-    names, words : str
-        The names, separated by commas, and how the parameters are varied; :data:`BASE` if none is.
     """
     values = Parameters.from_dict(run["parameters"]).named()
     usual = Parameters.from_dict(base["parameters"]).named()
@@ -132,24 +122,7 @@ def sensitivity_table(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings = ExtractionSettings(),
 ) -> xr.Dataset:
-    """Relative changes of L_c and onset, by the parameters that were varied.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`; the first of each height is the
-        base.
-    simulations : iterable of Dataset
-        Their records, in the same order.
-    settings : ExtractionSettings
-        The usual definitions.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``, NaN without an event. ``ratio_change`` is that of L_c over the
-        theory's length for the run's own parameters.
-    """
+    """Relative changes of L_c and onset, by the parameters that were varied."""
     heights: dict[float, list[Case]] = defaultdict(list)
     for run, simulation in zip(runs, simulations, strict=True):
         case = run | {"status": simulation.attrs["status"]}, simulation

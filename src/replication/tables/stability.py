@@ -37,21 +37,7 @@ def gather_stability(
     runs: Iterable[Row],
     patches: Iterable[xr.Dataset],
 ) -> xr.Dataset:
-    """The lengths at which the frozen patches turn unstable.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    patches : iterable of Dataset
-        From :func:`nucleation.extraction.growth.follow_patch`, in the order of the runs.
-
-    Returns
-    -------
-    Dataset
-        :data:`STABILITY` on ``run``. ``stability_change`` is L_s over that of the same fault's run
-        in the role `converged`, minus one; NaN without such a run.
-    """
+    """The lengths at which the frozen patches turn unstable."""
     rows = []
     for run, patch in zip(runs, patches, strict=True):
         fitted = {name: float(patch[name]) for name in FITTED}

@@ -70,21 +70,7 @@ def theory_files(
     runs: Iterable[Row],
     tables: Iterable[xr.Dataset],
 ) -> dict[str, Any]:
-    """The table, the thin limit's curve and the creep of some faults; the table also as CSV.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    tables : iterable of Dataset
-        On ``run``, with ``id`` and ``stability_length`` (m); runs without it are left out.
-
-    Returns
-    -------
-    dict
-        By the ending of the file's name. The dataset has :data:`COLUMNS` on ``run``,
-        :data:`DRAWN` on ``curve``, ``case`` and ``place``.
-    """
+    """The table, the thin limit's curve and the creep of some faults; the table also as CSV."""
     known = _stability_lengths(tables)
     faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:

@@ -101,20 +101,7 @@ def gather_weakening(
     drops: Iterable[xr.Dataset],
     runs: Iterable[Row],
 ) -> xr.Dataset:
-    """The simulated drops of all runs beside the theory of their faults.
-
-    Parameters
-    ----------
-    drops : iterable of Dataset
-        Tables of lengths of the studies.
-    runs : iterable of dict
-        One run of each fault, from :meth:`replication.configuration.runs.Run.to_dict`.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``.
-    """
+    """The simulated drops of all runs beside the theory of their faults."""
     by_fault = {}
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
@@ -133,18 +120,7 @@ def weakening_files(
     drops: Iterable[xr.Dataset],
     runs: Iterable[Row],
 ) -> dict[str, Any]:
-    """The table of :func:`gather_weakening` as CSV, and with :data:`CURVES`.
-
-    Parameters
-    ----------
-    drops, runs : iterable
-        As for :func:`gather_weakening`.
-
-    Returns
-    -------
-    dict
-        By the ending of the file's name.
-    """
+    """The table of :func:`gather_weakening` as CSV, and with :data:`CURVES`."""
     runs = list(runs)
     rows = gather_weakening(drops, runs)
     return {".nc": rows.merge(weakening_curves(runs)), ".csv": to_csv(rows)}
@@ -158,18 +134,6 @@ def weakening_curves(
 
     Blocks on a deformable base that are higher than L_c in all their runs are as good as
     half-spaces; they have the curves of half-spaces.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    ratios : iterable of float
-        Rising zeta/a of the curves.
-
-    Returns
-    -------
-    Dataset
-        :data:`CURVES` on ``system`` and ``curve``.
     """
     systems: dict[tuple[str, str, float], list[Row]] = {}
     for run in runs:

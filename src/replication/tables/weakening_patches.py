@@ -51,13 +51,7 @@ COLUMNS = {
 
 
 def patch_of(parameters: Parameters) -> WeakeningPatch:
-    """The patch of a run, with the friction law expanded at V.
-
-    Raises
-    ------
-    ParameterError
-        If another property than zeta varies along the interface, or not by a step.
-    """
+    """The patch of a run, with the friction law expanded at V."""
     own = parameters.heterogeneity
     if (own.varies, own.shape) != ("zeta", "step"):
         raise ParameterError(
@@ -78,21 +72,7 @@ def outcome(fastest: float) -> str:
 
 
 def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
-    """Simulated patches beside theory, and the theory's curves.
-
-    Parameters
-    ----------
-    runs : iterable of dict
-        From :meth:`replication.configuration.runs.Run.to_dict`.
-    simulations : iterable of Dataset
-        Their records, in the same order.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``: one row for each run, then those of the theory's curve for each
-        zeta/a.
-    """
+    """Simulated patches beside theory, and the theory's curves."""
     rows: list[Row] = []
     patches: dict[float, WeakeningPatch] = {}
     for run, simulation in zip(runs, simulations, strict=True):

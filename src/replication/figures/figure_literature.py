@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from nucleation.lengths.formulas import CRACK_LIMIT, LOCALISED_LIMIT
 from nucleation.pictures import style
 
-from .. import laws
+from . import laws
 
 KINDS = {
     "rubin_ampuero_localised": ("fixed length", "o", style.VERMILLION),
@@ -24,18 +24,7 @@ _TICKS = (0.1, 0.2, 0.5, 1.0, 2.0)
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
-    """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.literature.literature_table`.
-
-    Returns
-    -------
-    Figure
-        Two panels.
-    """
+    """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate."""
     figure, (left, right) = style.panels(1, 2, 7.6, sharey=True)
     table = laws.where(table, np.isfinite(table["simulated_length"]))
     for name, (label, marker, colour) in KINDS.items():

@@ -12,7 +12,7 @@ from matplotlib.ticker import NullLocator
 from nucleation.model.friction.registry import USUAL_EVOLUTION
 from nucleation.pictures import style
 
-from .. import laws
+from . import laws
 
 _PERCENT = 100.0
 LEAST = 1e-3  # per cent: smaller differences are drawn there
@@ -47,16 +47,6 @@ def draw(table: xr.Dataset) -> Figure:
 
     The upper panels have onset and length of every perturbed run, the lower ones lengths of
     perturbed and quiet runs.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.convergence.refinement_table`.
-
-    Returns
-    -------
-    Figure
-        Four panels.
     """
     figure = style.new_figure(14.5)
     panels = figure.subplot_mosaic("aa;bb;cd", height_ratios=(1.0, 1.0, 1.1))

@@ -43,20 +43,7 @@ def symbol_of(entry: Quantity) -> str:
 
 
 def label_of(name: str, entry: Quantity) -> str:
-    """The label of an axis.
-
-    Parameters
-    ----------
-    name : str
-        The parameter.
-    entry : Quantity
-        Its declaration.
-
-    Returns
-    -------
-    str
-        Name, symbol and unit.
-    """
+    """The label of an axis."""
     words = named(name)
     symbol = symbol_of(entry)
     text = words[0].upper() + words[1:]
@@ -75,17 +62,7 @@ def set_scale(
     which: str,
     values: Array,
 ) -> None:
-    """Set the scale of an axis, with plain numbers at its ticks if it has less than two decades.
-
-    Parameters
-    ----------
-    axes : Axes
-        The panel.
-    which : str
-        ``x`` or ``y``.
-    values : array
-        Values on the axis.
-    """
+    """Set the scale of an axis, with plain numbers at its ticks if it has less than two decades."""
     if not is_logarithmic(values):
         return
     axis = {"x": axes.xaxis, "y": axes.yaxis}[which]
@@ -97,20 +74,7 @@ def set_scale(
 
 
 def edges(values: Array, logarithmic: bool | None = None) -> Array:
-    """Edges of cells around values, between neighbours on the axis.
-
-    Parameters
-    ----------
-    values : array
-        Rising values, (n,).
-    logarithmic : bool, optional
-        Whether the axis is logarithmic; by default as :func:`is_logarithmic`.
-
-    Returns
-    -------
-    array
-        The edges, (n + 1,); one value has edges 10 % away from it.
-    """
+    """Edges of cells around values, between neighbours on the axis."""
     if values.size == 1:
         return np.array([0.9, 1.1]) * values
     if logarithmic is None:

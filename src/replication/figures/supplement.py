@@ -1,12 +1,18 @@
-"""Table S1: the parameters of the friction law, in the paper's order."""
+"""The supplement: Figures S1 and S2, and Table S1."""
 
 import csv
 import io
 from fractions import Fraction
 from typing import NamedTuple
 
+import xarray as xr
+from matplotlib.figure import Figure
+
 from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import declarations
+from nucleation.pictures import run, style
+
+from ..tables.lengths import row as row_of
 
 _ORDER = (
     "slip_distance",
@@ -30,6 +36,31 @@ class _Parameter(NamedTuple):
     value: float
     unit: str
     description: str
+
+
+@style.styled
+def figure_s1(theory: xr.Dataset) -> Figure:
+    """Draw both steady-state friction curves and mark the driving velocity V."""
+    figure, axes = style.column(6.4)
+    rate = theory["slip_rate"].values
+    full = theory["steady_friction"].values
+    logarithmic = theory["steady_friction_logarithmic"].values
+    velocity = float(theory["velocity"])
+    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
+    axes.semilogx(rate, logarithmic, color=style.BLUE, linewidth=1.1, label="logarithmic law")
+    style.vertical(axes, velocity)
+    across = axes.get_xaxis_transform()
+    axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
+    axes.set_xlabel(r"Slip rate $v$ (m/s)")
+    axes.set_ylabel(r"Steady-state friction coefficient $f_{\mathrm{ss}}$")
+    axes.set_xlim(rate.min(), rate.max())
+    axes.legend(loc="upper right")
+    return figure
+
+
+def figure_s2(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+    """Stress in space and time of a run in a table of lengths; its length is L_c, as there."""
+    return run.draw(simulation, row_of(lengths, id), "$L_c$")
 
 
 def rows(friction: Friction) -> list[_Parameter]:
@@ -70,7 +101,7 @@ def to_markdown(table: list[_Parameter]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def files(friction: Friction) -> dict[str, str]:
+def table_s1(friction: Friction) -> dict[str, str]:
     """The table as CSV and Markdown, by suffix (rule ``table_s1``)."""
     found = rows(friction)
     text = io.StringIO()

@@ -1,4 +1,7 @@
-"""Where slow slip begins and where it ends in an event, over the weakening of friction."""
+"""Where slow slip begins and where it ends in an event, over the weakening of friction.
+
+:func:`draw_patches`: which weakening patches nucleate among strengthening surroundings.
+"""
 
 import numpy as np
 import xarray as xr
@@ -7,7 +10,7 @@ from matplotlib.figure import Figure
 
 from nucleation.pictures import style
 
-from .. import laws
+from . import laws
 
 _LINES = {
     "curve_stability": (r"$L_s$: the patch turns unstable", style.STABILITY, "-"),
@@ -29,18 +32,7 @@ _RATIOS = (0.5, 1.0, 2.0)  # ticks of lengths over L_c
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
-    """Draw lengths over L_c against zeta/a, one panel for each base and height.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.weakening.weakening_files`.
-
-    Returns
-    -------
-    Figure
-        A panel for each base and height.
-    """
+    """Draw lengths over L_c against zeta/a, one panel for each base and height."""
     systems = []
     for system in laws.groups(table, "study", "below", "height"):
         if np.unique(system["zeta_over_a"]).size >= _FEWEST:
@@ -95,3 +87,57 @@ def _draw_system(
     axes.set(yscale="log", ylim=(0.4, 2.8))
     style.plain_numbers(axes.xaxis, _TICKS)
     style.plain_numbers(axes.yaxis, _RATIOS)
+
+
+LOOKS = {
+    "creep": ("creeps", "o", style.BLUE),
+    "slow slip": ("slips slowly", "s", style.GREEN),
+    "event": ("nucleates", "^", style.VERMILLION),
+}
+"""Label, marker and colour of each outcome of a run."""
+
+THEORY = "$W_c$ by theory"
+RIGID = 1.158 / np.pi  # for half-spaces with surroundings that do not slip
+TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # of the surroundings' strengthening
+
+
+@style.styled
+def draw_patches(table: xr.Dataset) -> Figure:
+    """Draw widths over L_c against the surroundings' strengthening, one panel for each zeta/a."""
+    rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
+    ratios = np.unique(rounded["ratio"])
+    figure, panels = style.panels(1, ratios.size, 7.5)
+    panels = np.ravel(panels)
+    for axes, letter, ratio in zip(panels, "abcdefgh", ratios, strict=False):
+        _draw_weakening(axes, laws.where(rounded, ratio=ratio))
+        axes.set_title(rf"({letter}) $\zeta/a$ = {ratio:.2g}")
+    panels[0].set_ylabel("Width of the patch $W/L_c$")
+    entries = style.entries(panels[0])
+    for label, marker, colour in LOOKS.values():
+        entries[label] = style.key(label, marker, colour=colour, mfc="none")
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside upper center",
+        ncols=len(entries),
+    )
+    return figure
+
+
+def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
+    """The theory's curve and the runs with one friction of the patch."""
+    theory = laws.where(rows, outcome="theory")
+    curve = theory["smallest_width"] / theory["critical_length"]
+    axes.plot(theory["strengthening"], curve, color=style.BLACK, label=THEORY)
+    style.level(axes, RIGID, label="asperity, rigid surroundings")
+    for name, (_, marker, colour) in LOOKS.items():
+        own = laws.where(rows, outcome=name)
+        width = own["width"] / own["critical_length"]
+        axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
+    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
+    axes.set(
+        xscale="log",
+        xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
+        ylim=(0.0, top),
+    )
+    style.plain_numbers(axes.xaxis, TICKS)

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.pictures import style
 
-from ...tables.pairs import over_realisations
-from .. import laws
+from ..tables.pairs import over_realisations
+from . import laws
 from .figure_studies import Curves
 
 _SIDES = (
@@ -31,21 +31,7 @@ _THEORY = "theory $L_c$, free far sides"
 
 @style.styled
 def draw(table: xr.Dataset, theory: Curves) -> Figure:
-    """Draw (a) the lengths of identical blocks and (b) the lengths of all pairs over the theory's.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.pairs.gather_pairs`.
-    theory : mapping
-        The theory's length (``length``, m) of identical blocks over closely spaced heights (``x``,
-        m), by a label. If it is empty, the theory's lengths of the runs are connected.
-
-    Returns
-    -------
-    Figure
-        Two panels.
-    """
+    """Draw (a) lengths of identical blocks and (b) the lengths of all pairs over the theory's."""
     figure, (left, right) = style.panels(1, 2, 7.4)
     table = over_realisations(table)
     table = laws.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check

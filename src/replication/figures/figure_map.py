@@ -13,8 +13,8 @@ from scipy.ndimage import convolve1d
 from nucleation.pictures import style
 from nucleation.types import Array
 
-from ...tables.map import mean_over_seeds
-from .parameter_axes import edges
+from ..tables.map import mean_over_seeds
+from .study_axes import edges
 
 _RATIOS = (0.45, 1.0)  # range of the colours
 _CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0, 1.2)
@@ -33,16 +33,6 @@ def draw(grid: xr.Dataset) -> Figure:
 
     The images show stability, and the drop at the weakest and the strongest perturbation. Lengths
     over height are drawn for a few weakenings.
-
-    Parameters
-    ----------
-    grid : Dataset
-        From :func:`replication.tables.map.on_grid`.
-
-    Returns
-    -------
-    Figure
-        Four panels.
     """
     figure, ((stable, quiet), (noisy, slices)) = style.panels(2, 2, 13.0)
     stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)

@@ -14,14 +14,14 @@ from nucleation.model.quantities import Quantity
 from nucleation.pictures import style
 from nucleation.types import Array
 
-from .. import laws
-from .parameter_axes import label_of, named, set_scale, symbol_of
-from .study_maps import draw_maps
+from . import laws
+from .study_axes import edges, label_of, named, set_scale, symbol_of
 
 Values = dict[str, list[float] | list[str]]
 Entries = dict[str, Quantity]
 Curves = Mapping[str, Mapping[str, Sequence[float] | Array]]
 
+_RATIO_MAP = "cividis"  # looks the same to all colour vision
 _DASHES = ("-", "--", "-.", ":")  # of the theory's curves
 _FEW_ROWS = 2  # of two varied numbers on a grid, one with so few values makes curves, not a map
 _FEW = 6  # so few faults have a marker each, if no number is an axis
@@ -44,25 +44,6 @@ def draw(
     the theory's. Otherwise simulations are drawn against theory, with the varied parameters in the
     title. Texts, such as the evolution law, have different markers. Runs without an event are in a
     separate strip.
-
-    Parameters
-    ----------
-    table : Dataset
-        The study's table of lengths, from :func:`replication.tables.lengths.lengths_table`.
-    varied : dict
-        Each parameter with several values in the study, and its value in every run, in the order of
-        the table.
-    entries : dict
-        Fields of the :class:`~nucleation.model.quantities.Quantity` of each of these parameters.
-    theory : mapping
-        If one number is varied: closely spaced values of it (``x``) and the theory's lengths there
-        (``length``, m), by the label of the runs' texts. Where it has none, lines connect the
-        theory's lengths of the runs.
-
-    Returns
-    -------
-    Figure
-        One panel, or two maps.
     """
     declared = {name: Quantity(**fields) for name, fields in entries.items()}
     numbers = [name for name, entry in declared.items() if not entry.choices]
@@ -72,7 +53,7 @@ def draw(
         along, other = sorted(numbers, key=lambda name: -grid[name].size)
         if grid[along].size * grid[other].size == table.sizes["run"]:
             if grid[other].size > _FEW_ROWS:
-                return draw_maps(table, varied, declared, grid)
+                return _draw_maps(table, varied, declared, grid)
             numbers = [along]
             words = [other]
     if len(numbers) == 1:
@@ -228,3 +209,44 @@ def _draw_theory(
             color=style.THEORY,
             label=f"theory, {kind}" if kind else "theory",
         )
+
+
+def _draw_maps(
+    table: xr.Dataset,
+    varied: Mapping[str, Sequence[float] | Sequence[str]],
+    entries: Mapping[str, Quantity],
+    grid: Mapping[str, Array],
+) -> Figure:
+    """Draw maps of the length and of its ratio to the theory's."""
+    along, up = grid
+    x = np.asarray(varied[along], dtype=float)
+    y = np.asarray(varied[up], dtype=float)
+    at = np.searchsorted(grid[up], y), np.searchsorted(grid[along], x)
+    figure, (left, right) = style.panels(1, 2, 7.476, sharex=True, sharey=True)
+    length = table["length"].values
+    ratio = length / table["critical_length"].values
+    lost = ~np.isfinite(length)
+    label = f"no event ({lost.sum()} of {lost.size})"
+    for axes, values, title, colours in (
+        (left, length, "(a) Length at the drop, simulated (m)", style.SEQUENCE),
+        (right, ratio, "(b) Simulations over theory", _RATIO_MAP),
+    ):
+        image = np.full((grid[up].size, grid[along].size), np.nan)
+        image[at] = values
+        mesh = axes.pcolormesh(
+            edges(grid[along]),
+            edges(grid[up]),
+            image,
+            cmap=colours,
+        )
+        axes.plot(x[lost], y[lost], "x", color=style.VERMILLION, label=label)
+        figure.colorbar(mesh, ax=axes, pad=0.02)
+        axes.set_title(title)
+        axes.set_xlabel(label_of(along, entries[along]))
+        set_scale(axes, "x", grid[along])
+        set_scale(axes, "y", grid[up])
+        axes.tick_params(which="both", direction="out", top=False, right=False)
+    if lost.any():
+        left.legend(frameon=True, framealpha=1.0)
+    left.set_ylabel(label_of(up, entries[up]))
+    return figure

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from nucleation.pictures import style
 
-from .. import laws
+from . import laws
 
 _PERCENT = 1e2
 _SPREAD = 0.5  # of the markers of one row, over the distance of rows
@@ -33,18 +33,7 @@ _PANELS = (
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
-    """Draw relative changes of L, and of L over the theory's L_c, one row for each variation.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.sensitivity.sensitivity_table`.
-
-    Returns
-    -------
-    Figure
-        Two panels.
-    """
+    """Draw relative changes of L, and of L over the theory's L_c, one row for each variation."""
     shown = laws.where(table, table["variation"].values != "base")
     variations = list(dict.fromkeys(shown["variation"].values.tolist()))
     rows = len(variations)

@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from nucleation.model.friction.registry import USUAL_EVOLUTION
 from nucleation.pictures import style
 
-from .. import laws
+from . import laws
 
 # the fault in the panels over the strength; height in m
 _SHOWN: dict[str, str | float] = {"evolution": USUAL_EVOLUTION, "height": 0.02}
@@ -36,18 +36,7 @@ _ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
-    """Draw lengths at the drop against strength, and the law beside them.
-
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`replication.tables.drops.drop_files`.
-
-    Returns
-    -------
-    Figure
-        Four panels.
-    """
+    """Draw lengths at the drop against strength, and the law beside them."""
     figure, ((load, state), (ratio, spread)) = style.panels(2, 2, 13.0)
     _draw_strengths(load, table, "normal_load")
     _draw_strengths(state, table, "state")
