@@ -37,7 +37,7 @@ class Stronger(Steady):
     """The same friction at all nodes, but stronger."""
 
     def at(self, time):
-        return dataclasses.replace(super().at(time), strength=np.full(17, STRENGTH))
+        return super().at(time)._replace(strength=np.full(17, STRENGTH))
 
 
 def test_strength_multiplies_friction():

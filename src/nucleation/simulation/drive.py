@@ -6,12 +6,13 @@ a function of time alone: independent of the steps, and the same after a restart
 """
 
 import dataclasses
-from collections.abc import Callable, Mapping
-from typing import ClassVar, Protocol
+from collections.abc import Mapping
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from ..fem.grid import Field, Grid
+from ..fem.body import Body
+from ..fem.grid import Field
 from ..model.parameters import Parameters
 from ..types import Array
 from .realisation import Series, Sheet, profile
@@ -20,8 +21,7 @@ _Recorded = tuple[tuple[str, ...], Array]
 """A variable of a record: its dimensions, and its values."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Imposed:
+class Imposed(NamedTuple):
     """Boundary conditions on the driven edge and on the interface at one instant."""
 
     time: float  # s
@@ -32,79 +32,57 @@ class Imposed:
     acceleration: float = 0.0  # m/s^2, U''(t) of the driven edge
 
 
-class Drive(Protocol):
-    """Loads as functions of time."""
+class Drive:
+    """Loads as functions of time; `velocity` (m/s), unperturbed, is the scale of slip rates."""
 
-    @property
-    def velocity(self) -> float:
-        """Unperturbed velocity (m/s) of the driven edge, the scale of slip rates."""
-
-    @property
-    def moves(self) -> bool:
-        """Whether an edge is moved; the driving force is then the force on it."""
+    velocity: float
+    moves: ClassVar[bool] = True  # an edge is moved, and the driving force is the force on it
 
     def at(self, time: float) -> Imposed:
         """Boundary conditions at a time (s)."""
+        raise NotImplementedError
 
     def load(self, time: float) -> Field:
         """External load (N/m) on the body at a time (s)."""
+        raise NotImplementedError
 
     def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
         """The relative perturbation as a variable of a record, None if nothing is perturbed.
 
-        Parameters
-        ----------
-        times : mapping of str to ndarray
-            Times (s) along the dimensions ``step`` (all steps) and ``time`` (the frames).
+        `times` (s) are those along the dimensions ``step`` (all steps) and ``time`` (the frames).
         """
         return None
 
 
 @dataclasses.dataclass(frozen=True)
-class Steady:
-    """An edge that moves at a constant velocity under a constant load."""
+class Steady(Drive):
+    """An edge that moves at a constant velocity (m/s) under a constant load (N/m)."""
 
-    velocity: float  # m/s
-    constant_load: Field  # N/m, as of a body's ``far_load``
-    moves: ClassVar[bool] = True
+    velocity: float
+    constant_load: Field
 
     def at(self, time: float) -> Imposed:
-        """Boundary conditions at a time (s)."""
         return Imposed(time, self.velocity * time, self.velocity)
 
     def load(self, time: float) -> Field:
-        """The constant load (N/m)."""
         return self.constant_load
-
-    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
-        """None: nothing is perturbed."""
-        return None
 
 
 @dataclasses.dataclass(frozen=True)
-class _Remote:
+class _Remote(Drive):
     """A far shear load that rises with the displacement of an imaginary driven edge.
 
     No edge moves. Where the edge's velocity would fluctuate, the rate of the far load does.
     """
 
+    velocity: float
     near: Steady
     start: Field  # N/m, the far load at time zero
     rising: Field  # N/m per m of the edge's displacement
     moves: ClassVar[bool] = False
 
-    @property
-    def velocity(self) -> float:
-        return self.near.velocity
-
     def at(self, time: float) -> Imposed:
-        imposed = self.near.at(time)
-        return dataclasses.replace(
-            imposed,
-            displacement=0.0,
-            velocity=0.0,
-            acceleration=0.0,
-        )
+        return self.near.at(time)._replace(displacement=0.0, velocity=0.0, acceleration=0.0)
 
     def load(self, time: float) -> Field:
         displacement = self.near.at(time).displacement
@@ -160,12 +138,10 @@ class _UnevenStrength(Steady):
     uneven: Array  # xi at the nodes 0..n_x
 
     def at(self, time: float) -> Imposed:
-        """Boundary conditions at a time (s)."""
         factor = 1.0 + self.strength * self.uneven
-        return dataclasses.replace(super().at(time), strength=factor)
+        return super().at(time)._replace(strength=factor)
 
     def realised(self, times: Mapping[str, Array]) -> _Recorded:
-        """``eps xi`` along x."""
         return ("x",), self.strength * self.uneven
 
 
@@ -179,26 +155,14 @@ class _ForcedState(Steady):
 
     def at(self, time: float) -> Imposed:
         forcing = (self.strength * self.rate) * self.sheet.values(time)
-        return dataclasses.replace(super().at(time), state_forcing=forcing)
+        return super().at(time)._replace(state_forcing=forcing)
 
     def realised(self, times: Mapping[str, Array]) -> _Recorded:
         values = np.array([self.sheet.values(time) for time in times["time"]])
         return ("time", "x"), self.strength * values
 
 
-class _LoadedBody(Protocol):
-    """An elastic body, as far as its loads are concerned."""
-
-    @property
-    def grid(self) -> Grid:
-        """The mesh; its lowest nodes are those of the interface."""
-
-    @property
-    def far_load(self) -> Callable[..., Field]:
-        """Load (N/m) of a normal stress (Pa), and in a period of a shear stress (Pa), on top."""
-
-
-def drive_of(parameters: Parameters, body: _LoadedBody) -> Drive:
+def drive_of(parameters: Parameters, body: Body) -> Drive:
     """The drive of a run: a moving edge, or a far load that rises.
 
     Parameters
@@ -219,10 +183,10 @@ def drive_of(parameters: Parameters, body: _LoadedBody) -> Drive:
     shear = body.far_load(0.0, 1.0)
     start = shear.times(loading.initial_shear_stress)
     per_displacement = loading.stress_rate / loading.velocity
-    return _Remote(near, start, shear.times(per_displacement))
+    return _Remote(near.velocity, near, start, shear.times(per_displacement))
 
 
-def _near_drive(parameters: Parameters, body: _LoadedBody) -> Steady:
+def _near_drive(parameters: Parameters, body: Body) -> Steady:
     """The moving edge and the normal load, with their declared perturbation."""
     declared = parameters.perturbation
     velocity = parameters.loading.velocity
