@@ -6,7 +6,7 @@ from fem.assembled_problem import AssembledBlock
 
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Field, Grid, Motion
-from nucleation.fem.operator import foreseen_edge
+from nucleation.fem.right_edge import foreseen_edge
 from nucleation.model.material import Material
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)

@@ -25,7 +25,6 @@ mean of a period stay.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -34,9 +33,10 @@ from numpy.typing import NDArray
 
 from ..types import Array
 from . import edge_kernels, kernels
-from .grid import Components, Field, Motion
-from .layer import Layer, Layers
-from .right_edge import EdgeValues, RightEdge
+from .factors import Before, LayerFactors
+from .grid import Components, Field
+from .layer import Layers
+from .right_edge import EdgeValues
 
 Blocks = tuple[NDArray, NDArray]
 """D and N between some nodes."""
@@ -55,85 +55,6 @@ class Response:
     edge: Array  # m, the edge values
     swept: Array | None = None  # N/m, the load swept down to the interface with these edge values,
     start: Array | float = 0.0  # m, and the displacement of a pair's interface under it at w = 0
-
-
-def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> Array:
-    """Edge values (m) after a step (s) with the acceleration of the last step."""
-    now = motions[0]
-    before = motions[-1]
-    edge = now.displacement.edge + step * now.velocity.edge
-    if last_step == 0.0:
-        return edge
-    change = now.velocity.edge - before.velocity.edge
-    return edge + (0.5 * step**2 / last_step) * change
-
-
-class Before(NamedTuple):
-    """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
-
-    coefficients: Sequence[float]  # c1 and c2
-    beta: float  # s
-    newest: Field
-    oldest: Field
-
-
-class LayerFactors:
-    """``K + s M`` of a layer for one ``s`` (1/s^2), eliminated mode by mode down to its interface.
-
-    `pivot` is the stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy.
-    """
-
-    def __init__(self, layer: Layer, s: float) -> None:
-        self.layer = layer
-        modes = layer.modes
-        material = layer.material
-        density = s * material.density
-        self.pivot = np.empty((3, modes.n_x))
-        self.inverse = np.zeros((layer.levels, 3, modes.n_x))
-        self.lower = np.empty((layer.levels - 1, 4, modes.n_x))
-        kernels.factorise(
-            material.p_wave_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.shear_modulus * modes.x_mass,
-            material.shear_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.p_wave_modulus * modes.x_mass,
-            modes.sine,
-            layer.mass,
-            layer.stiffness,
-            layer.derivative,
-            material.lame_modulus,
-            material.coupling_modulus,
-            layer.held,
-            self.pivot,
-            self.inverse,
-            self.lower,
-        )
-        self.edge = RightEdge(layer, s, self.inverse, self.lower) if modes.has_edge else None
-
-    @property
-    def megabytes(self) -> float:
-        """Memory that the factors hold once all of their parts are in use (MB)."""
-        levels = self.layer.levels
-        return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
-
-    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
-        """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
-        profiles = np.zeros((3, edge.size)) if self.edge is None else self.edge.profiles(edge)
-        modes = self.layer.modes
-        kernels.eliminate(self.lower, load.modes, profiles, modes.edge_weights, modes.scale, out)
-
-    def substitute(self, modes: Array) -> None:
-        """Sweep a swept load back from the interface's displacement in level 0, in place.
-
-        At least the two lowest levels are given.
-        """
-        levels = len(modes)
-        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
-
-    def move(self, before: Before, modes: Array, newest: Array, oldest: Array, rate: Array) -> None:
-        """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
-        c1, c2 = before.coefficients
-        beta = before.beta
-        kernels.move(self.inverse, self.lower, modes, c1, c2, beta, newest, oldest, rate)
 
 
 class Balance(NamedTuple):

@@ -7,6 +7,7 @@ the interface decays exponentially over some heights of the block.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -14,13 +15,23 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ..types import Array
 from . import edge_kernels, kernels
-from .grid import Components, Field
-from .layer import Layer, Layers
-from .matrices import dense, product, transposed
+from .grid import Components, Field, Motion
+from .layer import Layer, Layers, dense, product, transposed
 from .modes import BlockModes
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
+
+
+def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> Array:
+    """Edge values (m) after a step (s) with the acceleration of the last step."""
+    now = motions[0]
+    before = motions[-1]
+    edge = now.displacement.edge + step * now.velocity.edge
+    if last_step == 0.0:
+        return edge
+    change = now.velocity.edge - before.velocity.edge
+    return edge + (0.5 * step**2 / last_step) * change
 
 
 class RightEdge:

@@ -18,8 +18,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..fem.body import Body
+from ..fem.factors import Before
 from ..fem.grid import Field, Motion
-from ..fem.operator import Before, Operator, foreseen_edge
+from ..fem.operator import Operator
+from ..fem.right_edge import foreseen_edge
 from ..types import Array, Arrays
 from . import passes
 from .drive import Drive, Imposed
