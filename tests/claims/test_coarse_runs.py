@@ -58,7 +58,7 @@ def test_reasons_of_coarse_runs(claims):
     for row in claims:
         assert_reads_well(row["reason"])
     by_id = {row["id"]: row for row in claims}
-    assert "On a mesh of 80 x 10 elements it holds" in by_id["length-increases"]["reason"]
+    assert "On a mesh of 80 x 10 elements it holds" in by_id["slow-creep"]["reason"]
     assert by_id["mesh-along"]["verdict"] == Verdict.UNCHECKED
     assert "these runs have another" in by_id["mesh-along"]["reason"]
 

@@ -159,11 +159,12 @@ def test_agreement_has_its_numbers_by_reading(rows):
     aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.initial_state == 1)]
     reason = rows["theory-agreement"]["reason"]
     columns = ["length", "length_high_start", "critical_length"]
-    for study, label in (("converged", "% of one"), ("paper", "paper's mesh")):
+    for study, label in (("converged", "Within"), ("paper", "paper's mesh within")):
         own = aging[aging.study == study].groupby("height")[columns].mean()
         ratio = own.length / own.critical_length
         near = [int((abs(ratio - 1.0) < width).sum()) for width in (0.4, 0.33, 0.3, 0.25, 0.1)]
-        assert f"{label}: {', '.join(map(str, near))} of 9" in reason
+        stated = f"{label} 40, 33, 30, 25, 10 % of one are {', '.join(map(str, near))} of 9."
+        assert stated in reason
         if study == "converged":
             wide = (own.length_high_start / own.critical_length).min()
             assert f"{ratio.min():.2f} to {ratio.max():.2f}, with the edge at 0.5 V" in reason
@@ -274,7 +275,7 @@ def test_dependence_on_height_is_judged_at_all_heights():
         at = np.isclose(lengths["height"], 0.03)
         lengths["length"] = lengths["length"] * xr.where(at, 1.6, 1.0)
     row = judged("height-dependence", evidence(lengths=tuple(changed)))
-    assert row["ours"] > 1.4 and "of one: 33, 28, 28, 28, 28 of 36" in row["reason"]
+    assert row["ours"] > 1.4 and "of one are 33, 28, 28, 28, 28 of 36" in row["reason"]
 
 
 def test_configuration_without_the_runs_can_not_be_checked():

@@ -89,22 +89,27 @@ def test_two_half_spaces(pair):
     psi, nu, nu2 = pair
     expected = half_spaces(nu, psi, nu2)
     assert printed.bimaterial_transfer(*pair) == pytest.approx(expected, rel=1e-10)
-    assert theory.half_spaces(nu, psi, nu2) == pytest.approx(expected, rel=1e-10)
+    on = evidence()
+    modulus = psi * on.material.shear_modulus
+    changes = {"second_shear_modulus": modulus, "second_poisson_ratio": nu2}
+    found = theory.main_text(on, poisson_ratio=nu, **changes).transfer_functions(1.0)
+    assert found == pytest.approx(expected, rel=1e-10)
 
 
 def test_identical_and_mirrored_bodies_are_not_coupled():
     assert half_spaces(NU) == pytest.approx((1.0 / (2.0 * (1.0 - NU)), 0.0), abs=1e-10)
     for q in (0.1, 1.0, 3.0):
         mirrored = (Layer(side, NU, points=32) for side in (q, -q))
-        layer = theory.layer(q, NU, far_side="velocity")
-        assert pair_transfer(*mirrored) == pytest.approx(theory.transfer(layer, layer), abs=1e-9)
+        layers = theory.main_text(evidence(), height=q, second_height=q, far_side="velocity")
+        found = layers.replace(second_far_side="velocity").transfer_functions(1.0)
+        assert pair_transfer(*mirrored) == pytest.approx(found, abs=1e-9)
 
 
 @pytest.mark.parametrize("q", [1e-3, *theory.LAYER_NUMBERS, HALF_SPACE])
 def test_block_on_a_rigid_base(q):
     """Eq. (10) and its limits, by formula, library and collocation."""
     expected = block_transfer(q)
-    assert theory.transfer(theory.layer(q, NU)) == pytest.approx(expected, rel=1e-6)
+    assert theory.block_transfer(evidence(), q) == pytest.approx(expected, rel=1e-6)
     if q > 0.01:  # thinner, the printed formula cancels
         assert printed.block_transfer(q, NU) == pytest.approx(expected, rel=1e-9)
 
@@ -128,7 +133,8 @@ def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():
     on = evidence()
     at, modulus = on.interface, on.material.shear_modulus
     curve = on.theory
-    cases = [(lambda k: half_spaces(NU), *theory._critical(on))]
+    mode = theory.main_text(on).critical_mode()
+    cases = [(lambda k: half_spaces(NU), mode.wavenumber, mode.angular_frequency)]
     for i in (0, -1):
         own = curve.isel(height=i)
         height = float(own["height"])
@@ -207,3 +213,14 @@ def test_a_longer_thin_limit_is_not_replicated(monkeypatch):
     longer = theory.thin_limit_length
     monkeypatch.setattr(theory, "thin_limit_length", lambda *case: 1.02 * longer(*case))
     assert judged("thin-length", evidence())["verdict"] == Verdict.NOT_REPLICATED
+
+
+def test_rubin_and_ampueros_length_is_the_one_that_the_note_has():
+    """And it is outside the range of eta that the paper has for the conventional approach."""
+    on = evidence()
+    _, a, zeta = on.friction.expansion(on.loading.velocity)
+    fault = theory.main_text(on, a=a, zeta=zeta)
+    found = fault.lengths()["rubin_ampuero_localised"].value
+    scale = fault.shear_modulus * fault.slip_distance / (fault.zeta * fault.normal_stress)
+    assert found / scale > 4.0 / 3.0
+    assert rf"$\eta = {found / scale:.2f}$" in judged("literature-eta", on)["reason"]

@@ -245,14 +245,17 @@ def _by_reading(result: Result) -> str:
 
     def counts(found: Found) -> str:
         values = np.array([value_of(one) for one in listed(found)])
+        if values.size == 1:
+            return f"the difference from one is {100.0 * abs(values[0] - 1.0):.0f} %"
         near = [int(np.count_nonzero(np.abs(values - 1.0) < width)) for width in READINGS]
-        return f"{', '.join(map(str, near))} of {values.size}"
+        widths = ", ".join(f"{100 * width:.0f}" for width in READINGS)
+        return f"within {widths} % of one are {', '.join(map(str, near))} of {values.size}"
 
-    widths = ", ".join(f"{100 * width:.0f}" for width in READINGS)
-    reason = f"Within {widths} % of one: {counts(result.found)}."
-    if result.papers is not None:
-        reason += f" On {result.mesh}: {counts(result.papers)}."
-    return reason
+    first = counts(result.found)
+    reason = f"{first[0].upper()}{first[1:]}."
+    return (
+        reason if result.papers is None else f"{reason} On {result.mesh} {counts(result.papers)}."
+    )
 
 
 def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:

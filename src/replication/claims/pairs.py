@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from nucleation.types import Array
 
@@ -45,7 +46,7 @@ class _Senses(NamedTuple):
 # -- rows of the table --------------------------------------------------------------------------
 
 
-def _where(rows: xr.Dataset, mask: Array, missing: str) -> xr.Dataset:
+def _where(rows: xr.Dataset, mask: NDArray[np.bool], missing: str) -> xr.Dataset:
     """The rows of a mask; raises Missing with a message if there are none."""
     if not mask.any():
         raise Missing(missing)
