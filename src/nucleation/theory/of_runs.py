@@ -27,7 +27,7 @@ def far_sides(parameters: Parameters) -> tuple[str, str]:
 
 
 def fault_of_run(parameters: Parameters) -> dict[str, Any]:
-    """The fault of a run, as keywords of :class:`~nucleation.api.fault.Fault`, in SI units.
+    """The fault of a run, as keywords of :class:`~nucleation.fault.fault.Fault`, in SI units.
 
     f, a and zeta are those of the friction law about V. With another loading than ``edge`` a and b
     are constant along the creeping patch, so that the law is left out.

@@ -43,7 +43,7 @@ def fault_from(
     Returns
     -------
     dict
-        Keywords of :class:`~nucleation.api.fault.Fault`, some of which may be missing; with the
+        Keywords of :class:`~nucleation.fault.fault.Fault`, some of which may be missing; with the
         friction law if its constants are known and the patch is pushed at an edge.
 
     Raises

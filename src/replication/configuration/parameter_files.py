@@ -35,7 +35,7 @@ def read_parameters(
     Returns
     -------
     dict
-        In SI units, by names in studies or of :class:`~nucleation.api.fault.Fault`; with the
+        In SI units, by names in studies or of :class:`~nucleation.fault.fault.Fault`; with the
         parameters of the second body as of :func:`with_second_body`.
 
     Raises
