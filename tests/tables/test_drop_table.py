@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from test_delay import LOAD, PARAMETERS, START, history
+from drop.test_delay import LOAD, PARAMETERS, START, history
 
 from nucleation.drop.delay import growth
 from nucleation.model.identity import fault

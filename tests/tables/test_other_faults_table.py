@@ -7,7 +7,7 @@ from asked import expected_drop
 from nucleation.model.identity import ensemble
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
-from replication.tables.other_faults import GIVEN, gather_other_faults
+from replication.tables.weakening import OF_FAULT, gather_other_faults
 
 FAULTS = [
     Parameters(perturbation=Perturbation(kind="normal_load", strength=strength))
@@ -20,7 +20,7 @@ def drops(lengths):
     """The study's table: a list of lengths (m) for each fault."""
     digests = [ensemble(FAULTS[i]) for i, own in enumerate(lengths) for _ in own]
     count = len(digests)
-    columns = {name: np.zeros(count) for name in GIVEN}
+    columns = {name: np.zeros(count) for name in OF_FAULT}
     columns |= {"length": np.concatenate(lengths), "ensemble": np.array(digests)}
     columns["reached_length"] = np.nan_to_num(columns["length"], nan=0.9)
     columns |= {"zeta": np.full(count, 0.014), "a": np.full(count, 0.007)}

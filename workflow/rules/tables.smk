@@ -45,7 +45,7 @@ rule other_faults:
     log:
         f"{RESULTS}/logs/other_faults.log",
     params:
-        call="replication.tables.other_faults:gather_other_faults",
+        call="replication.tables.weakening:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
         runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
     shell:

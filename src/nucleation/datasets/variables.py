@@ -31,9 +31,9 @@ class Variable(NamedTuple):
         return {name: text for name, text in self._asdict().items() if text}
 
 
-def some(columns: Mapping[str, Variable], *names: str) -> dict[str, Variable]:
-    """Select declared variables, in the order of the names."""
-    return {name: columns[name] for name in names}
+def some(columns: Mapping[str, Variable], names: str) -> dict[str, Variable]:
+    """Select declared variables, in the order of their names, which blanks separate."""
+    return {name: columns[name] for name in names.split()}
 
 
 def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset:

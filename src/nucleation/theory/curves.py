@@ -19,7 +19,7 @@ CURVES = {
     "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),
     "critical_frequency": Variable("1/s", "angular frequency at the critical wavenumber", "omega"),
     "thin_limit_length": Variable("m", "critical nucleation length for Hk -> 0", "L_c"),
-    **some(SHARED, "zeta_over_a", "f_beta"),
+    **some(SHARED, "zeta_over_a f_beta"),
     "bimaterial_length_ratio": Variable(
         "1", "critical length of a bimaterial interface over L_c^M", "L_c/L_c^M"
     ),
@@ -27,7 +27,7 @@ CURVES = {
     "steady_friction": Variable("1", "steady-state friction, full law", "f"),
     "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
     "friction_reference": Variable("1", "friction coefficient at V", "f0"),
-    **some(SHARED, "a", "zeta", "velocity"),
+    **some(SHARED, "a zeta velocity"),
 }
 
 

@@ -77,13 +77,7 @@ def _block_on_rigid_base(axes: Axes) -> None:
         style.arrow(axes, (start - 1.0, y), (start - 0.04, y), _MOTION)
     _text(axes, start - 1.35, height / 2.0, "$V$", color=_MOTION)
     _dimension(axes, (end - 0.75, 0.0), (end - 0.75, height), "$H$", (-0.4, 0.0))
-    _dimension(
-        axes,
-        (start, -depth - 0.45),
-        (end, -depth - 0.45),
-        "$L$",
-        (0.0, -0.4),
-    )
+    _dimension(axes, (start, -depth - 0.45), (end, -depth - 0.45), "$L$", (0.0, -0.4))
     _text(axes, end + 0.35, height / 2.0, "free", rotation=90)
     style.arrow(axes, (end, 0.0), (end + 1.2, 0.0), style.BLACK)
     style.arrow(axes, (start, height), (start, height + 1.0), style.BLACK)
@@ -97,65 +91,31 @@ def _tint(colour: str) -> _Colour:
     return tuple(1.0 - 0.55 * (1.0 - c) for c in to_rgb(colour))
 
 
-def _faded_body(
-    axes: Axes,
-    x: Point,
-    y: Point,
-    colour: str,
-) -> None:
+def _faded_body(axes: Axes, x: Point, y: Point, colour: str) -> None:
     """A body without ends: its colour and its edges fade to either side."""
     _faded_band(axes, x, y, _tint(colour), order=0.0)
     black = (0.0, 0.0, 0.0)
     for edge in y:
         width = 0.06 if edge == 0.0 else 0.03  # the interface is the heavier line
-        _faded_band(
-            axes,
-            x,
-            (edge - width / 2.0, edge + width / 2.0),
-            black,
-            order=1.0,
-        )
+        _faded_band(axes, x, (edge - width / 2.0, edge + width / 2.0), black, order=1.0)
 
 
-def _faded_band(
-    axes: Axes,
-    x: Point,
-    y: Point,
-    colour: _Colour,
-    order: float,
-) -> None:
+def _faded_band(axes: Axes, x: Point, y: Point, colour: _Colour, order: float) -> None:
     """A horizontal band that is opaque inside and transparent at its ends."""
     position = np.linspace(-1.0, 1.0, 512)
     image = np.empty((1, position.size, 4))
     image[..., :3] = colour
     image[..., 3] = np.clip((1.0 - np.abs(position)) / 0.3, 0.0, 1.0)
-    axes.imshow(
-        image,
-        extent=(*x, *y),
-        aspect="equal",
-        interpolation="bilinear",
-        zorder=order,
-    )
+    axes.imshow(image, extent=(*x, *y), aspect="equal", interpolation="bilinear", zorder=order)
 
 
-def _pressure(
-    axes: Axes,
-    positions: Array,
-    edge: float,
-    outwards: float,
-) -> None:
+def _pressure(axes: Axes, positions: Array, edge: float, outwards: float) -> None:
     """A row of arrows that press on a horizontal edge from outside."""
     for x in positions:
         style.arrow(axes, (x, edge + 0.8 * outwards), (x, edge))
 
 
-def _dimension(
-    axes: Axes,
-    start: Point,
-    end: Point,
-    label: str,
-    offset: Point,
-) -> None:
+def _dimension(axes: Axes, start: Point, end: Point, label: str, offset: Point) -> None:
     """A double-headed arrow between two points, with a label at an offset from its middle."""
     style.arrow(axes, start, end, style.GUIDE, "<|-|>")
     x, y = np.mean([start, end], axis=0) + offset

@@ -119,21 +119,10 @@ def _draw_differences(
                 axes.plot(at[:coarse], shown[:coarse], marker, **style.OPEN, **look)
                 axes.plot(at[coarse:], shown[coarse:], marker, **look)
         axes.plot([], [], marker, label=meaning, **look)
-    axes.set(
-        yscale="log",
-        ylim=(LEAST / 2.0, 30.0),
-        xlim=(-0.6, len(found) - 0.4),
-        ylabel=label,
-    )
+    axes.set(yscale="log", ylim=(LEAST / 2.0, 30.0), xlim=(-0.6, len(found) - 0.4), ylabel=label)
     axes.set_yticks([LEAST, 0.1, 10.0], [f"\u2264 {LEAST:g}", "0.1", "10"])
     names = [_name(key, usual_age) for key in found]
-    axes.set_xticks(
-        range(len(found)),
-        names,
-        rotation=40.0,
-        ha="right",
-        rotation_mode="anchor",
-    )
+    axes.set_xticks(range(len(found)), names, rotation=40.0, ha="right", rotation_mode="anchor")
     axes.xaxis.set_minor_locator(NullLocator())
     axes.tick_params(axis="x", length=0)
 
@@ -144,11 +133,7 @@ def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
     return laws.groups(laws.where(rows, refinement=refined), *_FAULT, *others)
 
 
-def _draw_lengths(
-    axes: Axes,
-    table: xr.Dataset,
-    refined: str,
-) -> None:
+def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     """Lengths of quiet and of perturbed runs of the same faults, against the refined parameter."""
     quiet = laws.where(table, kind="none")
     heights = np.unique(quiet["height"].values).tolist()

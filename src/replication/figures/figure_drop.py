@@ -48,14 +48,7 @@ def draw(table: xr.Dataset) -> Figure:
     entries: style.Options = dict(style.entries(load, state))
     if _LAW in entries:
         line = style.key("", "", "-", style.THEORY)
-        entries[_LAW] = (
-            Patch(
-                color=style.GUIDE,
-                alpha=_BAND_ALPHA,
-                linewidth=0.0,
-            ),
-            line,
-        )
+        entries[_LAW] = (Patch(color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0), line)
     entries[_MEAN] = style.key(_MEAN, "o", "-", **style.OPEN)
     figure.legend(
         entries.values(),
@@ -75,11 +68,7 @@ def ensembles(table: xr.Dataset) -> list[xr.Dataset]:
     return list(laws.groups(laws.where(table, dropped), *ENSEMBLE))
 
 
-def _draw_strengths(
-    axes: Axes,
-    table: xr.Dataset,
-    kind: str,
-) -> None:
+def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     """One kind of perturbation of the shown fault."""
     fault = _shown_fault(table)
     own = laws.where(fault, kind=kind).sortby("strength")
@@ -88,15 +77,7 @@ def _draw_strengths(
     if own.sizes["run"]:
         _draw_law(axes, table, own, theory)
         ratio = own["length"] / theory
-        axes.plot(
-            own["strength"],
-            ratio,
-            ".",
-            color=colour,
-            alpha=0.35,
-            ms=3.0,
-            mew=0.0,
-        )
+        axes.plot(own["strength"], ratio, ".", color=colour, alpha=0.35, ms=3.0, mew=0.0)
     look: style.Options = {"marker": marker, "ms": 4.0, "color": colour, **style.OPEN}
     for runs in ensembles(own):
         lengths = runs["length"].values / theory
@@ -106,12 +87,7 @@ def _draw_strengths(
     label = "patch turns unstable, $L_s$"
     style.level(axes, stability, ":", 1.0, color=style.STABILITY, label=label)
     axes.set_title(f"fluctuating {label}", loc="center")
-    axes.set(
-        xscale="log",
-        xlim=_STRENGTHS,
-        ylim=_RATIOS,
-        xlabel=r"Relative strength $\epsilon$",
-    )
+    axes.set(xscale="log", xlim=_STRENGTHS, ylim=_RATIOS, xlabel=r"Relative strength $\epsilon$")
 
 
 def _shown_fault(table: xr.Dataset) -> xr.Dataset:
@@ -122,12 +98,7 @@ def _shown_fault(table: xr.Dataset) -> xr.Dataset:
     return laws.where(runs, fault=runs["fault"].values[0])  # of one material
 
 
-def _draw_law(
-    axes: Axes,
-    table: xr.Dataset,
-    own: xr.Dataset,
-    theory: float,
-) -> None:
+def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> None:
     """The law's median and range, and its closed form, up to the strongest of some runs."""
     same_fault = table["curve_fault"].values == own["fault"].values[0]
     cases = np.flatnonzero(same_fault & (table["curve_kind"].values == own["kind"].values[0]))
@@ -139,12 +110,7 @@ def _draw_law(
     strength = law["curve_strength"]
     ends = (law["curve_low"] / theory, law["curve_high"] / theory)
     axes.fill_between(strength, *ends, color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0)
-    axes.plot(
-        strength,
-        law["curve_length"] / theory,
-        color=style.THEORY,
-        label=_LAW,
-    )
+    axes.plot(strength, law["curve_length"] / theory, color=style.THEORY, label=_LAW)
     axes.plot(
         strength,
         law["curve_closed_form"] / theory,
@@ -155,12 +121,7 @@ def _draw_law(
     )
 
 
-def _draw_floors(
-    axes: Axes,
-    fault: xr.Dataset,
-    floor: str,
-    theory: float,
-) -> None:
+def _draw_floors(axes: Axes, fault: xr.Dataset, floor: str, theory: float) -> None:
     """Quiet runs, each at the strength for which the law's median is its length."""
     quiet = laws.where(fault, kind="none").sortby([floor, "length", "n_x"])
     inside = (2.0 * _STRENGTHS[0] < quiet[floor]) & (quiet[floor] < _STRENGTHS[1])
@@ -219,11 +180,7 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         axes.step(lengths, parts, dashes, color=colour, **look)
         law = [float(first[name]) / theory for name in _QUANTILES]
         axes.plot(law, [*_QUANTILES.values()], marker, color=colour, ms=3.5, **style.OPEN)
-    axes.set(
-        ylim=(0.0, 1.0),
-        xlabel="Length over theory $L/L_c$",
-        ylabel="Part that has dropped",
-    )
+    axes.set(ylim=(0.0, 1.0), xlabel="Length over theory $L/L_c$", ylabel="Part that has dropped")
     handles = axes.get_legend_handles_labels()[0]
     if handles:
         law_key = style.key("law: 16, 50, 84 %", "o", markersize=3.5, **style.OPEN)

@@ -33,13 +33,7 @@ def draw(table: xr.Dataset) -> Figure:
         look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
         left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
         _draw_growth(right, rows, look)
-    left.axvspan(
-        LOCALISED_LIMIT,
-        CRACK_LIMIT,
-        color="0.9",
-        lw=0,
-        label="neither formula holds",
-    )
+    left.axvspan(LOCALISED_LIMIT, CRACK_LIMIT, color="0.9", lw=0, label="neither formula holds")
     left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
     left.set_title(f"(a) read at {_SHOWN_AT:g} m/s")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
@@ -54,11 +48,7 @@ def draw(table: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_growth(
-    axes: Axes,
-    rows: xr.Dataset,
-    look: style.Options,
-) -> None:
+def _draw_growth(axes: Axes, rows: xr.Dataset, look: style.Options) -> None:
     """One line for each a/b, of its first run; dashed: the formula at that slip rate."""
     rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
     for same in laws.groups(rows, "ratio"):
@@ -71,11 +61,4 @@ def _draw_growth(
         if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
             ratio = float(same["ratio"][0])
             place = "bottom" if ratio < 0.5 else "top"
-            style.note(
-                axes,
-                f"{ratio:.2g}",
-                (x[-1], y[-1]),
-                (5, 0),
-                va=place,
-                color=look["color"],
-            )
+            style.note(axes, f"{ratio:.2g}", (x[-1], y[-1]), (5, 0), va=place, color=look["color"])

@@ -48,11 +48,7 @@ def draw(grid: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_ratio(
-    axes: Axes,
-    ratio: xr.DataArray,
-    title: str,
-) -> QuadMesh:
+def _draw_ratio(axes: Axes, ratio: xr.DataArray, title: str) -> QuadMesh:
     """An image of a ratio over height and weakening, with contours; grey where there is none."""
     values = ratio.transpose("zeta_over_a", "height").values
     height = ratio["height"].values
@@ -74,12 +70,7 @@ def _draw_ratio(
     return image
 
 
-def _draw_contours(
-    axes: Axes,
-    height: Array,
-    weakening: Array,
-    values: Array,
-) -> None:
+def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -> None:
     """Contours of the ratio, smoothed over neighbours, without short pieces."""
     smooth = _smoothed(_smoothed(values).T).T
     look: style.Options = {"levels": _CONTOURS, "colors": "white", "linewidths": 0.7}
@@ -91,16 +82,7 @@ def _draw_contours(
 def _smoothed(values: Array) -> Array:
     """Weighted means of neighbours in a column, of those that are known; NaN stays NaN."""
     known = np.isfinite(values)
-    total = convolve1d(
-        np.where(
-            known,
-            values,
-            0.0,
-        ),
-        _WEIGHTS,
-        axis=0,
-        mode="constant",
-    )
+    total = convolve1d(np.where(known, values, 0.0), _WEIGHTS, axis=0, mode="constant")
     share = convolve1d(known.astype(float), _WEIGHTS, axis=0, mode="constant")
     return np.divide(total, share, out=np.full(values.shape, np.nan), where=known)
 
@@ -112,12 +94,7 @@ def _long(path: Path) -> Path:
     return Path.make_compound_path(*[Path(piece) for piece in pieces if len(piece) >= _SHORTEST])
 
 
-def _draw_slices(
-    axes: Axes,
-    grid: xr.Dataset,
-    stability: xr.DataArray,
-    drop: xr.DataArray,
-) -> None:
+def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray) -> None:
     """Theory, stability and drop over height for a few weakenings."""
     weakenings = grid["zeta_over_a"].values
     height = grid["height"].values
@@ -127,28 +104,10 @@ def _draw_slices(
         theory = grid["critical_length"].values[:, i]
         axes.plot(height, theory, color=colour)
         axes.plot(height, theory * drop[:, i], marker, color=colour, markersize=3.5)
-        axes.plot(
-            height,
-            theory * stability[:, i],
-            "--",
-            color=colour,
-            linewidth=0.9,
-        )
+        axes.plot(height, theory * stability[:, i], "--", color=colour, linewidth=0.9)
         name = rf"$\zeta/a = {weakenings[i]:.2g}$"
-        style.note(
-            axes,
-            name,
-            (height[-1], theory[-1]),
-            (5.0, 0.0),
-            va="center",
-            color=colour,
-        )
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Block height $H$ (m)",
-        ylabel="Length (m)",
-    )
+        style.note(axes, name, (height[-1], theory[-1]), (5.0, 0.0), va="center", color=colour)
+    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
     axes.set_title("(d) lengths over height")
     low, high = axes.get_ylim()
     axes.set_ylim(top=high * (high / low) ** _LEGEND_ROOM)

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.pictures import style
@@ -42,23 +43,13 @@ def draw(table: xr.Dataset, theory: Curves) -> Figure:
     return figure
 
 
-def _draw_heights(
-    axes: Axes,
-    rows: xr.Dataset,
-    curves: Curves,
-) -> None:
+def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     height = rows["height"].values
     theory = rows["critical_length"].values
     connected = {"": {"x": height, "length": theory}}
     for curve in (curves or connected).values():
         axes.plot(curve["x"], curve["length"], color=style.THEORY, label=_THEORY)
-    axes.plot(
-        height,
-        rows["length"],
-        "o",
-        color=style.VERMILLION,
-        label="at the drop",
-    )
+    axes.plot(height, rows["length"], "o", color=style.VERMILLION, label="at the drop")
     low = theory * rows["length_ratio_low"]
     high = theory * rows["length_ratio_high"]
     axes.vlines(height, low, high, color=style.VERMILLION)
@@ -68,12 +59,9 @@ def _draw_heights(
     if height.size:
         for part, line, label in _HALF_SPACES:
             style.level(axes, part * theory[-1], line, 0.8, label=label)
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Height of each block $H$ (m)",
-        ylabel="Length (m)",
-    )
+    axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    style.plain_numbers(axes.yaxis)
     axes.set_title("(a) identical blocks")
     axes.legend(fontsize=style.SMALL, loc="lower right")
 
@@ -89,11 +77,7 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
         axes.vlines(thickness, *ends, color=colour, linewidth=0.9)
     style.level(axes, 1.0, "-", 1.2, color=style.THEORY, label="theory $L_c$")
     style.level(axes, 0.5, "--", 1.2, color=style.THEORY, label="theory $L_c/2$")
-    axes.set(
-        xscale="log",
-        ylim=(0.4, 1.1),
-        xlabel="Second height over theory $H_2/L_c$",
-    )
+    axes.set(xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$")
     axes.set_ylabel("Length / theory for the same pair")
     axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85), **style.BOXED)

@@ -55,13 +55,7 @@ def draw_stability(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     number = min(_LEGEND_HEIGHTS, heights.size)
     named = np.linspace(0, heights.size - 1, number).round().astype(int)
     for height in heights[named]:
-        frequency.plot(
-            [],
-            [],
-            "-",
-            color=colours[float(height)],
-            label=f"$H={height:g}$ m",
-        )
+        frequency.plot([], [], "-", color=colours[float(height)], label=f"$H={height:g}$ m")
     late = style.key(f"last {_LATE:g} periods", "x", markersize=3.0)
     growth.legend(handles=[late], loc="lower right", handletextpad=0.2)
     frequency.legend(loc="lower left", labelspacing=0.3)
@@ -93,12 +87,7 @@ def _draw_properties(
         axes.plot(ratio[late], values[late], marker="x", ms=2.4, mew=0.6, **look)
 
 
-def _draw_mode(
-    axes: Axes,
-    patch: xr.Dataset,
-    row: xr.Dataset,
-    colour: Array,
-) -> None:
+def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colour: Array) -> None:
     """Modulus of the mode where it begins to grow."""
     length = float(row["stability_length"])
     if np.isfinite(length):
@@ -137,12 +126,7 @@ def draw_theory(table: xr.Dataset) -> Figure:
 def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     """L_s/L_c over zeta/a: the thin limit, and simulations by their height."""
     curve = table["curve_stability"]
-    axes.semilogx(
-        table["curve_ratio"],
-        curve,
-        color=style.STABILITY,
-        label="thin layers",
-    )
+    axes.semilogx(table["curve_ratio"], curve, color=style.STABILITY, label="thin layers")
     own = laws.where(table, f_beta=0.0)
     theory = own["critical_length"]
     drawn = axes.scatter(
@@ -168,14 +152,7 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
         measured = own["stability_length"] / own["critical_length"]
         difference = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
         label = str(own["study"].values[0]).replace("_", " ")
-        axes.plot(
-            measured,
-            difference,
-            marker,
-            color=colour,
-            markersize=2.8,
-            label=label,
-        )
+        axes.plot(measured, difference, marker, color=colour, markersize=2.8, label=label)
     style.band(axes, -100.0 * _BAND, 100.0 * _BAND, f"within {100 * _BAND:g} %")
     axes.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
     axes.figure.legend(
@@ -196,9 +173,5 @@ def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
         label = rf"$f\beta = {float(case['shown_beta']):.2g}$"
         axes.plot(case["shown_x"], case["shown_stress"], color=colour, label=label)
         axes.plot(case["shown_x"], case["shown_rate"], color=colour, linestyle="--")
-    axes.set(
-        xlabel="$x/L_s$",
-        ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)",
-        ylim=(0.0, 2.2),
-    )
+    axes.set(xlabel="$x/L_s$", ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)", ylim=(0.0, 2.2))
     axes.legend(fontsize=style.SMALL)

@@ -61,12 +61,7 @@ def label(variation: str) -> str:
     return rf"${typeset}{sign}{value}$"
 
 
-def _draw_changes(
-    axes: Axes,
-    shown: xr.Dataset,
-    variations: list[str],
-    name: str,
-) -> None:
+def _draw_changes(axes: Axes, shown: xr.Dataset, variations: list[str], name: str) -> None:
     for i in range(0, len(variations), 2):
         axes.axhspan(i - 0.5, i + 0.5, color="0.95", zorder=0)
     heights = list(laws.groups(shown.sortby("height"), "height"))

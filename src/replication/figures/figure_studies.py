@@ -32,10 +32,7 @@ _LINE = 0.16  # inches, of a line in the legend
 
 @style.styled
 def draw(
-    table: xr.Dataset,
-    varied: Values,
-    entries: dict[str, dict[str, Any]],
-    theory: Curves,
+    table: xr.Dataset, varied: Values, entries: dict[str, dict[str, Any]], theory: Curves
 ) -> Figure:
     """Draw one study: a curve, two maps, or points about equality.
 
@@ -66,33 +63,18 @@ def draw(
 
 
 def _rows(
-    table: xr.Dataset,
-    x: Sequence[Any] | Array,
-    varied: Values,
-    words: list[str],
-    entries: Entries,
+    table: xr.Dataset, x: Sequence[Any] | Array, varied: Values, words: list[str], entries: Entries
 ) -> xr.Dataset:
     """The table with the abscissa ``x``, and ``kind``: a label by some varied parameters."""
     kinds = []
     for i in range(table.sizes["run"]):
         values = {name: varied[name][i] for name in words}
-        texts = [
-            _value_text(
-                name,
-                value,
-                entries[name],
-            )
-            for name, value in values.items()
-        ]
+        texts = [_value_text(name, value, entries[name]) for name, value in values.items()]
         kinds.append(", ".join(filter(None, texts)))
     return table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
 
 
-def _value_text(
-    name: str,
-    value: float | str | None,
-    entry: Quantity,
-) -> str:
+def _value_text(name: str, value: float | str | None, entry: Quantity) -> str:
     """A value with its parameter's symbol or name; empty if there is none."""
     if value is None or isinstance(value, str):
         return value or ""
@@ -101,12 +83,7 @@ def _value_text(
     return text if entry.unit == "1" else f"{text} {entry.unit}"
 
 
-def _draw(
-    rows: xr.Dataset,
-    theory: Curves | None,
-    label: str,
-    title: str = "",
-) -> Figure:
+def _draw(rows: xr.Dataset, theory: Curves | None, label: str, title: str = "") -> Figure:
     """Lengths over one number, or over the theory's lengths if `theory` is None."""
     figure = style.new_figure(7.31, style.SINGLE_COLUMN)
     axes, strip = _axes(figure, rows)
@@ -150,11 +127,7 @@ def _axes(figure: Figure, rows: xr.Dataset) -> tuple[Axes, Axes | None]:
     return axes, strip
 
 
-def _draw_runs(
-    axes: Axes,
-    strip: Axes | None,
-    rows: xr.Dataset,
-) -> None:
+def _draw_runs(axes: Axes, strip: Axes | None, rows: xr.Dataset) -> None:
     """Points with bars for the runs with an event, open markers in the strip for the others."""
     for i, same in enumerate(laws.groups(rows, "kind")):
         marker, colour = style.look(i)
@@ -170,11 +143,7 @@ def _draw_runs(
             strip.plot(lost, np.zeros(lost.size), linestyle="none", **look, **style.OPEN)
 
 
-def _distinguishing(
-    varied: Values,
-    words: list[str],
-    numbers: list[str],
-) -> list[str]:
+def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
     """The first numbers that distinguish the faults; none if there are too many faults."""
 
     def faults(number: int) -> int:
@@ -186,11 +155,7 @@ def _distinguishing(
     return numbers[:fewest] if every <= _FEW else []
 
 
-def _draw_theory(
-    axes: Axes,
-    rows: xr.Dataset,
-    theory: Curves,
-) -> None:
+def _draw_theory(axes: Axes, rows: xr.Dataset, theory: Curves) -> None:
     """The theory over one number, a curve for each label, or one if all are the same."""
     curves: dict[str, Mapping[str, Sequence[float] | Array]] = {}
     for same in laws.groups(rows, "kind"):
@@ -233,12 +198,7 @@ def _draw_maps(
     ):
         image = np.full((grid[up].size, grid[along].size), np.nan)
         image[at] = values
-        mesh = axes.pcolormesh(
-            edges(grid[along]),
-            edges(grid[up]),
-            image,
-            cmap=colours,
-        )
+        mesh = axes.pcolormesh(edges(grid[along]), edges(grid[up]), image, cmap=colours)
         axes.plot(x[lost], y[lost], "x", color=style.VERMILLION, label=label)
         figure.colorbar(mesh, ax=axes, pad=0.02)
         axes.set_title(title)

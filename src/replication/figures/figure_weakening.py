@@ -62,20 +62,10 @@ def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset:
     return table.isel(system=np.flatnonzero(same)[0])
 
 
-def _draw_system(
-    axes: Axes,
-    system: xr.Dataset,
-    curves: xr.Dataset,
-) -> None:
+def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
     """The lengths of one base and height."""
     for name, (label, colour, dashes) in _LINES.items():
-        axes.plot(
-            curves["curve_ratio"],
-            curves[name],
-            dashes,
-            color=colour,
-            label=label,
-        )
+        axes.plot(curves["curve_ratio"], curves[name], dashes, color=colour, label=label)
     for fault in laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"):
         simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
@@ -115,12 +105,7 @@ def draw_patches(table: xr.Dataset) -> Figure:
     entries = style.entries(panels[0])
     for label, marker, colour in LOOKS.values():
         entries[label] = style.key(label, marker, colour=colour, mfc="none")
-    figure.legend(
-        entries.values(),
-        entries,
-        loc="outside upper center",
-        ncols=len(entries),
-    )
+    figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
     return figure
 
 
@@ -136,8 +121,6 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
         axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
     top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
     axes.set(
-        xscale="log",
-        xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
-        ylim=(0.0, top),
+        xscale="log", xlabel=r"Strengthening around $-\zeta_\mathrm{out}/\zeta$", ylim=(0.0, top)
     )
     style.plain_numbers(axes.xaxis, TICKS)

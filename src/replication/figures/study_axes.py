@@ -57,11 +57,7 @@ def is_logarithmic(values: Array) -> bool:
     return bool(values.size and values.min() > 0.0 and values.max() > _WIDE * values.min())
 
 
-def set_scale(
-    axes: Axes,
-    which: str,
-    values: Array,
-) -> None:
+def set_scale(axes: Axes, which: str, values: Array) -> None:
     """Set the scale of an axis, with plain numbers at its ticks if it has less than two decades."""
     if not is_logarithmic(values):
         return

@@ -35,20 +35,8 @@ COLUMNS = {
     "refinement": Variable("", "quantity that is refined from level to level"),
     **some(
         LENGTHS,
-        "id",
-        "evolution",
-        "height",
-        "initial_state",
-        "kind",
-        "strength",
-        "seed",
-        "n_x",
-        "n_y",
-        "grading",
-        "block_length",
-        "longest_step",
-        "tolerance",
-        "onset_time",
+        "id evolution height initial_state kind strength seed n_x n_y grading "
+        "block_length longest_step tolerance onset_time",
     ),
     "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
     "length": LENGTHS["length"],
@@ -56,7 +44,7 @@ COLUMNS = {
     "elements_difference": Variable("1", "the same in elements of the run along x"),
     "critical_length": LENGTHS["critical_length"],
     "length_over_theory": LENGTH_OVER_THEORY,
-    **some(LENGTHS, "steps", "wall_seconds", "fault"),
+    **some(LENGTHS, "steps wall_seconds fault"),
 }
 
 

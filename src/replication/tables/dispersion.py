@@ -58,9 +58,7 @@ def _heights_for(parameters: Parameters) -> list[float]:
 
 
 def dispersion_dataset(
-    parameters: Parameters,
-    heights: ArrayLike = HEIGHTS,
-    modes: ArrayLike = MODES,
+    parameters: Parameters, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
 ) -> xr.Dataset:
     """Rates by Eq. (5) and by the time integration on (height, mode, branch).
 
@@ -122,11 +120,7 @@ def dispersion_csv(dataset: xr.Dataset) -> str:
     return frame[order].to_csv(index=False, float_format="%.8g")
 
 
-def files(
-    material: Material,
-    friction: Friction,
-    loading: Loading,
-) -> dict[str, xr.Dataset | str]:
+def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
     """The files of the step ``dispersion``."""
     parameters = Parameters(material=material, friction=friction, loading=loading)
     found = dispersion_dataset(parameters, _heights_for(parameters))

@@ -29,22 +29,8 @@ from .rows import Row, rows_of
 
 MEASURED = some(
     LENGTHS,
-    "study",
-    "role",
-    "id",
-    "evolution",
-    "height",
-    "kind",
-    "strength",
-    "seed",
-    "correlation_length",
-    "n_x",
-    "n_y",
-    "block_length",
-    "longest_step",
-    "onset_time",
-    "length",
-    "critical_length",
+    "study role id evolution height kind strength seed correlation_length n_x n_y "
+    "block_length longest_step onset_time length critical_length",
 )
 
 PREDICTED = {
@@ -76,22 +62,8 @@ CURVE_STRENGTHS = np.geomspace(1e-12, 1e-1, 89)
 
 NOISE_FLOORS = some(
     COLUMNS,
-    "study",
-    "role",
-    "id",
-    "evolution",
-    "height",
-    "n_x",
-    "n_y",
-    "longest_step",
-    "onset_time",
-    "length",
-    "critical_length",
-    "stability_length",
-    "front_length",
-    "floor_normal_load",
-    "floor_state",
-    "fault",
+    "study role id evolution height n_x n_y longest_step onset_time length "
+    "critical_length stability_length front_length floor_normal_load floor_state fault",
 )
 """Columns that a quiet run has."""
 
@@ -104,20 +76,12 @@ WEAK = 1e-5  # strength at which the one line gives L_s of a quiet run, which ha
 class _Law:
     """The law of the drop for one fault, from the mode along its creep."""
 
-    def __init__(
-        self,
-        history: ModeHistory,
-        stability_length: float,
-    ) -> None:
+    def __init__(self, history: ModeHistory, stability_length: float) -> None:
         self.history = history
         self.stability_length = stability_length
         self._known: dict[tuple[str, float], Growth] = {}
 
-    def growth(
-        self,
-        kind: str,
-        correlation_length: float = 0.0,
-    ) -> Growth:
+    def growth(self, kind: str, correlation_length: float = 0.0) -> Growth:
         """The mode's growth under one kind of perturbation."""
         key = kind, correlation_length
         if key not in self._known:
@@ -162,18 +126,14 @@ class _Law:
 
 
 def gather_drops(
-    drops: Iterable[xr.Dataset],
-    runs: Iterable[Row],
-    quiet: Iterable[xr.Dataset] = (),
+    drops: Iterable[xr.Dataset], runs: Iterable[Row], quiet: Iterable[xr.Dataset] = ()
 ) -> xr.Dataset:
     """The drops of all runs beside the law, for the faults of some runs."""
     return _beside(_laws(runs), [*drops, *quiet])
 
 
 def drop_files(
-    drops: Iterable[xr.Dataset],
-    runs: Iterable[Row],
-    quiet: Iterable[xr.Dataset] = (),
+    drops: Iterable[xr.Dataset], runs: Iterable[Row], quiet: Iterable[xr.Dataset] = ()
 ) -> dict[str, Any]:
     """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`."""
     laws = _laws(runs)
@@ -227,10 +187,7 @@ def _beside(laws: dict[str, _Law], tables: Iterable[xr.Dataset]) -> xr.Dataset:
     return table(rows, COLUMNS)
 
 
-def noise_floors(
-    quiet: Iterable[xr.Dataset],
-    runs: Iterable[Row],
-) -> xr.Dataset:
+def noise_floors(quiet: Iterable[xr.Dataset], runs: Iterable[Row]) -> xr.Dataset:
     """The noise of the meshes of quiet runs with their steps."""
     found = gather_drops(quiet, runs)
     unperturbed = np.flatnonzero(found["kind"].values == "none")

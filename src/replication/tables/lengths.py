@@ -46,7 +46,7 @@ COLUMNS = {
     "evolution": Variable("", "state evolution law"),
     "height": SHARED["height"],
     "initial_state": Variable("s", "initial state variable", "phi0"),
-    **some(SHARED, "n_x", "n_y"),
+    **some(SHARED, "n_x n_y"),
     **MEASURED,
     "critical_length": Variable("m", "critical nucleation length", "L_c"),
     "stability_length": Variable("m", "patch length where growth begins", "L_s"),
@@ -57,15 +57,8 @@ COLUMNS = {
     "tolerance": Variable("1", "tolerance of the local error per step"),
     "longest_step": Variable("1", "longest time step over the memory time D/V"),
     "density": Variable("kg/m^3", "mass density", "rho"),
-    **some(
-        SHARED,
-        "slip_distance",
-        "velocity",
-        "normal_stress",
-        "shear_modulus",
-        "poisson_ratio",
-    ),
-    **some(SHARED, "friction", "a", "zeta"),
+    **some(SHARED, "slip_distance velocity normal_stress shear_modulus poisson_ratio"),
+    **some(SHARED, "friction a zeta"),
     "friction_law": Variable("", "law of the friction coefficient"),
     "below": Variable("", "what the block slides on"),
     "initial_stress": Variable("", "static field at the start"),
@@ -79,7 +72,7 @@ COLUMNS = {
     "seed": Variable("1", "seed of its realisation"),
     "correlation_length": Variable("m", "its correlation length along x"),
     "far_side": SHARED["far_side"],
-    **some(SHARED, "second_height", "second_shear_modulus", "second_poisson_ratio"),
+    **some(SHARED, "second_height second_shear_modulus second_poisson_ratio"),
     "plane": SHARED["plane"],
     "loading": Variable("", "what loads the fault: edge or remote"),
     "fault": Variable("", "digest of all that the fault's physics depends on"),
@@ -133,9 +126,7 @@ PARAMETERS = (
 
 
 def lengths_table(
-    runs: Iterable[Row],
-    simulations: Iterable[xr.Dataset],
-    settings: ExtractionSettings,
+    runs: Iterable[Row], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
 ) -> xr.Dataset:
     """Extract the lengths of simulations into a table."""
     by_theory: dict[str, Row] = {}  # by fault
@@ -247,11 +238,7 @@ def second_body(parameters: Parameters) -> Row:
     }
 
 
-def _row(
-    run: Row,
-    simulation: xr.Dataset,
-    settings: ExtractionSettings,
-) -> Row:
+def _row(run: Row, simulation: xr.Dataset, settings: ExtractionSettings) -> Row:
     """A row of the table, without the theory's L_s."""
     record = Record(simulation, settings)
     measured = extract(simulation, settings)

@@ -71,7 +71,7 @@ COLUMNS = {
     "far_slip_rate": Variable("m/s", "slip rate half a period from the fastest point"),
     "far_state_ratio": Variable("1", "v phi/D there, 1 in steady sliding"),
     "finite_speed_length": Variable("m", "Rubin and Ampuero's expanding length at that slip rate"),
-    **some(SHARED, "height", "n_x", "n_y"),
+    **some(SHARED, "height n_x n_y"),
     "stress_rate": Variable("Pa/s", "rate of the far shear stress"),
     "change": Variable("1", "relative change of f where nucleation begins"),
     "width": SHARED["width"],
@@ -103,11 +103,7 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
     return table([*rows, *_not_simulated(simulated)], COLUMNS)
 
 
-def _rows(
-    id: str,
-    parameters: Parameters,
-    simulation: xr.Dataset,
-) -> Iterator[Row]:
+def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[Row]:
     """A run's rows, one for each slip rate."""
     friction = parameters.friction
     slip_distance = friction.slip_distance

@@ -16,35 +16,19 @@ from .rows import RATIO_COLUMNS, ratios
 from .runs import STABILITY
 
 COLUMNS = {
-    **some(LENGTHS, "id", "height"),
+    **some(LENGTHS, "id height"),
     "zeta_over_a": RATIO_COLUMNS["zeta_over_a"],
-    **some(
-        LENGTHS,
-        "kind",
-        "strength",
-        "seed",
-        "onset_time",
-        "length",
-        "length_low",
-        "length_high",
-        "critical_length",
-    ),
+    **some(LENGTHS, "kind strength seed onset_time length length_low length_high critical_length"),
     "length_ratio": RATIO_COLUMNS["length_ratio"],
     **STABILITY,
     "stability_ratio": RATIO_COLUMNS["stability_ratio"],
-    **some(LENGTHS, "n_x", "steps", "wall_seconds", "status"),
+    **some(LENGTHS, "n_x steps wall_seconds status"),
 }
 
 AXES = ("height", "zeta_over_a", "strength", "seed")
 """Dimensions of the grid."""
 
-ON_GRID = (
-    "length",
-    "length_ratio",
-    "stability_length",
-    "stability_ratio",
-    "onset_time",
-)
+ON_GRID = ("length", "length_ratio", "stability_length", "stability_ratio", "onset_time")
 
 DIGITS = 6
 """Significant digits by which values of an axis are equal."""
@@ -71,10 +55,7 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     return annotate(grid.assign(critical_length=theory.to_xarray()), COLUMNS)
 
 
-def mean_over_seeds(
-    grid: xr.Dataset,
-    name: str,
-) -> xr.DataArray:
+def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
     """The mean of a variable over realisations."""
     return grid[name].mean("seed", skipna=False)
 

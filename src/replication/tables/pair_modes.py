@@ -90,18 +90,10 @@ HALF_SPACES = (
 """Layers of a height at which their far sides do not matter."""
 
 
-def _sized(
-    layers: LayerPair,
-    base: Parameters,
-    ratio: float,
-) -> tuple[Parameters, float]:
+def _sized(layers: LayerPair, base: Parameters, ratio: float) -> tuple[Parameters, float]:
     """The parameters of a pair for a mode of ``ratio`` k_c, and k_c (1/m)."""
     if layers.height is not None:
-        found = layers.parameters(
-            base,
-            layers.height,
-            LOWER_HEIGHT * layers.height,
-        )
+        found = layers.parameters(base, layers.height, LOWER_HEIGHT * layers.height)
         return found, _critical(found)
     critical = _critical(layers.parameters(base, ENDLESS, ENDLESS))
     height = DEEP * 2.0 * np.pi / (ratio * critical)
@@ -135,11 +127,7 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
     return response.real, -response.imag / f
 
 
-def mode_row(
-    layers: LayerPair,
-    base: Parameters,
-    ratio: float,
-) -> dict[str, Any]:
+def mode_row(layers: LayerPair, base: Parameters, ratio: float) -> dict[str, Any]:
     """Columns of :func:`pair_modes` of one mode, at a wavenumber over the critical one."""
     parameters, critical = _sized(layers, base, ratio)
     interface = interface_state(parameters)
@@ -195,11 +183,7 @@ def _csv(dataset: xr.Dataset) -> str:
     return frame.drop(columns="run").to_csv(index=False, float_format="%.8g")
 
 
-def files(
-    material: Material,
-    friction: Friction,
-    loading: Loading,
-) -> dict[str, xr.Dataset | str]:
+def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
     """The files of the step ``pair_modes``; each pair replaces the moduli of the material."""
     base = Parameters(material=material, friction=friction, loading=loading)
     found = pair_modes(base)

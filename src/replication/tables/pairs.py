@@ -20,26 +20,18 @@ from .lengths import COLUMNS as LENGTHS
 from .lengths import description
 from .rows import RATIO_COLUMNS, Row, ratios
 
-MEASURED = some(EXTRACTED, "onset_time", "length", "length_low", "length_high")
+MEASURED = some(EXTRACTED, "onset_time length length_low length_high")
 
 COLUMNS = {
-    **some(LENGTHS, "id", "study", "role", "evolution"),
+    **some(LENGTHS, "id study role evolution"),
     **some(
         SHARED,
-        "far_side",
-        "height",
-        "second_height",
-        "shear_modulus",
-        "second_shear_modulus",
-        "poisson_ratio",
-        "second_poisson_ratio",
-        "friction",
-        "f_beta",
-        "zeta_over_a",
+        "far_side height second_height shear_modulus second_shear_modulus poisson_ratio "
+        "second_poisson_ratio friction f_beta zeta_over_a",
     ),
-    **some(LENGTHS, "n_x", "n_y"),
+    **some(LENGTHS, "n_x n_y"),
     "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
-    **some(LENGTHS, "kind", "strength", "seed"),
+    **some(LENGTHS, "kind strength seed"),
     **MEASURED,
     "critical_length": LENGTHS["critical_length"],
     "length_ratio": RATIO_COLUMNS["length_ratio"],
@@ -48,7 +40,7 @@ COLUMNS = {
     "half_space_ratio": Variable(
         "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
     ),
-    **some(LENGTHS, "steps", "wall_seconds", "fault", "ensemble"),
+    **some(LENGTHS, "steps wall_seconds fault ensemble"),
 }
 """``f_beta`` is positive where the lower body is the stiffer one."""
 

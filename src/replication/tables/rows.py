@@ -31,9 +31,7 @@ NEARLY = 0.98
 
 
 def rows_of(
-    table: xr.Dataset,
-    chosen: Iterable[int] | None = None,
-    names: Iterable[str] | None = None,
+    table: xr.Dataset, chosen: Iterable[int] | None = None, names: Iterable[str] | None = None
 ) -> list[Row]:
     """Rows of a table as dictionaries of plain Python values."""
     wanted = table.data_vars if names is None else names

@@ -13,7 +13,7 @@ from nucleation.extraction.growth import FITTED, follow_patch
 from . import lengths
 from .rows import Row
 
-STABILITY = some(FITTED, "stability_length", "stability_length_error")
+STABILITY = some(FITTED, "stability_length stability_length_error")
 """The length at which the patch turns unstable, and its standard error."""
 
 
@@ -25,10 +25,7 @@ class _Records(Protocol):
 
 
 def measured_runs(
-    runs: Sequence[Row],
-    records: _Records,
-    settings: ExtractionSettings,
-    measure: str,
+    runs: Sequence[Row], records: _Records, settings: ExtractionSettings, measure: str
 ) -> xr.Dataset:
     """The rows of a batch's runs, without those that have no record."""
     rows = records.map(lambda i, record: _measured(runs[i], record, settings, measure))
@@ -36,10 +33,7 @@ def measured_runs(
 
 
 def _measured(
-    run: Row,
-    record: xr.Dataset,
-    settings: ExtractionSettings,
-    measure: str,
+    run: Row, record: xr.Dataset, settings: ExtractionSettings, measure: str
 ) -> xr.Dataset:
     """The row of one run, which is also printed in the job's log."""
     row = lengths.lengths_table([run], [record], settings)
@@ -58,10 +52,7 @@ def _measured(
     return row
 
 
-def study_table(
-    tables: Iterable[xr.Dataset],
-    ids: Sequence[str],
-) -> dict[str, Any]:
+def study_table(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> dict[str, Any]:
     """The table of a study that was run in several batches, as files."""
     joined = lengths.join(tables)
     places = {name: i for i, name in enumerate(joined["id"].values.tolist())}

@@ -24,7 +24,7 @@ from .lengths import COLUMNS as LENGTHS
 from .rows import Row
 
 COLUMNS = {
-    **some(LENGTHS, "id", "height"),
+    **some(LENGTHS, "id height"),
     "varied": Variable("", "parameter or definition that is varied"),
     "variation": Variable("", "how it is varied"),
     "length": LENGTHS["length"],
@@ -99,12 +99,7 @@ def _field(name: str) -> str:
     return last if ALIASES.get(last, name) == name else name
 
 
-def _words(
-    entry: Quantity,
-    name: str,
-    value: float | str | None,
-    usual: float | str | None,
-) -> str:
+def _words(entry: Quantity, name: str, value: float | str | None, usual: float | str | None) -> str:
     """A changed value in words: a multiple of the usual one where there is one."""
     symbol = entry.symbol or name
     if value is None:
@@ -145,9 +140,7 @@ def _of_height(cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]
 
 
 def _redefined(
-    simulation: xr.Dataset,
-    usual: dict[str, float],
-    settings: ExtractionSettings,
+    simulation: xr.Dataset, usual: dict[str, float], settings: ExtractionSettings
 ) -> Iterator[tuple[Varied, dict[str, float]]]:
     """Length (m) and onset (s) of one run by other definitions of edge, drop and instant."""
     for threshold in EDGE_THRESHOLDS:
@@ -166,11 +159,7 @@ def _redefined(
 
 
 def _row(
-    run: Row,
-    base: Row,
-    varied: Varied,
-    found: dict[str, float],
-    usual: dict[str, float],
+    run: Row, base: Row, varied: Varied, found: dict[str, float], usual: dict[str, float]
 ) -> Row:
     """Numbers of a run beside the usual ones of the base."""
     length = found["length"]

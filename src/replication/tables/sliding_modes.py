@@ -62,19 +62,11 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     rates = np.full(n + 1, velocity)
     steady = float(np.log(friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
-    return State.beginning(
-        motion,
-        rates,
-        log_state,
-        response.w,
-    )
+    return State.beginning(motion, rates, log_state, response.w)
 
 
 def one_wavelength(
-    parameters: Parameters,
-    height: float,
-    wavenumber: float,
-    nodes: int = NODES,
+    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
 ) -> Parameters:
     """The block one wavelength ``2 pi / k`` long and H (m) high; elements about as high as long."""
     length = 2.0 * math.pi / wavenumber
@@ -85,10 +77,7 @@ def one_wavelength(
         return found
     below = Geometry(found.below.geometry.height, length)
     mesh_below = _mesh(below, nodes)
-    changes = {
-        "second_n_y": mesh_below.n_y,
-        "second_grading": mesh_below.grading,
-    }
+    changes = {"second_n_y": mesh_below.n_y, "second_grading": mesh_below.grading}
     return found.replaced(changes)
 
 
@@ -139,10 +128,7 @@ def _fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
 
 
 def measured_rates(
-    parameters: Parameters,
-    height: float,
-    wavenumber: float,
-    nodes: int = NODES,
+    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
 ) -> ComplexArray:
     """Both growth rates (1/s) of a wavenumber (1/m) at H (m), the faster growing one first."""
     period = one_wavelength(parameters, height, wavenumber, nodes)

@@ -13,17 +13,7 @@ from .rows import RATIO_COLUMNS, Row
 STABILITY = {
     **some(
         COLUMNS,
-        "id",
-        "study",
-        "role",
-        "evolution",
-        "height",
-        "initial_state",
-        "n_x",
-        "n_y",
-        "grading",
-        "tolerance",
-        "longest_step",
+        "id study role evolution height initial_state n_x n_y grading tolerance longest_step",
     ),
     **FITTED,
     "critical_length": COLUMNS["critical_length"],
@@ -33,10 +23,7 @@ STABILITY = {
 }
 
 
-def gather_stability(
-    runs: Iterable[Row],
-    patches: Iterable[xr.Dataset],
-) -> xr.Dataset:
+def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.Dataset:
     """The lengths at which the frozen patches turn unstable."""
     rows = []
     for run, patch in zip(runs, patches, strict=True):

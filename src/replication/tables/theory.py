@@ -28,16 +28,8 @@ from .lengths import description
 from .rows import Row
 
 COLUMNS = {
-    **some(
-        LENGTHS,
-        "id",
-        "study",
-        "role",
-        "evolution",
-        "friction_law",
-        "height",
-    ),
-    **some(SHARED, "zeta_over_a", "f_beta"),
+    **some(LENGTHS, "id study role evolution friction_law height"),
+    **some(SHARED, "zeta_over_a f_beta"),
     "critical_length": LENGTHS["critical_length"],
     "stability_length": FITTED["stability_length"],
     "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
@@ -66,10 +58,7 @@ PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 _PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
 
 
-def theory_files(
-    runs: Iterable[Row],
-    tables: Iterable[xr.Dataset],
-) -> dict[str, Any]:
+def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str, Any]:
     """The table, the thin limit's curve and the creep of some faults; the table also as CSV."""
     known = _stability_lengths(tables)
     faults: dict[tuple[str, str], list[Row]] = {}
@@ -106,10 +95,7 @@ def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
     return found
 
 
-def _row(
-    run: Row,
-    measured: float,
-) -> Row:
+def _row(run: Row, measured: float) -> Row:
     """The columns of one fault, from its first run and its mean simulated L_s (m)."""
     parameters = Parameters.from_dict(run["parameters"])
     interface = linearised(parameters.friction, parameters.loading)
@@ -138,10 +124,7 @@ def _row(
     return row
 
 
-def _profiles(
-    rows: list[Row],
-    runs: dict[str, Row],
-) -> Row:
+def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
     """The creep of some faults at their L_s, over the range of contrasts."""
     known = [row for row in rows if row["front_length"] > 0.0]
     if not known:

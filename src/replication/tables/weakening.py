@@ -14,7 +14,7 @@ import xarray as xr
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.drop.of_run import drop_of_run
 from nucleation.model.friction.constants import with_constants
-from nucleation.model.identity import fault
+from nucleation.model.identity import ensemble, fault
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Parameters
 from nucleation.theory.critical import run_length
@@ -25,20 +25,8 @@ from .rows import RATIO_COLUMNS, Row, rows_of
 
 MEASURED = some(
     LENGTHS,
-    "study",
-    "id",
-    "evolution",
-    "height",
-    "below",
-    "kind",
-    "strength",
-    "seed",
-    "n_x",
-    "n_y",
-    "block_length",
-    "onset_time",
-    "length",
-    "critical_length",
+    "study id evolution height below kind strength seed n_x n_y block_length onset_time "
+    "length critical_length",
 )
 
 EXPECTED = {
@@ -97,10 +85,7 @@ def expected(parameters: Parameters) -> Row:
     }
 
 
-def gather_weakening(
-    drops: Iterable[xr.Dataset],
-    runs: Iterable[Row],
-) -> xr.Dataset:
+def gather_weakening(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> xr.Dataset:
     """The simulated drops of all runs beside the theory of their faults."""
     by_fault = {}
     for run in runs:
@@ -116,20 +101,14 @@ def gather_weakening(
     return table(rows, COLUMNS)
 
 
-def weakening_files(
-    drops: Iterable[xr.Dataset],
-    runs: Iterable[Row],
-) -> dict[str, Any]:
+def weakening_files(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> dict[str, Any]:
     """The table of :func:`gather_weakening` as CSV, and with :data:`CURVES`."""
     runs = list(runs)
     rows = gather_weakening(drops, runs)
     return {".nc": rows.merge(weakening_curves(runs)), ".csv": to_csv(rows)}
 
 
-def weakening_curves(
-    runs: Iterable[Row],
-    ratios: Iterable[float] = CURVE,
-) -> xr.Dataset:
+def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = CURVE) -> xr.Dataset:
     """Lengths by theory over zeta/a, of each study, base and height.
 
     Blocks on a deformable base that are higher than L_c in all their runs are as good as
@@ -189,3 +168,48 @@ def _over_critical(parameters: Parameters, ratio: float) -> list[float]:
     critical = run_length(own, interface_state(own))
     known = expected(own)
     return [known[name] / critical for name in _OVER_CRITICAL]
+
+
+OF_FAULT = some(
+    LENGTHS,
+    "friction_law evolution height below far_side shear_modulus second_shear_modulus kind "
+    "strength critical_length",
+)
+
+_SIMULATED = {
+    "realisations": Variable("1", "number of realisations"),
+    "length": LENGTHS["length"],  # the mean of the realisations
+    "length_least": Variable("m", "least length at the drop of a realisation", "L"),
+    "length_largest": Variable("m", "largest length at the drop of a realisation", "L"),
+    "reached_length": LENGTHS["reached_length"],  # the largest of the realisations
+    "inside": Variable("1", "number of realisations in the expected range"),
+}
+
+OF_FAULTS = {"zeta_over_a": RATIO_COLUMNS["zeta_over_a"], **OF_FAULT, **EXPECTED, **_SIMULATED}
+
+
+def gather_other_faults(drops: xr.Dataset, runs: Iterable[Row]) -> xr.Dataset:
+    """The simulated drops of each fault beside the theory."""
+    rows = []
+    for run in runs:
+        parameters = Parameters.from_dict(run["parameters"])
+        own = drops.isel(run=np.flatnonzero(drops["ensemble"].values == ensemble(parameters)))
+        rows.append(_of_fault(own, expected(parameters)))
+    return table(rows, OF_FAULTS)
+
+
+def _of_fault(own: xr.Dataset, theory: Row) -> Row:
+    """One fault's row, of the lengths (m) of its realisations and its :data:`EXPECTED`."""
+    (row,) = rows_of(own, [0], (*OF_FAULT, "zeta", "a"))
+    lengths = own["length"].values
+    is_inside = (lengths >= theory["expected_low"]) & (lengths <= theory["expected_high"])
+    simulated = {
+        "zeta_over_a": row["zeta"] / row["a"],
+        "realisations": lengths.size,
+        "length": float(lengths.mean()),
+        "length_least": float(lengths.min()),
+        "length_largest": float(lengths.max()),
+        "reached_length": float(own["reached_length"].max()),
+        "inside": int(is_inside.sum()),
+    }
+    return row | theory | simulated

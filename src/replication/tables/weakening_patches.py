@@ -36,7 +36,7 @@ CURVE = np.geomspace(0.05, 5.0, 21)
 COLUMNS = {
     "id": SHARED["id"],
     "outcome": Variable("", "creep, slow slip or event; theory: a point of the curve, no run"),
-    **some(SHARED, "height", "a", "zeta"),
+    **some(SHARED, "height a zeta"),
     "outside_weakening": Variable("1", "velocity weakening of the surroundings", "zeta_out"),
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
@@ -99,13 +99,7 @@ def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Datase
 
 def _curve(patch: WeakeningPatch, height: float) -> Iterator[Row]:
     """Rows of the theory's curve for the friction of one patch."""
-    empty = {
-        "id": "",
-        "outcome": THEORY,
-        "fastest": np.nan,
-        "n_x": 0,
-        "period": np.nan,
-    }
+    empty = {"id": "", "outcome": THEORY, "fastest": np.nan, "n_x": 0, "period": np.nan}
     for strengthening in CURVE:
         zeta = -strengthening * patch.inside.zeta
         outside = patch.outside._replace(zeta=zeta)
