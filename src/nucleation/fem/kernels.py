@@ -218,9 +218,12 @@ def add_inertia(
     modes = load.shape[2]
     c0, c1, c2, c3 = coefficients
     near = np.empty(levels)
-    edge = (c0 * edges[0] + c1 * edges[1]) + (c2 * edges[2] + c3 * edges[3])
+    e0, e1, e2, e3 = edges
+    edge = np.empty(levels)
+    for j in range(levels):
+        edge[j] = (c0 * e0[j] + c1 * e1[j]) + (c2 * e2[j] + c3 * e3[j])
     stacked = mass.reshape(1, 3, levels)
-    edge_inertia = (edge_mass * scale) * products(stacked, edge)[0]
+    edge_inertia = products(stacked, edge)[0]
     rows = np.zeros((3, 2, modes))  # f at the levels j - 1, j, j + 1, each at its level modulo 3
     for level in range(levels + 1):
         if level < levels:
@@ -248,8 +251,12 @@ def add_inertia(
             above = rows[(j + 1) % 3, c]
             r = load[j, c]
             to = out[j, c]
-            by_edge = edge_inertia[j] * c  # it acts along y
+            by_edge = (edge_mass * scale) * edge_inertia[j] * c  # it acts along y
             for m in range(modes):
                 inertia = weight[m] * (lo * below[m] + di * here[m] + up * above[m])
                 to[m] = r[m] + (inertia + by_edge * edge_weight[m])
-    edge_out[:] = edge_load + edge_mass * products(stacked, near + 2.0 * edge)[0]
+    for j in range(levels):
+        near[j] += 2.0 * edge[j]
+    inertia_of_edge = products(stacked, near)[0]
+    for j in range(levels):
+        edge_out[j] = edge_load[j] + edge_mass * inertia_of_edge[j]
