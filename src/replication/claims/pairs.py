@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 
 from nucleation.types import Array
 
@@ -34,59 +34,64 @@ _CAUSE = (
 
 
 class _Senses(NamedTuple):
-    """Lengths over L_c^M for one zeta/a, with the stiffer body below and above each contrast."""
+    """Lengths over L_c^M, (weakening, contrast), with the stiffer body below and above."""
 
-    weakening: float
+    weakening: Array
     contrast: Array
+    identical: Array
     below: Array
     above: Array
-    identical: float
 
 
 # -- rows of the table --------------------------------------------------------------------------
 
 
-def _where(rows: xr.Dataset, mask: NDArray[np.bool], missing: str) -> xr.Dataset:
-    """The rows of a mask; raises Missing with a message if there are none."""
-    if not mask.any():
+def _faults(evidence: Tables) -> pd.DataFrame:
+    """The faults of all studies, each the mean of its realisations.
+
+    zeta/a and f beta are rounded so that equal values can be compared; lengths are also over L_c^M,
+    the length with the modulus M and no contrast.
+    """
+    faults = over_realisations(evidence["pairs"]).to_dataframe()
+    return faults.assign(
+        weakening=faults["zeta_over_a"].round(3),
+        contrast=faults["f_beta"].round(12),
+        over_modulus=faults["length_ratio"] * faults["half_space_ratio"],
+    )
+
+
+def _some(rows: pd.DataFrame, missing: str) -> pd.DataFrame:
+    """The same rows; raises Missing with a message if there are none."""
+    if rows.empty:
         raise Missing(missing)
-    return rows.isel(run=mask)
+    return rows
 
 
-def _weakenings(rows: xr.Dataset) -> Array:
-    """zeta/a of each row, rounded so that equal values can be compared."""
-    return np.round(rows["zeta_over_a"].values, 3)
-
-
-def _identical(evidence: Tables) -> xr.Dataset:
+def _identical(faults: pd.DataFrame) -> pd.DataFrame:
     """Faults between identical blocks as high as half-spaces, of all studies, by zeta/a."""
-    rows = over_realisations(evidence["pairs"])
-    high = rows["height"].values >= _LEAST_HEIGHT * rows["critical_length"].values
-    equal = np.abs(rows["f_beta"].values) < 1e-9
-    found = _where(rows, high & equal, "No identical blocks are as high as half-spaces")
-    return found.isel(run=np.lexsort((found["height"].values, _weakenings(found))))
+    high = faults["height"] >= _LEAST_HEIGHT * faults["critical_length"]
+    found = faults[high & (faults["contrast"] == 0.0)].sort_values(["weakening", "height"])
+    return _some(found, "No identical blocks are as high as half-spaces")
 
 
-def _settled(evidence: Tables) -> tuple[xr.Dataset, str]:
+def _settled(evidence: Tables) -> tuple[pd.DataFrame, str]:
     """The pairs of Figure 2, and sentences on whether lengths depend on the blocks' height.
 
     Each zeta/a with lengths that do, between identical blocks, is left out.
     """
-    rows = over_realisations(evidence["pairs"])
-    role = rows["role"].values == "figure_2_simulated"
-    rows = _where(rows, role, "The table of pairs has no runs with the role figure_2_simulated")
-    weakening = _weakenings(rows)
-    identical = _identical(evidence)
-    settled = np.ones(weakening.size, bool)
+    faults = _faults(evidence)
+    rows = faults[faults["role"] == "figure_2_simulated"]
+    _some(rows, "The table of pairs has no runs with the role figure_2_simulated")
     untested = []
     notes = ""
-    for value in np.unique(weakening):
-        own = identical.isel(run=_weakenings(identical) == value)
-        lengths = own["length_ratio"].values
+    for value, own in _identical(faults).groupby("weakening"):
+        lengths = own["length_ratio"]
+        if value not in rows["weakening"].values:
+            continue
         if lengths.size < 2:
             untested.append(f"{value:g}")
         elif np.ptp(lengths) > _HEIGHT_TOLERANCE * lengths.min():
-            settled &= weakening != value
+            rows = rows[rows["weakening"] != value]
             notes += (
                 rf" $\zeta/a = {value:g}$ is left out: between identical blocks the length over "
                 f"$L_c$ depends on their height, {_at_heights(own)}."
@@ -96,147 +101,122 @@ def _settled(evidence: Tables) -> tuple[xr.Dataset, str]:
             rf" Whether it depends on the height for $\zeta/a$ = {' and '.join(untested)} was not "
             "tested: each has blocks of one height."
         )
-    return _where(rows, settled, "All lengths depend on the height of the blocks"), notes
+    return _some(rows, "All lengths depend on the height of the blocks"), notes
 
 
-def _at_heights(rows: xr.Dataset) -> str:
-    pairs = zip(rows["length_ratio"].values, rows["height"].values, strict=True)
+def _at_heights(rows: pd.DataFrame) -> str:
+    pairs = zip(rows["length_ratio"], rows["height"], strict=True)
     return " and ".join(f"{length:.2f} at {height:g} m" for length, height in pairs)
 
 
-def _both_senses(rows: xr.Dataset) -> list[_Senses]:
-    """The lengths in both senses of each contrast, for each zeta/a; Missing without one."""
-    weakening = _weakenings(rows)
-    lengths = _over_modulus(rows)
-    contrasts = np.round(rows["f_beta"].values, 6)
-    found = []
-    for value in np.unique(weakening):
-        at = weakening == value
-        length = dict(zip(contrasts[at], lengths[at], strict=True))
-        different = sorted(contrast for contrast in length if contrast > 0.0)
-        if not different or 0.0 not in length or any(-one not in length for one in different):
-            raise Missing(
-                rf"$\zeta/a = {value:g}$ lacks a sense of a contrast, or identical bodies"
-            )
-        below, above = (np.array([length[s * one] for one in different]) for s in (1.0, -1.0))
-        found.append(_Senses(value, np.array(different), below, above, length[0.0]))
-    return found
+def _both_senses(rows: pd.DataFrame) -> _Senses:
+    """The lengths in both senses of each contrast; raises Missing without one of them."""
+    lengths = rows.pivot(index="weakening", columns="contrast", values="over_modulus")
+    positive = np.array([contrast for contrast in lengths.columns if contrast > 0.0])
+    wanted = lengths.reindex(columns=[0.0, *positive, *-positive])
+    if not positive.size or wanted.isna().any(axis=None):
+        raise Missing(r"A $\zeta/a$ lacks a sense of a contrast, or identical bodies")
+    parts = np.split(wanted.to_numpy(), [1, 1 + positive.size], axis=1)
+    return _Senses(lengths.index.to_numpy(), positive, *parts)
 
 
-def _over_modulus(rows: xr.Dataset) -> Array:
-    """Lengths at the drop over L_c^M, the length with the modulus M and no contrast."""
-    return (rows["length_ratio"] * rows["half_space_ratio"]).values
+def _lengths(rows: pd.DataFrame, unit: str = "") -> list[Estimate]:
+    """The lengths at the drop in the unit of a column, each with its realisations' range."""
+    columns = rows[["length_ratio", "length_ratio_low", "length_ratio_high"]]
+    scaled = columns.mul(rows[unit], axis=0) if unit else columns
+    return [between(*row) for row in scaled.to_numpy()]
 
 
-def _lengths(rows: xr.Dataset, unit: Array | float = 1.0) -> list[Estimate]:
-    """The lengths at the drop in some unit, each with its realisations' range."""
-    columns = ("length_ratio", "length_ratio_low", "length_ratio_high")
-    return [between(*row) for row in zip(*(rows[c].values * unit for c in columns), strict=True)]
-
-
-def _note(rows: xr.Dataset) -> str:
-    strength = float(rows["strength"].max())
-    kind = str(rows["kind"].values[0])
-    number = int(rows["realisations"].min())
-    return f"At a declared perturbation {kind} of {strength:g}, {number} realisations each."
+def _note(rows: pd.DataFrame) -> str:
+    return (
+        f"At a declared perturbation {rows['kind'].iloc[0]} of {rows['strength'].max():g}, "
+        f"{rows['realisations'].min():.0f} realisations each."
+    )
 
 
 # -- claims -------------------------------------------------------------------------------------
 
 
 def _half_spaces(evidence: Tables) -> Result:
-    rows = _identical(evidence)
-    weakening = _weakenings(rows)
+    rows = _identical(_faults(evidence))
     each = [
-        rf"{_at_heights(rows.isel(run=weakening == value))} for $\zeta/a = {value:.3g}$"
-        for value in np.unique(weakening)
+        rf"{_at_heights(own)} for $\zeta/a = {value:.3g}$"
+        for value, own in rows.groupby("weakening")
     ]
     note = f"{_note(rows)} It is {', '.join(each)}."
-    papers = rows.isel(run=rows["role"].values == "pairs_identical")
-    if papers.sizes["run"]:
-        note += _eta(papers)
+    papers = rows[rows["role"] == "pairs_identical"]
+    if len(papers):
+        eta = np.pi / (1.0 - papers["poisson_ratio"])
+        unstable, drop = (
+            span(eta * papers[f"{name}_ratio"], ".1f") for name in ("stability", "length")
+        )
+        note += (
+            rf" As $\eta$ of Eq. (3) the patch of the paper's friction turns unstable at "
+            f"{unstable} and the force drops at {drop}, above the $2/\\pi$ to 4/3 that the "
+            "paper has for the conventional approach."
+        )
     return Result(_lengths(rows), note=note)
-
-
-def _eta(rows: xr.Dataset) -> str:
-    """A sentence with the lengths of instability and of the drop, as eta."""
-    eta = np.pi / (1.0 - rows["poisson_ratio"].values)
-    unstable, drop = (
-        span(eta * rows[f"{name}_ratio"].values, ".1f") for name in ("stability", "length")
-    )
-    return (
-        rf" As $\eta$ of Eq. (3) the patch of the paper's friction turns unstable at {unstable} "
-        f"and the force drops at {drop}, above the $2/\\pi$ to 4/3 that the paper has for the "
-        "conventional approach."
-    )
 
 
 def _response(evidence: Tables, component: int) -> Result:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
     modes = evidence["modes"]
-    are_high = np.char.startswith(modes["id"].values.astype(str), "half-spaces")
-    high = _where(modes, are_high, "No modes between half-spaces were simulated")
-    ratio = (high["second_shear_modulus"] / high["shear_modulus"]).values
-    poisson = high["poisson_ratio"].values, high["second_poisson_ratio"].values
-    expected = [printed.bimaterial_transfer(*pair) for pair in zip(ratio, *poisson, strict=True)]
-    measured = measured_response(high)[component]
-    return Result((measured.T / np.array(expected)[:, component]).T, note=_SLIDING)
+    high = modes.isel(run=np.char.startswith(modes["id"].values.astype(str), "half-spaces"))
+    if not high.sizes["run"]:
+        raise Missing("No modes between half-spaces were simulated")
+    ratio = high["second_shear_modulus"] / high["shear_modulus"]
+    columns = ratio, high["poisson_ratio"], high["second_poisson_ratio"]
+    pairs = np.stack([column.values for column in columns], axis=1)
+    expected = np.array([printed.bimaterial_transfer(*pair)[component] for pair in pairs])
+    return Result(measured_response(high)[component] / expected[:, None], note=_SLIDING)
 
 
 def _modulus(evidence: Tables) -> Result:
     rows, notes = _settled(evidence)
-    ratios = {
-        senses.weakening: (senses.below + senses.above) / 2.0 / senses.identical
-        for senses in _both_senses(rows)
-    }
-    return _over_weakenings(ratios, _note(rows) + notes)
+    senses = _both_senses(rows)
+    mean = (senses.below + senses.above) / 2.0
+    return _over_weakenings(senses, mean / senses.identical, _note(rows) + notes)
 
 
 def _contrast(evidence: Tables) -> Result:
     rows, notes = _settled(evidence)
-    ratios = {}
-    for senses in _both_senses(rows):
-        difference = senses.below - senses.above
-        effect = difference / (senses.below + senses.above) / senses.contrast
-        if effect.size < 2:
-            raise Missing(rf"$\zeta/a = {senses.weakening:g}$ has no two contrasts")
-        ratios[senses.weakening] = effect[1:] / effect[0]
-    return _over_weakenings(ratios, _note(rows) + notes)
+    senses = _both_senses(rows)
+    difference = senses.below - senses.above
+    effect = difference / (senses.below + senses.above) / senses.contrast
+    if senses.contrast.size < 2:
+        raise Missing("There are no two contrasts")
+    return _over_weakenings(senses, effect[:, 1:] / effect[:, :1], _note(rows) + notes)
 
 
-def _over_weakenings(ratios: dict[float, Array], note: str) -> Result:
+def _over_weakenings(senses: _Senses, ratios: Array, note: str) -> Result:
     """The ratios of all zeta/a; the note has that of each which is furthest from one."""
-    furthest = []
-    for weakening, values in ratios.items():
-        worst = max(values, key=lambda value: abs(value - 1.0))
-        furthest.append(rf"{worst:.3g} for $\zeta/a = {weakening:g}$")
-    note += f" The furthest: {', '.join(furthest)}."
-    return Result(np.concatenate(list(ratios.values())), note=note)
+    worst = [max(row, key=lambda value: abs(value - 1.0)) for row in ratios]
+    pairs = zip(worst, senses.weakening, strict=True)
+    furthest = [rf"{value:.3g} for $\zeta/a = {weakening:g}$" for value, weakening in pairs]
+    return Result(ratios, note=f"{note} The furthest: {', '.join(furthest)}.")
 
 
 def _bimaterial(evidence: Tables) -> Result:
     rows, notes = _settled(evidence)
-    longest = float((rows["length"] / rows["height"]).max())
+    longest = (rows["length"] / rows["height"]).max()
     note = f" The longest patch at the drop is {longest:.2g} of the height of its block."
-    without = rows.isel(run=np.abs(rows["f_beta"].values) < 1e-9)["length_ratio"].values
-    if without.size:
-        note += f" Without contrast the ratio is {span(without, '.3f')} already."
+    without = span(rows["length_ratio"][rows["contrast"] == 0.0], ".3f")
+    if without:
+        note += f" Without contrast the ratio is {without} already."
     return Result(_lengths(rows), note=_note(rows) + note + notes)
 
 
 def _smaller(evidence: Tables) -> Result:
     rows, notes = _settled(evidence)
-    strong = rows.isel(run=np.abs(rows["f_beta"].values) > _STRONG)
-    note = _note(rows) + _each_sense(strong, _over_modulus(strong)) + notes
-    return Result(_lengths(strong, strong["half_space_ratio"].values), note=note)
+    strong = rows[rows["contrast"].abs() > _STRONG]
+    senses = _both_senses(rows)
+    are_strong = senses.contrast > _STRONG
+    note = _note(rows) + _each_sense(senses.above[:, are_strong], senses.below[:, are_strong])
+    return Result(_lengths(strong, "half_space_ratio"), note=note + notes)
 
 
-def _each_sense(rows: xr.Dataset, values: Array) -> str:
+def _each_sense(above: Array, below: Array) -> str:
     """Sentences with the largest value with the stiffer body above, and below."""
-    contrast = rows["f_beta"].values
-    above, below = values[contrast < -_STRONG], values[contrast > _STRONG]
-    if not above.size or not below.size:
-        return ""
     return (
         f" With the stiffer body above it is at most {above.max():.3g}, below {below.max():.3g}. "
         f"{_CAUSE}"
@@ -246,19 +226,14 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
 def _decreasing(evidence: Tables) -> Result:
     """Slopes of the length over L_c^M against ``|f beta|``, for each zeta/a and sense."""
     rows, notes = _settled(evidence)
-    lengths, weakening, f_beta = _over_modulus(rows), _weakenings(rows), rows["f_beta"].values
-    slopes: list[float] = []
-    ends: list[int] = []
-    for value in np.unique(weakening):
-        for sign in (1.0, -1.0):
-            own = np.flatnonzero((sign * f_beta >= -1e-9) & (weakening == value))
-            own = own[np.argsort(np.abs(f_beta[own]))]
-            slopes += (np.diff(lengths[own]) / np.diff(np.abs(f_beta[own]))).tolist()
-            ends += own[1:].tolist()
-    if not slopes:
-        raise Missing("The study has no two contrasts of one sense")
-    note = _note(rows) + _each_sense(rows.isel(run=ends), np.array(slopes)) + notes
-    return Result(slopes, note=note)
+    senses = _both_senses(rows)
+    steps = np.diff(senses.contrast, prepend=0.0)
+    above, below = (
+        np.diff(lengths, prepend=senses.identical) / steps
+        for lengths in (senses.above, senses.below)
+    )
+    note = _note(rows) + _each_sense(above, below) + notes
+    return Result(np.stack([above, below]), note=note)
 
 
 NUMBERS: dict[str, Computation] = {
