@@ -73,20 +73,9 @@ def compiled(
 ) -> Callable[..., Result]:
     """Compile a function, with numpy's treatment of errors.
 
-    Parameters
-    ----------
-    function : callable
-        The function.
-    fastmath : set of str
-        LLVM's liberties with floating-point numbers. Without any, the last bits are numpy's.
-    content : str
-        Text of the code that it calls in other files; numba does not look at them. If it
-        changes, the function is compiled again.
-
-    Returns
-    -------
-    callable
-        The compiled function.
+    `fastmath` are LLVM's liberties with floating-point numbers; without any, the last bits are
+    numpy's. `content` is the text of the code that it calls in other files, at which numba does
+    not look: if it changes, the function is compiled again.
     """
     dispatcher: Any = njit(
         function,

@@ -111,23 +111,6 @@ def edge_sums(weights, field, first, out):
 
 
 @compiled_loop
-def products(matrices, vector):
-    """Products of tridiagonal matrices, (number, 3, n), with a vector, (number, n)."""
-    out = np.empty((matrices.shape[0], vector.size))
-    last = vector.size - 1
-    for k in range(matrices.shape[0]):
-        lower, diagonal, upper = matrices[k]
-        for j in range(last + 1):
-            total = diagonal[j] * vector[j]
-            if j > 0:
-                total += lower[j] * vector[j - 1]
-            if j < last:
-                total += upper[j] * vector[j + 1]
-            out[k, j] = total
-    return out
-
-
-@compiled_loop
 def edge_residual(matrices, weights, field, edge, load, levels):
     """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the lowest edge values.
 

@@ -13,7 +13,6 @@ and ``T[j] = A[j,j+1] Q[j+1]`` (`lower`; xx, xy, yx, yy).
 import numpy as np
 
 from .compiling import compiled_loop
-from .edge_kernels import products
 
 
 @compiled_loop
@@ -191,6 +190,23 @@ def load_couple(compliance, forces, upper, lower, held, start):
         y = y1 + y2
         start[0, m] = compliance[0, m] * x + compliance[1, m] * y
         start[1, m] = compliance[1, m] * x + compliance[2, m] * y
+
+
+@compiled_loop
+def products(matrices, vector):
+    """Products of tridiagonal matrices, (number, 3, n), with a vector, (number, n)."""
+    out = np.empty((matrices.shape[0], vector.size))
+    last = vector.size - 1
+    for k in range(matrices.shape[0]):
+        lower, diagonal, upper = matrices[k]
+        for j in range(last + 1):
+            total = diagonal[j] * vector[j]
+            if j > 0:
+                total += lower[j] * vector[j - 1]
+            if j < last:
+                total += upper[j] * vector[j + 1]
+            out[k, j] = total
+    return out
 
 
 @compiled_loop

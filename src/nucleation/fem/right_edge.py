@@ -57,7 +57,7 @@ class RightEdge:
 
     def profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
-        return edge_kernels.products(self._transposed, edge)
+        return kernels.products(self._transposed, edge)
 
     def residual(self, load: Field, modes: Array, edge: Array, levels: int | None = None) -> Array:
         """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
