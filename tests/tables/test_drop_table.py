@@ -107,7 +107,8 @@ def test_floors_are_the_quiet_rows_without_what_they_lack(table):
 def test_figure_has_every_realisation_and_group(table):
     figure = figure_drop.draw(table.merge(module.law_curves({})))
     assert len(figure_drop.ensembles(table)) == 2
-    load = figure.axes[0]
+    load, state = figure.axes[:2]
+    assert [a.get_title() for a in (load, state)] == ["fluctuating load", "fluctuating state"]
     drawn = [tuple(line.get_ydata()) for line in load.lines]
     assert any(np.allclose(y, [0.32 / 0.45]) for y in drawn if len(y) == 1)
 

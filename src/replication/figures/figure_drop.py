@@ -84,8 +84,8 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         laws.draw_range(axes, runs["strength"].values[0], lengths, elinewidth=0.9, **look)
     _draw_floors(axes, fault, f"floor_{kind}", theory)
     stability = fault["stability_length"].values[0] / theory
-    label = "patch turns unstable, $L_s$"
-    style.level(axes, stability, ":", 1.0, color=style.STABILITY, label=label)
+    unstable: style.Options = {"color": style.STABILITY, "label": "patch turns unstable, $L_s$"}
+    style.level(axes, stability, ":", 1.0, **unstable)
     axes.set_title(f"fluctuating {label}", loc="center")
     axes.set(xscale="log", xlim=_STRENGTHS, ylim=_RATIOS, xlabel=r"Relative strength $\epsilon$")
 
