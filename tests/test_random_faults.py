@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -25,10 +26,36 @@ from nucleation.api import (
 )
 from nucleation.model.friction.constants import full_law
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
+from nucleation.theory.creep import slow_slip
 from nucleation.theory.creep.lengths import LONGEST, stability_length_of
+from nucleation.theory.creep.patches import Patches
+from nucleation.theory.pair import LayerPair
 
 SEED, NUMBER, QUICK = 34, 200, 12
 LONGEST_SPECIMEN = 1e7  # m
+MOST = Counter(wavenumbers=2_500_000, patches=150, steps=25_000)
+"""Largest cost of the answers about a fault: wavenumbers of the bodies' stiffness, creeping patches
+that are solved, and steps of slow slip; about two seconds where all are needed."""
+
+
+@pytest.fixture
+def cost(monkeypatch):
+    """How much is computed, by the names of MOST."""
+    counted = Counter()
+
+    def count(owner, name, kind, amount):
+        function = getattr(owner, name)
+
+        def counting(*args, **options):
+            counted[kind] += amount(*args)
+            return function(*args, **options)
+
+        monkeypatch.setattr(owner, name, counting)
+
+    count(LayerPair, "transfer_functions", "wavenumbers", lambda _, k: np.size(k))
+    count(Patches, "creep", "patches", lambda *_: 1)
+    count(slow_slip, "_step", "steps", lambda *_: 1)
+    return counted
 
 
 def log_uniform(random, low, high):
@@ -70,7 +97,7 @@ def quick(numbers):
 
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
-def test_theory_answers(number):
+def test_theory_answers(cost, number):
     fault, loading = random_fault(number)
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
@@ -88,6 +115,7 @@ def test_theory_answers(number):
         if critical < LONGEST_SPECIMEN:
             ends = np.array(own.specimen("slip_distance", critical).intervals).ravel()
             assert np.isclose(ends, fault["slip_distance"], rtol=1e-5).any() or not ends.size
+    assert cost <= MOST
 
 
 def run_of(fault, law, evolution):
@@ -118,7 +146,7 @@ def run_of(fault, law, evolution):
 
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
-def test_the_drop_answers(number):
+def test_the_drop_answers(cost, number):
     """With the law's L_s, which is that of constant a and b where v0 is far below V."""
     fault, _ = random_fault(number)
     law = ("dieterich_ruina", "product")[number % 2]
@@ -133,11 +161,13 @@ def test_the_drop_answers(number):
         except ParameterError as refused:
             assert any(word in str(refused) for word in ("friction law", "is not allowed"))
             return
+        cost.clear()
         try:
             found = expected_drop(run)
         except NoLength as none:
             assert str(none)
             return
+    assert cost <= MOST
     assert found.stability_length == pytest.approx(
         stability_length_of(run, critical), rel=1e-6, nan_ok=True
     )

@@ -14,7 +14,6 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.creep.runaway import ERROR
 from nucleation.theory.critical import run_length
 from nucleation.theory.status import NoLength
 from replication.configuration.load import load
@@ -75,7 +74,7 @@ def test_slow_slip_by_a_law_with_scales_near_the_imposed_velocity():
     """A simulation drops at 13.7 m. With constant a and b L_run would be 16.8 m."""
     found = expected_drop(GRANITE)
     assert found.slips_slowly and not found.doubt
-    assert found.length == pytest.approx(13.7, rel=ERROR)
+    assert found.low < 13.7 < found.high
 
 
 @pytest.mark.parametrize(

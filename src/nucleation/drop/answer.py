@@ -10,7 +10,6 @@ from ..lengths.answer import Answer
 from ..model.own_fault import AGE, law_of
 from ..model.perturbation import Perturbation
 from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import ERROR
 from ..theory.crossings import largest_crossings
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
@@ -78,10 +77,10 @@ def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
 
 def _both(known: ExpectedDrop) -> tuple[Answer, Answer]:
     """L_run and L of one fault."""
-    longest = known.runaway_length
-    low, high = longest * (1.0 - ERROR), longest * (1.0 + ERROR)
-    runaway = Answer(longest, low, high, known.runaway_status, known.runaway_reason)
-    if known.runaway_status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
+    longest, status = known.runaway_length, known.runaway_status
+    error = longest * known.runaway_error
+    runaway = Answer(longest, longest - error, longest + error, status, known.runaway_reason)
+    if status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
         return runaway, _none(BEYOND, known.runaway_reason)
     if not math.isfinite(known.length):
         return runaway, _none(BEYOND, known.doubt)

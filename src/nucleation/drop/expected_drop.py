@@ -10,7 +10,7 @@ import numpy as np
 from ..model.perturbation import Perturbation
 from ..theory.creep.lengths import stability_point
 from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import ERROR, runaway_point
+from ..theory.creep.runaway import runaway_point
 from ..theory.status import UNKNOWN, VALUE, NoLength
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
@@ -22,7 +22,7 @@ SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so t
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 LATER = 0.10
 """Relative delay of the drop behind L_run where the front is fast. Simulated drops in thin blocks
-are from 1 % below to 10 % above L_run; below, the error of L_run itself counts."""
+are from 1 % below to 10 % above L_run; the error of L_run itself counts, too."""
 
 SLIP_BURSTS = 0.3  # zeta/a below which, by the slip law, bursts hardly lower the force
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which a and b count as constant
@@ -49,6 +49,7 @@ class ExpectedDrop(NamedTuple):
     closed_form: ClosedForm
     doubt: str  # why the answer is uncertain, empty if it is not
     runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
+    runaway_error: float = math.nan  # relative
     runaway_status: str = VALUE  # "value", "stable", "beyond" or "unknown"
     runaway_reason: str = ""  # why there is no L_run, empty where there is
 
@@ -60,12 +61,13 @@ class ExpectedDrop(NamedTuple):
     @property
     def low(self) -> float:
         """The least expected length (m) at the drop."""
-        return float(np.fmax(self.law.low, self.runaway_length * (1.0 - ERROR)))
+        return float(np.fmax(self.law.low, self.runaway_length * (1.0 - self.runaway_error)))
 
     @property
     def high(self) -> float:
         """The largest expected length (m) at the drop."""
-        return float(np.fmax(self.law.high, self.runaway_length * (1.0 + LATER)))
+        later = max(LATER, self.runaway_error)
+        return float(np.fmax(self.law.high, self.runaway_length * (1.0 + later)))
 
     @property
     def slips_slowly(self) -> bool:
@@ -91,13 +93,14 @@ def expected_drop(
     history = mode_history(patches, critical, initial_state, initial_stress)
     found = growth(history, declared)
     stable = _stability_length(patches, critical)
-    runaway, status, reason = _runaway_length(patches, critical, stable)
+    runaway, runaway_error, status, reason = _runaway_length(patches, critical, stable)
     known = ExpectedDrop(
         stability_length=stable,
         law=found.drop(declared.strength),
         closed_form=found.closed_form(history, declared.strength),
         doubt="",
         runaway_length=runaway,
+        runaway_error=runaway_error,
         runaway_status=status,
         runaway_reason=reason,
     )
@@ -115,25 +118,31 @@ def _runaway_length(
     patches: Patches,
     critical: float,
     stable: float,
-) -> tuple[float, str, str]:
-    """L_run (m) with status and reason; NaN where weakening is strong or no patch runs away.
+) -> tuple[float, float, str, str]:
+    """L_run (m) with error, status and reason; NaN where weakening is strong or it is not known.
 
     The integration with the friction law takes longer: it is for laws with other L_s (`stable`, m)
     than constant a and b.
     """
-    _, a, zeta = patches.constants
-    if zeta >= WEAK * a:
-        ratio = zeta / a
-        return math.nan, UNKNOWN, f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
+    ratio = _weakening(patches)
+    if ratio >= WEAK:
+        reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
+        return math.nan, math.nan, UNKNOWN, reason
     with_constants = dataclasses.replace(patches, law=None)
     constant = _stability_length(with_constants, critical)
     if abs(stable / constant - 1.0) < CONSTANT:
         patches = with_constants
     try:
-        length = runaway_point(patches, critical)
+        point = runaway_point(patches, critical)
     except NoLength as none:
-        return math.nan, none.status, str(none)
-    return length, VALUE, ""
+        return math.nan, math.nan, none.status, str(none)
+    return point.length, point.error, VALUE, ""
+
+
+def _weakening(patches: Patches) -> float:
+    """zeta/a of the fault."""
+    _, a, zeta = patches.constants
+    return zeta / a
 
 
 def _doubts(
@@ -147,14 +156,16 @@ def _doubts(
         yield from _doubts_of_runaway(history.patches)
     else:
         yield from _doubts_of_law(history, known.law, known.closed_form, critical)
+    if known.runaway_status != VALUE and _weakening(history.patches) < WEAK:
+        reason = known.runaway_reason
+        yield f"the patch may slip slowly beyond this length, since L_run is not known: {reason}"
     if block is not None:
         yield from _doubts_of_block(known, block)
 
 
 def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
     """Why L_run is uncertain: few bodies were compared, and a burst may hardly lower the force."""
-    _, a, zeta = patches.constants
-    ratio = zeta / a
+    ratio = _weakening(patches)
     if patches.evolution == "slip" and ratio < SLIP_BURSTS:
         yield (
             f"by the slip law and zeta/a = {ratio:.3g}, below {SLIP_BURSTS:g}, bursts hardly lower "

@@ -1,203 +1,203 @@
 """The runaway length L_run: the shortest patch with slow slip that ends in an event.
 
 Where friction weakens little, the oscillation that begins at the stability length L_s saturates: a
-longer patch slips in a limit cycle of slow slip, alternately faster and slower than V. The cycle
-ceases to exist at a length L_run, and there the force drops at any weak noise. A disturbance that
-changes the logarithm of the state by 0.1 or more makes shorter patches run away.
+longer patch slips slowly, alternately faster and slower than V. From a length L_run on slow slip
+does not last (:mod:`.slow_slip`). It ends after an irregular time, which is shorter in a longer
+patch, so that L_run depends a little on how long one waits: it is the length at which weakly
+disturbed patches begin to run away within DURATION. A disturbance that changes the logarithm of the
+state by 0.1 or more makes shorter patches run away.
 
-A patch of fixed length in steady creep ``v_c(x)`` with the whole logarithmic law obeys, per sigma0,
-
-    -(K1 + f S2)(v - v_c) = s (a dv/dt / v + b dphi/dt / phi),      dphi/dt = g(phi v/D),
-
-with the compression s over sigma0 and the stiffness of :mod:`.response`. It is integrated from a
-small perturbation of the state; L_run is the shortest L at which the slip rate grows without bound.
-In a thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor
-is 1 where the strain energy released by a patch equals the fracture energy of its front. A friction
-law has its own a and b at each slip rate and state, if the patches are given with it.
+With k_b of :mod:`.slow_slip` and ``k_c = 2 pi/L_c``, L_run is about ``GUESS L_c k_b/k_c`` in layers
+of any height. In a thin layer that is ``1.8 (1/pi) sqrt(b/zeta) L_c``. The factor is 1 where the
+strain energy released by a patch equals the fracture energy of its front.
 """
 
-import contextlib
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from numpy.typing import NDArray
 
-from ...model.friction.law import Friction
 from ...types import Array
-from ..bisection import bisected
 from ..crossings import largest_crossings
 from ..evaluation import evaluate
 from ..spectrum import Systems
-from ..status import BEYOND, NoLength
+from ..status import BEYOND, UNKNOWN, VALUE, NoLength
 from ..values import FaultLike
 from .lengths import stability_point
 from .patches import Patches
-from .response import MODES
+from .slow_slip import cohesive_wavenumber, lifetimes, modes_that_resolve
 
-LONGEST = 3.0  # patches up to this multiple of L_c are tried
-PRECISION = 4e-3  # relative, of L_run
-ERROR = 0.03  # relative, of L_run, by modes, duration and perturbation
-PERTURBATION = 0.05  # of log(phi) at the start, in the middle of the patch; as good as none
-DURATION = 1500.0  # over D/V, after which slow slip counts as a limit cycle
-FAST = 300.0  # slip rate over V beyond which a burst is an event
-RELATIVE_TOLERANCE = 1e-5  # of the integration, of the logarithms
-ABSOLUTE_TOLERANCE = 1e-6
-
-
-class _Slopes(NamedTuple):
-    """Friction's slopes at each place: df/dlog(v), df/dlog(phi), and dlog(phi)/dt over V/D."""
-
-    by_rate: Array | float
-    by_state: Array | float
-    aging: Array
-
-
-def _constant(
-    a: float,
-    zeta: float,
-    evolution: str,
-) -> Callable[[Array, Array], _Slopes]:
-    """The slopes for constant a and b, by v/V and log(phi V/D)."""
-    law = Friction(evolution=evolution, slip_distance=1.0)
-    evolve = law.evolution_law.growth
-
-    def slopes(v: Array, log_state: Array) -> _Slopes:
-        aging = evolve(v * np.exp(log_state)) * np.exp(-log_state)
-        return _Slopes(a, a + zeta, aging)
-
-    return slopes
+WEAKENINGS = (0.1, 10.0)  # zeta/a that were tried
+DURATION = 1500.0  # over D/V, or over (a/zeta) D/V where that is shorter: slow slip must last it
+DISTURBANCES = np.geomspace(0.005, 0.02, 4)  # of log(phi) at the start, in the patch's middle
+LENGTHS = 10  # tried at once
+GUESS = 0.57  # L_run over L_c k_b/k_c: .45 to .62
+SHORTEST, LONGEST = 0.78, 2.0  # times the guess, of the lengths tried first
+SPACING = 1.06  # of them
+BRIEF, STRONGER = 0.2, 2.0  # times the duration and the disturbances, of the first search
+SOONER = 0.86  # times the shortest patch that runs away briefly: about the first that ever does
+PRECISION = 0.01  # relative, of L_run by the lengths and disturbances that are tried
+SHARP = 3  # lengths between those at which none and all disturbances run away: more are no use
+FEW = 0.3  # share of disturbances that may run away at the shortest length, or not at the longest
+SEARCHES = 4  # over as many ranges of lengths
+DEVIATIONS = 2.0  # standard errors that the stated error has
+LEAST_ERROR = 0.02  # relative, by the modes
 
 
-def _of_law(
-    law: Friction,
-    velocity: float,
-) -> Callable[[Array, Array], _Slopes]:
-    """The slopes of a friction law at V (m/s), by v/V and log(phi V/D)."""
-    memory = law.slip_distance / velocity
-    evolve = law.evolution_law.growth
+class RunawayPoint(NamedTuple):
+    """L_run of one fault, its error, and what it cost."""
 
-    def slopes(v: Array, log_state: Array) -> _Slopes:
-        rate = velocity * v
-        _, by_rate, by_state = law.coefficient_and_slopes(rate, log_state + math.log(memory))
-        state = np.exp(log_state)
-        aging = evolve(state * law.slip_speed(rate) / velocity) / state
-        return _Slopes(rate * by_rate, by_state, aging)
-
-    return slopes
+    length: float  # m
+    error: float  # relative: by the lengths and disturbances, half the duration, and the modes
+    evaluations: int  # of the rates of all patches that are integrated at once
 
 
-def runs_away(
-    patches: Patches,
-    length: float,
-) -> bool:
-    """Whether the slow slip of a patch accelerates without bound.
+class _Ladder(NamedTuple):
+    """Patches of rising length, and the times over D/V after which they run away."""
 
-    Parameters
-    ----------
-    patches : Patches
-        Of one fault, with constant a and b or with its friction law.
-    length : float
-        Patch length (m).
+    lengths: Array  # m
+    times: Array  # (length, disturbance)
 
-    Returns
-    -------
-    bool
-        Whether the slip rate exceeds ``FAST V``.
+    def share(self, duration: float) -> Array:
+        """The share of the disturbances that run away in a time (D/V), of each length."""
+        return np.mean(self.times < duration, axis=1)
 
-    Raises
-    ------
-    NoLength
-        If the creep removes all of the compression somewhere.
-    """
-    creep = patches.creep(length, MODES)
-    response, steady = creep.response, creep.slip_rate
-    friction, a, zeta = patches.constants
-    stiffness = response.coupled(friction)[:, 1:] @ response.modes.inverse
-    stiffness = stiffness / creep.normal_stress[:, None]
-    count = steady.size
-    log_state = -np.log(steady)
-    slopes_at = _constant(a, zeta, patches.evolution)
-    if patches.law is not None:
-        slopes_at = _of_law(patches.law, patches.velocity)
-        log_state = -np.log(patches.law.slip_speed(patches.velocity * steady) / patches.velocity)
+    def ends(self) -> tuple[int, int]:
+        """The last length up to which none runs away, or -1, and the first from which all do."""
+        share = self.share(np.inf)
+        some = np.append(share > 0.0, True)
+        not_all = np.append(True, share < 1.0)
+        return int(some.argmax()) - 1, int(np.flatnonzero(not_all)[-1])
 
-    def rates(
-        _: float,
-        logs: Array,
-    ) -> Array:
-        """Rates of log(v) and log(phi)."""
-        v = np.exp(logs[:count])
-        slopes = slopes_at(v, logs[count:])
-        strengthening = slopes.by_state * slopes.aging
-        accelerating = (-stiffness @ (v - steady) - strengthening) / slopes.by_rate
-        return np.concatenate([accelerating, slopes.aging])
+    def threshold(self, duration: float) -> tuple[float, float]:
+        """The mean of log L at which patches begin to run away, and its standard error.
 
-    def event(
-        _: float,
-        logs: Array,
-    ) -> float:
-        return float(logs[:count].max() - math.log(FAST))
+        Spearman's and Karber's estimate: none runs away below the lengths, and all do beyond.
+        """
+        logs = np.log(self.lengths)
+        spacing = logs[1] - logs[0]
+        share = self.share(duration)
+        mean = logs[-1] + spacing * (0.5 - share.sum())
+        variance = np.sum(share * (1.0 - share)) / (self.times.shape[1] - 1) + 1.0 / 12.0
+        return float(mean), float(spacing * math.sqrt(variance))
 
-    event.terminal = True  # type: ignore[attr-defined]
-    start = np.concatenate([np.log(steady), log_state])
-    place = np.cos(response.modes.theta)
-    start[count:] += PERTURBATION * np.sin(np.pi * place)
-    found = solve_ivp(
-        rates,
-        (0.0, DURATION),
-        start,
-        "LSODA",
-        rtol=RELATIVE_TOLERANCE,
-        atol=ABSOLUTE_TOLERANCE,
-        events=event,
-    )
-    return bool(found.t_events[0].size)
+
+class _Search:
+    """Trials of one fault's patches, and their cost."""
+
+    def __init__(
+        self,
+        patches: Patches,
+        critical: float,
+    ) -> None:
+        self.patches = patches
+        self.stable = stability_point(patches, critical).length
+        self.cohesive = cohesive_wavenumber(patches, critical)
+        self.guess = GUESS * critical**2 * self.cohesive / (2.0 * math.pi)
+        _, a, zeta = patches.constants
+        self.duration = DURATION * min(1.0, a / zeta)
+        self.evaluations = 0
+
+    def tried(
+        self,
+        lengths: Array,
+        disturbances: Array,
+        duration: float,
+    ) -> _Ladder:
+        """Patches of rising length (m), followed for a time (D/V)."""
+        number = modes_that_resolve(self.cohesive, float(lengths[-1]))
+        found = lifetimes(self.patches, lengths, number, disturbances, duration)
+        self.evaluations += found.evaluations
+        return _Ladder(lengths, found.times)
+
+    def bracketed(self) -> tuple[float, float]:
+        """Lengths (m) below which slow slip lasts, and from which it soon runs away."""
+        low = max(self.stable, SHORTEST * self.guess)
+        rising: Array = SPACING ** np.arange(float(LENGTHS))
+        disturbances = STRONGER * DISTURBANCES[1::2]
+        while low < LONGEST * self.guess:
+            ladder = self.tried(low * rising, disturbances, BRIEF * self.duration)
+            none, every = ladder.ends()
+            if none < 0 and low > self.stable:
+                low = max(self.stable, low / rising[-2])
+            elif every < LENGTHS:
+                sooner = SOONER * ladder.lengths[none + 1]
+                return max(self.stable, sooner), ladder.lengths[every]
+            else:
+                low = ladder.lengths[max(none, LENGTHS // 2)]
+        raise NoLength(
+            f"no slow slip of a patch up to {ladder.lengths[-1]:.4g} m runs away in "
+            f"{BRIEF * self.duration:g} D/V",
+            BEYOND,
+        )
+
+    def refined(
+        self,
+        low: float,
+        high: float,
+    ) -> _Ladder:
+        """Trials that begin between two lengths (m) and close in on where patches run away."""
+        for _ in range(SEARCHES):
+            lengths = np.geomspace(low, high, LENGTHS)
+            ladder = self.tried(lengths, DISTURBANCES, self.duration)
+            none, every = ladder.ends()
+            first, last = ladder.share(self.duration)[[0, -1]]
+            if first > FEW and low > self.stable:
+                low = max(self.stable, SOONER * low)
+                high = lengths[min(every, LENGTHS - 1)]
+            elif last < 1.0 - FEW:
+                low = lengths[max(none, 0)]
+                high = high / SOONER
+            elif every - none > SHARP or ladder.threshold(self.duration)[1] < PRECISION:
+                return ladder
+            else:
+                low, high = lengths[max(none, 0)], lengths[min(every, LENGTHS - 1)]
+        raise NoLength(f"slow slip of a patch of {low:.4g} m has no clear end", UNKNOWN)
 
 
 def runaway_point(
     patches: Patches,
     critical: float,
-) -> float:
-    """L_run of one fault.
+) -> RunawayPoint:
+    """L_run of one fault with L_c (m).
 
-    Parameters
-    ----------
-    patches : Patches
-        Of the fault, with constant a and b or with its friction law.
-    critical : float
-        L_c (m) of the fault.
-
-    Returns
-    -------
-    float
-        L_run (m).
-
-    Raises
-    ------
-    NoLength
-        If no patch is unstable, none up to ``LONGEST L_c`` runs away, or its creep opens the fault.
+    Raises NoLength if no patch is unstable or runs away, the creep opens the fault, or slow slip of
+    such a fault was not tried.
     """
-    low = stability_point(patches, critical).length
-    high = LONGEST * critical
-    if not runs_away(patches, high):
+    _, a, zeta = patches.constants
+    low, high = WEAKENINGS
+    if zeta > 0.0 and not low <= zeta / a <= high:
         raise NoLength(
-            f"no slow slip of a patch up to {LONGEST:g} L_c = {high:.4g} m runs away", BEYOND
+            f"it was tried for zeta/a from {low:g} to {high:g}: zeta/a = {zeta / a:.3g}", UNKNOWN
         )
-    return bisected(lambda length: runs_away(patches, length), low, high, PRECISION)
+    search = _Search(patches, critical)
+    ladder = search.refined(*search.bracketed())
+    log_length, deviation = ladder.threshold(search.duration)
+    by_duration = log_length - ladder.threshold(0.5 * search.duration)[0]
+    error = math.hypot(DEVIATIONS * deviation, by_duration)
+    return RunawayPoint(math.exp(log_length), max(error, LEAST_ERROR), search.evaluations)
 
 
-def runaway_lengths(fault: FaultLike) -> Any:
-    """L_run (m) of each fault, with constant a and b; NaN where there is none."""
+def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
+    """L_run (m), its relative error, its status and the reason for it, of each fault.
 
-    def lengths(systems: Systems) -> Array:
+    The patch is pushed at its edge, and a and b are constant.
+    """
+
+    def points(systems: Systems) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((1, critical.size), np.nan)
+        found = np.full((4, critical.size), np.nan, dtype=object)
         for i, length in enumerate(critical):
             patches = Patches(systems.at(np.array([i])), evolution=fault.evolution)
-            with contextlib.suppress(NoLength):
-                found[0, i] = runaway_point(patches, float(length))
+            try:
+                point = runaway_point(patches, float(length))
+            except NoLength as none:
+                found[2:, i] = none.status, str(none)
+                continue
+            found[:, i] = point.length, point.error, VALUE, ""
         return found
 
-    return evaluate(fault, lengths)[0]
+    rows = evaluate(fault, points, rows=4, dtype=object)
+    length, error = rows[:2].astype(float)
+    return length, error, rows[2], rows[3]
