@@ -80,9 +80,9 @@ rule simulation:
         JOB
 
 
-# A table with onset time and critical length for each study, and one for all studies that share it.
+# A table with onset time and length at the drop for each study, and one for all studies that share it.
 rule extract:
-    """Critical lengths of a study"""
+    """Lengths at the drop of a study"""
     input:
         after=lambda wildcards: batches(runs_of(wildcards.study)),
         recipe=recipe("extract"),
@@ -101,7 +101,7 @@ rule extract:
 
 
 rule join_batches:
-    """Critical lengths of a study, joined from the tables of its batches"""
+    """Lengths at the drop of a study, joined from the tables of its batches"""
     input:
         tables=lambda wildcards: batches(runs_of(wildcards.study)),
         recipe=recipe("join_batches"),
@@ -118,7 +118,7 @@ rule join_batches:
 
 
 rule lengths:
-    """Onset and critical length of every run of the studies that share the table"""
+    """Onset and length at the drop of every run of the studies that share the table"""
     input:
         tables=needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths"),
         recipe=recipe("lengths"),

@@ -156,7 +156,7 @@ rule convergence:
 
 
 rule sensitivity:
-    """Sensitivity of critical lengths"""
+    """Sensitivity of lengths at the drop"""
     input:
         after=needed(lambda: batches(runs_for("sensitivity")), "study with role: sensitivity"),
         recipe=recipe("sensitivity"),

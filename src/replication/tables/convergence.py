@@ -1,4 +1,4 @@
-"""Refinement of mesh and steps: how far onset and critical length still move.
+"""Refinement of mesh and steps: how far onset and length at the drop still move.
 
 Runs that differ in one numerical parameter alone are a sequence, ordered from coarse to fine. Each
 run is compared with the finest one of its sequence.
@@ -29,7 +29,7 @@ FIXED = (
 )
 """Columns in which the runs of a sequence agree, except for the refined parameter."""
 
-LENGTH_OVER_THEORY = Variable("1", "critical length over that of the linear theory")
+LENGTH_OVER_THEORY = Variable("1", "length at the drop over that of the theory", "L/L_c")
 
 COLUMNS = {
     "refinement": Variable("", "quantity that is refined from level to level"),
@@ -40,7 +40,7 @@ COLUMNS = {
     ),
     "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
     "length": LENGTHS["length"],
-    "length_difference": Variable("1", "relative difference of L_c from the finest run"),
+    "length_difference": Variable("1", "relative difference of L from the finest run"),
     "elements_difference": Variable("1", "the same in elements of the run along x"),
     "critical_length": LENGTHS["critical_length"],
     "length_over_theory": LENGTH_OVER_THEORY,

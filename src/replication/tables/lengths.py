@@ -1,4 +1,4 @@
-"""The table of critical lengths: one row for each simulation, SI units."""
+"""The table of lengths at the drop: one row for each simulation, SI units."""
 
 from collections.abc import Callable, Iterable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Sensitivity of the critical length: every run against the base run of its height.
+"""Sensitivity of the length at the drop: every run against the base run of its height.
 
 The base is the first run of each height. Comparing the parameters shows which of them a run varies,
 so a study may vary any of them. Definitions of the extraction are varied on the base run itself.
@@ -28,10 +28,10 @@ COLUMNS = {
     "varied": Variable("", "parameter or definition that is varied"),
     "variation": Variable("", "how it is varied"),
     "length": LENGTHS["length"],
-    "length_change": Variable("1", "relative change of L_c against the base"),
+    "length_change": Variable("1", "relative change of L against the base"),
     "critical_length": LENGTHS["critical_length"],
     "length_over_theory": LENGTH_OVER_THEORY,
-    "ratio_change": Variable("1", "relative change of L_c over the theory's length"),
+    "ratio_change": Variable("1", "relative change of L over the theory's length"),
     "onset_time": LENGTHS["onset_time"],
     "onset_change": Variable("1", "relative change of the onset time"),
     "status": LENGTHS["status"],
@@ -117,7 +117,7 @@ def sensitivity_table(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings = ExtractionSettings(),
 ) -> xr.Dataset:
-    """Relative changes of L_c and onset, by the parameters that were varied."""
+    """Relative changes of L and onset, by the parameters that were varied."""
     heights: dict[float, list[Case]] = defaultdict(list)
     for run, simulation in zip(runs, simulations, strict=True):
         case = run | {"status": simulation.attrs["status"]}, simulation
