@@ -196,35 +196,28 @@ Computation = Callable[[Any], Found | Result]
 
 
 def holds(expected: Expected, ours: Estimate) -> bool | None:
-    """Whether our number agrees with the statement; None if it decides nothing.
+    """Whether our number agrees with the statement; None if it is NaN.
 
-    Our uncertainty towards a printed number widens its range. A number that is less certain than
-    the tolerance of a formula decides nothing. Ranges do not matter for bounds and words.
+    Our uncertainty towards a printed number widens its range; otherwise ranges do not matter.
     """
-    if not math.isfinite(ours.value):
+    if math.isnan(ours.value):
         return None
-    up, down = ours.high - ours.value, ours.value - ours.low
     low, high = expected.low, expected.high
     if expected.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(expected.value or 0.0)
-        low, high = low - min(up, widest), high + min(down, widest)
-    elif expected.kind == "formula":
-        if max(up, down) > 0.5 * (high - low):
-            return None
-    else:
-        return low < ours.value < high
-    return low <= ours.value <= high
+        low -= min(ours.high - ours.value, widest)
+        high += min(ours.value - ours.low, widest)
+    if expected.kind in ("number", "formula"):
+        return low <= ours.value <= high
+    return low < ours.value < high
 
 
 def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
     """The verdict on our numbers, and the reason in Markdown sentences."""
     ours = expected.worst(result.found)
     held = holds(expected, ours)
-    if held is None and math.isnan(ours.value):
-        return Verdict.UNCHECKED, "A run has no such event."
     if held is None:
-        width = max(ours.high - ours.value, ours.value - ours.low)
-        return Verdict.UNCHECKED, f"Our number is known to {width:.1g} only."
+        return Verdict.UNCHECKED, "A run has no such event."
     if expected.kind == "reading":
         return Verdict.OPEN, _by_reading(result)
     reason = _comparison(expected, ours, held)
@@ -253,15 +246,16 @@ def _by_reading(result: Result) -> str:
 
     first = counts(result.found)
     reason = f"{first[0].upper()}{first[1:]}."
-    return (
-        reason if result.papers is None else f"{reason} On {result.mesh} {counts(result.papers)}."
-    )
+    if result.papers is not None:
+        reason += f" On {result.mesh} {counts(result.papers)}."
+    return reason
 
 
 def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:
     """Sentences that compare our number with the paper's."""
-    if expected.kind == "formula" and expected.value is not None:
-        difference = abs(ours.value - expected.value) / (abs(expected.value) or 1.0)
+    value = expected.value or 0.0
+    if expected.kind == "formula":
+        difference = abs(ours.value - value) / (abs(value) or 1.0)
         return f"The difference is {difference:.1g}."
     if expected.kind == "number":
         inside = expected.low <= ours.value <= expected.high

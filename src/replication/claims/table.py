@@ -24,7 +24,7 @@ from . import friction as of_friction
 from . import pairs as of_two_bodies
 from . import simulations, theory
 from .evidence import Evidence, Row
-from .expected import Computation, Estimate, Missing, Result, Verdict, judge, read
+from .expected import Computation, Estimate, Expected, Found, Missing, Result, Verdict, judge, read
 
 Statements = Mapping[str, Mapping[str, Mapping[str, Any]]]
 """The entries of ``claims.yaml`` by subject and id."""
@@ -93,8 +93,7 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
         if entry.get("input"):
             verdict, reason = _of_input(verdict, reason)
         reason = f"{reason} {result.note or note}".rstrip()
-        ours = _known(expected.worst(result.found))
-        other = None if result.papers is None else _known(expected.worst(result.papers))
+        ours, other = (_worst(expected, found) for found in (result.found, result.papers))
     return {
         "id": id,
         "where": entry["where"],
@@ -120,8 +119,10 @@ def _of_input(verdict: Verdict, reason: str) -> tuple[Verdict, str]:
     return Verdict.UNCHECKED, f"It is an input, and these runs have another. {reason}"
 
 
-def _known(number: Estimate) -> Estimate | None:
-    return None if math.isnan(number.value) else number
+def _worst(expected: Expected, found: Found) -> Estimate | None:
+    """The number that is judged; None without one."""
+    worst = None if found is None else expected.worst(found)
+    return None if worst is None or math.isnan(worst.value) else worst
 
 
 def _finite(value: float) -> float | None:
