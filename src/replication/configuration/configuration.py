@@ -116,12 +116,14 @@ class Configuration(Settings):
 
     def drawn_curves(self) -> Curves:
         """The theory's curves, with heights beyond either end of the runs in Figure 3."""
-        heights = self.curves.heights
+        heights = list(self.curves.heights)
         simulated = [run.parameters.geometry.height for run in self.runs_for(PAPERS)]
         low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
-        below = np.geomspace(low, min(heights), 20, endpoint=False) if low < min(heights) else []
-        above = np.geomspace(high, max(heights), 20, endpoint=False) if high > max(heights) else []
-        return dataclasses.replace(self.curves, heights=(*below, *heights, *above[::-1]))
+        if low < min(heights):
+            heights[:0] = np.geomspace(low, min(heights), 20, endpoint=False).tolist()
+        if high > max(heights):
+            heights += np.geomspace(max(heights), high, 21)[1:].tolist()
+        return dataclasses.replace(self.curves, heights=tuple(heights))
 
     def problems_of(self, study: str) -> list[str]:
         """The problems with the runs of a study, one line for each."""

@@ -128,7 +128,7 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
         # the first snapshots of the patch end right of this text
         axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
     small: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
-    place = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
+    place: style.Options = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
     axes.legend(title="time $t$", handlelength=1.8, labelspacing=0.35, **place, **small)
 
 
