@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.pictures.units import prefixed, time_unit
+from nucleation.pictures.run import prefixed, time_unit
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Picture of a run: shear stress in space and time, and the driving force."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +14,17 @@ from numpy.typing import NDArray
 from ..extraction.record import Record, parameters_of
 from ..types import Array
 from . import style
-from .units import prefixed, time_unit
 
 _PIXELS = 1200  # pixel columns of the widest image: more are invisible
 _EVENT_LEVEL = 0.01  # the event's panel shows slip rates above this part of the highest
 _GAP = 2.0  # D/V without fast slip, after which another event begins
+_PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+_LONG_TIMES = (
+    (2.0 * 365.25 * 86400.0, 365.25 * 86400.0, "years"),
+    (2.0 * 86400.0, 86400.0, "days"),
+    (7200.0, 3600.0, "h"),
+)
+"""Times (s) from which a unit is used, the unit (s), and its name."""
 
 
 class Window(NamedTuple):
@@ -183,3 +190,22 @@ def _label(
         up = force.get_xaxis_transform()
         look: style.Options = {"color": style.GUIDE, "ha": "right", **beside}
         force.annotate("onset", place, (-4.0, 5.0), up, **look)
+
+
+def prefixed(largest: float, unit: str) -> tuple[float, str]:
+    """Factor and name of a unit with the prefix that keeps values up to `largest` below 1000."""
+    if not (math.isfinite(largest) and largest > 0.0):
+        return 1.0, unit
+    exponent = 3 * math.floor(math.log10(largest) / 3.0)
+    exponent = min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
+    return 10.0**-exponent, _PREFIXES[exponent] + unit
+
+
+def time_unit(longest: float) -> tuple[float, str]:
+    """Factor and name of the unit of a time axis up to `longest` (s)."""
+    if longest < 1.0:
+        return prefixed(longest, "s")
+    for least, unit, name in _LONG_TIMES:
+        if longest >= least:
+            return 1.0 / unit, name
+    return 1.0, "s"
