@@ -56,6 +56,7 @@ LENGTH = [
     (length(second_body="60GPa,0.3,1m,2m", friction="0.6"), ["second_body", "same, rigid"]),
     (length(shear_modulos="1"), ["No such option '--shear-modulos'", "--shear-modulus"]),
     ([*length(), "extra"], ["unexpected extra argument"]),
+    ([*length(height="10"), "cm"], ["write a value and its unit as one word, 10cm"]),
     (["lenght"], ["there is no command 'lenght'; did you mean length?"]),
     (length(shear_modulus="30GPA"), ["GPA is not a known unit; did you mean GPa?"]),
     (["--nonsense"], ["No such option '--nonsense'"]),

@@ -62,8 +62,24 @@ def test_constants_of_a_law_that_is_hardly_logarithmic():
 
 
 def test_what_no_double_can_hold_is_refused():
-    with pytest.raises(ParameterError, match=r"log_rate_coefficient = 0.001 .* 0.00137 or more"):
-        law(log_rate_coefficient=1e-3)
+    with pytest.raises(ParameterError, match=r"log_rate_coefficient = 1e-07 .* 4.1e-07 or more"):
+        law(log_rate_coefficient=1e-7)
+
+
+@pytest.mark.parametrize("a", [1e-3, 1e-5])
+def test_a_small_direct_effect_has_the_logarithm(a):
+    """exp(f/a) overflows; a below f/300 was refused."""
+    small = law(log_rate_coefficient=a)
+    v, psi = np.array([-2e-5, 0.0, 1e-7, 2e-5]), np.log(3.0)
+    f, by_rate, by_log_state = small.coefficient_and_slopes(v, psi)
+    constants = small.reference_friction, small.reference_slip_rate, small.log_state_coefficient
+    f0, rate, b = constants
+    state = b * (psi + np.log(rate / small.slip_distance))
+    expected = f0 + a * np.log(np.abs(v[[0, 2, 3]]) / rate) + state
+    assert np.abs(f[[0, 2, 3]]) == pytest.approx(expected, rel=1e-12)
+    assert f[0] == -f[3] and f[1] == 0.0
+    assert by_rate[2] == pytest.approx(a / v[2], rel=1e-12)
+    assert by_log_state[3] == pytest.approx(b)
 
 
 def test_extreme_states_stay_finite():

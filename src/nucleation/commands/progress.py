@@ -25,7 +25,7 @@ def progress_of(things: str) -> Callable[[int, int], None]:
         Its arguments are the number of finished things and the total number. On a terminal it
         prints one line that changes, else lines.
     """
-    on_terminal = sys.stderr.isatty()
+    on_terminal = sys.stderr is not None and sys.stderr.isatty()
     began = time.monotonic()
     due = began + _SILENT
     first: tuple[int, float] | None = None  # imports and tables take longer than the first draws

@@ -175,6 +175,8 @@ def _assumed(fault: Fault, given: Collection[str]) -> list[str]:
         assumed.append("half-spaces")
     if "plane" not in given:
         assumed.append("plane strain")
+    if fault.plane == "stress":
+        assumed.append("plates much thinner than these lengths")
     return assumed
 
 

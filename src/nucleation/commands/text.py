@@ -39,7 +39,7 @@ _LEAST_TERMINAL = 40
 def _terminal_width(err: bool = False) -> int | None:
     """Columns of the terminal, or of COLUMNS; None if the output is a file or a pipe."""
     stream = sys.stderr if err else sys.stdout
-    if not (stream.isatty() or os.environ.get("COLUMNS")):
+    if not (os.environ.get("COLUMNS") or (stream and stream.isatty())):
         return None
     return max(shutil.get_terminal_size().columns, _LEAST_TERMINAL)
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..lengths.answer import Answer
 from ..model.own_fault import AGE, law_of
 from ..model.perturbation import Perturbation
+from ..model.quantities import ParameterError
 from ..theory.creep.patches import Patches
 from ..theory.crossings import largest_crossings
 from ..theory.evaluation import evaluate
@@ -46,6 +47,8 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
                 runaway, drop = _both(expected_drop(patches, declared, float(length), phi0))
             except NoLength as none:
                 runaway = drop = _none(none.status, str(none))
+            except ParameterError as refused:  # no law has these constants
+                runaway = drop = _none(UNKNOWN, str(refused))
             found[:, i] = *runaway, *drop
         return found
 

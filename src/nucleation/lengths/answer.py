@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.plausible import warn_of_implausible
+from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
 from ..theory.critical import stability_reason
 from ..theory.crossings import largest_crossings
@@ -31,6 +33,8 @@ TITLES = {
 }
 TITLES |= {length.key: length.title for length in LENGTHS}
 """Title of each length by key: those of the theory, and of the literature."""
+
+_CRITICAL = declared("critical length", "(0, inf) m")
 
 FIELDS = ("value", "low", "high", "status", "reason", "doubt")
 
@@ -176,6 +180,7 @@ def _critical_answer(fault: FaultLike) -> Answer:
 
     rows = evaluate(fault, points, rows=3, dtype=object)
     length = rows[:1].astype(float)[0]
+    warn_of_implausible("critical_length", length, _CRITICAL)
     return Answer(length, length, length, rows[1], rows[2])
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from decimal import Decimal
+from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +21,7 @@ NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}
 """A number or a fraction, and the unit after it."""
 
 _INTEGER = re.compile(r"\s*[+-]?\d{1,18}\s*")
+_FORTRAN = re.compile(r"([+-]?[\d.]+)[dD]([+-]?\d+)(.*)")
 _WITH_COMMA = re.compile(r"[+-]?[\d.]*,[\d.,]*\d")
 _UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμ])(-?\d+)")  # m-3 in the style of CF
@@ -103,6 +106,9 @@ def _number(text: str, entry: Quantity) -> float:
             raise ValueError("write it without separators of thousands")
         point = re.sub(r"^([+-]?),", r"\g<1>0.", written).replace(",", ".")
         raise ValueError(f"write a decimal point, {point} in place of {written}")
+    fortran = _FORTRAN.fullmatch(text.strip())
+    if fortran:
+        raise ValueError(f"write the exponent with e, {fortran[1]}e{fortran[2]}{fortran[3]}")
     parts = NUMBER.fullmatch(text)
     if parts is None:
         raise ValueError("it is no number with a unit")
@@ -110,6 +116,8 @@ def _number(text: str, entry: Quantity) -> float:
     if denominator and not float(denominator):
         raise ValueError("it is no number with a unit")
     number = Decimal(numerator) / Decimal(denominator or 1)
+    if unit.startswith("*"):
+        raise ValueError(f"write the unit without *, {numerator} {unit.lstrip('* ')}")
     if unit:
         number = _converted(number, unit, entry)
     return float(number)
@@ -198,6 +206,8 @@ def magnitude(
         ]
     if isinstance(value, str):
         return parse(key, value, entry)
+    if isinstance(value, (Decimal, Fraction)):
+        return float(value)
     data = getattr(value, "magnitude", value)
     if np.ma.is_masked(data):
         raise ParameterError(
@@ -205,8 +215,7 @@ def magnitude(
             "everywhere"
         )
     if is_quantity(value):
-        unit = f"{value.units:D}"
-        return rescaled(key, value.magnitude, unit, entry)
+        return _of_quantity(key, value, entry)
     attributes = getattr(value, "attrs", None)
     if isinstance(attributes, dict):
         if is_quantity(getattr(value, "data", None)):
@@ -221,6 +230,23 @@ def magnitude(
             f"give the numbers in {entry.unit}, or a pint quantity"
         )
     return value
+
+
+def _of_quantity(key: str, value: Any, entry: Quantity) -> Any:
+    """The numbers of a pint quantity: by its own registry, whose units may be others."""
+    wanted = "dimensionless" if entry.unit == "1" else entry.unit
+    unit = f"{value.units:D}"
+    try:
+        own = float(value._REGISTRY.Quantity(1.0, value.units).to(wanted).magnitude)
+    except Exception:  # of kinds of the user's library; ours words the error
+        return rescaled(key, value.magnitude, unit, entry)
+    try:
+        ours = float(_converted(Decimal(1), unit or "dimensionless", entry))
+    except ValueError:  # a unit of the user's own
+        ours = math.nan
+    if abs(ours / own - 1.0) < 1e-9:
+        return rescaled(key, value.magnitude, unit, entry)  # without round-off
+    return np.asarray(value.magnitude, dtype=float) * own
 
 
 def is_quantity(value: object) -> bool:

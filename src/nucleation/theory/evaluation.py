@@ -15,6 +15,9 @@ from .stiffness import Layers
 from .values import ZONE, FaultLike, Values, labelled
 from .zone import Zone
 
+_USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+"""NumPy's own settings, whatever the caller's are."""
+
 _OF_SYSTEMS = (
     "shear_modulus",
     "poisson_ratio",
@@ -31,6 +34,7 @@ _OF_SYSTEMS = (
 )
 
 
+@_USUAL
 def evaluate(
     fault: FaultLike,
     function: Callable[..., Any],

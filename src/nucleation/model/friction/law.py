@@ -57,7 +57,7 @@ class _Signature:
     """The signature of :class:`Friction` for completion: the parameters of all laws."""
 
     def __get__(self, _: object, owner: type) -> inspect.Signature:
-        if owner is not Friction:
+        if "__signature__" not in vars(owner):
             raise AttributeError  # laws have their own
         defaults = {}
         for cls in (*map(law_class, LAWS), Friction):

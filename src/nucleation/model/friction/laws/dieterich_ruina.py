@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from ...quantities import ParameterError, quantity
 from ..law import Array, Friction, law_name
 
-_LARGEST_RATIO = 300.0  # of f0 over a, far below overflow of exp(f0/a)
+_LARGEST_RATIO = 1e6  # of f0 over a: beyond, round-off of f0/a is seen in log(v)
 _LARGEST_EXPONENT = 650.0
 _ITERATIONS = 30  # for a: with f = 2 a each iteration reduces the error by five sixths
 
@@ -96,7 +96,10 @@ class Law(Friction):
         a, b = constants[:2]
         s = _scale(psi, constants)
         by_size = 1.0 / np.hypot(v, s)
-        return a * np.arcsinh(v / s), a * by_size, b * (v * by_size)
+        # where s would underflow, asinh(v/s) is log(2 v/s), which the rest of the exponent shifts
+        beyond = np.maximum(_exponent(psi, constants) - _LARGEST_EXPONENT, 0.0)
+        angle = np.arcsinh(v / s) + np.sign(v) * beyond
+        return a * angle, a * by_size, b * (v * by_size)
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
@@ -146,7 +149,11 @@ class Law(Friction):
 
 def _scale(psi: Array, constants: tuple[float, ...]) -> Array:
     """The slip rate s (m/s) of ``f = a asinh(v/s)``."""
-    a, b, f0, rate, distance = constants
-    exponent = (f0 + b * (psi + np.log(rate / distance))) / a
+    exponent = _exponent(psi, constants)
     exponent = np.minimum(np.maximum(exponent, -_LARGEST_EXPONENT), _LARGEST_EXPONENT)
-    return 2.0 * rate * np.exp(-exponent)
+    return 2.0 * constants[3] * np.exp(-exponent)
+
+
+def _exponent(psi: Array, constants: tuple[float, ...]) -> Array:
+    a, b, f0, rate, distance = constants
+    return (f0 + b * (psi + np.log(rate / distance))) / a
