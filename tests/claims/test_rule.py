@@ -187,10 +187,10 @@ def test_missing_result_gives_no_number(monkeypatch):
 def test_row_has_number_range_and_the_functions_own_expected_range(monkeypatch):
     row = made_up(monkeypatch, lambda evidence: between(12.8, 12.7, 12.9), {"number": "13"})
     assert (row["ours"], row["uncertainty"], row["unit"]) == (12.8, [12.7, 12.9], "s")
-    assert row["paper_range"] == [12.5, 13.5] and row["verdict"] == "replicated"
+    assert row["paper"] == "13" and row["verdict"] == "replicated"
     other = Result(2.0, BELOW, papers=0.5, mesh="its mesh")
     row = made_up(monkeypatch, lambda evidence: other, {"number": "13"})
-    assert row["paper_range"] == [None, 1.0] and row["on_papers_mesh"] == 0.5
+    assert row["paper"] == "< 1" and row["on_papers_mesh"] == 0.5
     assert row["verdict"] == "not replicated"
     with pytest.raises(ValueError, match="made-up has nothing"):
         made_up(monkeypatch, lambda evidence: GOOD)

@@ -100,8 +100,6 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
         "statement": entry["statement"],
         "quotation": entry["quotation"],
         "paper": expected and expected.text,
-        "paper_range": expected and [_finite(expected.low), _finite(expected.high)],
-        "kind": expected and expected.kind,
         "ours": ours and ours.value,
         "uncertainty": ours and [ours.low, ours.high],
         "on_papers_mesh": other and other.value,
@@ -125,10 +123,6 @@ def _worst(expected: Expected, found: Found) -> Estimate | None:
     return None if worst is None or math.isnan(worst.value) else worst
 
 
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def counts(rows: Iterable[Row]) -> dict[str, int]:
     """The number of claims with each verdict, in the order of :class:`Verdict`."""
     found = Counter(row["verdict"] for row in rows)
@@ -136,7 +130,7 @@ def counts(rows: Iterable[Row]) -> dict[str, int]:
 
 
 def to_json(rows: list[Row]) -> str:
-    """The rows as a JSON list, valid by docs/claims.schema.json."""
+    """The rows as a JSON list."""
     return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -4,7 +4,9 @@ Our numbers are those of the library's theory. Tests compare the paper's formula
 with evaluations that use neither (tests/claims/test_formulas.py).
 """
 
+import itertools
 import math
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -158,16 +160,11 @@ def _bimaterial(evidence: Evidence, component: int) -> Any:
     return pairs.transfer_functions(1.0)[component] / expected
 
 
-def _bimaterial_length(evidence: Evidence) -> list[float]:
-    cases = [(x, z) for x in CONTRASTS for z in evidence.theory["zeta_over_a"].values]
+def _over_printed(cases: Iterable[tuple[float, float]]) -> list[float]:
+    """L_c over L_c^M by the library over Eq. (9), for values of f beta and zeta/a."""
     return [
         float(bimaterial_length_ratio(*case)) / printed.bimaterial_ratio(*case) for case in cases
     ]
-
-
-def _bimaterial_smaller(evidence: Evidence) -> xr.DataArray:
-    ratio = evidence.theory["bimaterial_length_ratio"]
-    return ratio.where(ratio["f_beta"] > 0.0).max()
 
 
 def _bimaterial_slope(evidence: Evidence) -> xr.DataArray:
@@ -187,13 +184,11 @@ def _least_contrast(a: float, zeta: float) -> float:
     return unstable
 
 
-def _strengthening_length(evidence: Evidence) -> list[float]:
-    ratios = []
+def _strengthening_cases() -> Iterator[tuple[float, float]]:
+    """f beta above the threshold, and zeta/a."""
     for a, zeta in STRENGTHENING:
         for factor in (1.2, 2.0):
-            case = factor * printed.strengthening_threshold(a, zeta), zeta / a
-            ratios.append(float(bimaterial_length_ratio(*case)) / printed.bimaterial_ratio(*case))
-    return ratios
+            yield factor * printed.strengthening_threshold(a, zeta), zeta / a
 
 
 # -- blocks of finite height --------------------------------------------------------------------
@@ -275,14 +270,18 @@ NUMBERS: dict[str, Computation] = {
         formula(1.0 / (1.0 - e.nu), r"$1/(1 - \nu)$"),
     ),
     "bimaterial-contrast-limit": lambda e: main_text(e).transfer_functions(1.0)[1],
-    "bimaterial-length": _bimaterial_length,
+    "bimaterial-length": lambda e: _over_printed(
+        itertools.product(CONTRASTS, e.theory["zeta_over_a"].values)
+    ),
     "bimaterial-length-limit": lambda e: bimaterial_length_ratio(0.0, e.theory["zeta_over_a"]),
-    "bimaterial-smaller": _bimaterial_smaller,
+    "bimaterial-smaller": lambda e: (
+        e.theory["bimaterial_length_ratio"].where(e.theory["f_beta"] > 0.0).max()
+    ),
     "bimaterial-decreasing": _bimaterial_slope,
     "strengthening-threshold": lambda e: [
         _least_contrast(*pair) / printed.strengthening_threshold(*pair) for pair in STRENGTHENING
     ],
-    "strengthening-length": _strengthening_length,
+    "strengthening-length": lambda e: _over_printed(_strengthening_cases()),
     "block-g1": lambda e: _block(e, 0),
     "block-g2": lambda e: _block(e, 1),
     "block-high-limit": lambda e: Result(
