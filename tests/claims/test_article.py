@@ -7,7 +7,8 @@ import jinja2
 import pytest
 from reference_evidence import ROOT, evaluate, evaluated, evidence
 
-from replication.claims.article import digits, render, rounded
+from replication.claims.article import digits, render
+from replication.claims.table import number_text
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 
@@ -65,11 +66,11 @@ def test_unknown_name_is_an_error(given):
         render("{{ claim('nonsense').ours }}", *given)
 
 
-def test_our_numbers_are_rounded_to_their_range():
+def test_numbers_with_their_range():
     row = {"ours": -0.00342, "uncertainty": (-0.0067, 0.0755), "unit": "1"}
-    assert rounded(row) == "-0.0034 (-0.0067 to 0.0755)"
+    assert number_text(row) == "-0.00342 (-0.0067 to 0.0755)"
     row = {"ours": 0.16201, "uncertainty": (0.16201, 0.16201), "unit": "m"}
-    assert rounded(row) == "0.162 m" and digits(1e-5, 1) == "$10^{-5}$"
+    assert number_text(row) == "0.162 m" and digits(1e-5, 1) == "$10^{-5}$"
     assert digits(25342, 2) == r"$2.5\times 10^{4}$"
 
 

@@ -1,7 +1,6 @@
 """The article on the replication: a template whose numbers come from the results alone."""
 
 import json
-import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from ..tables.rows import rows_of
 from .evidence import Row
 from .expected import Verdict
 from .phrases import caution, mesh, span
-from .table import counts, escaped
+from .table import counts, escaped, number_text
 
 
 def write_article(
@@ -69,7 +68,7 @@ def render(
     converged = {row["fault"]: row for row in runs("converged")}
     return environment.from_string(template).render(
         claim=by_id.__getitem__,
-        ours=lambda id: rounded(by_id[id]),
+        ours=lambda id: number_text(by_id[id]) or "not computed",
         checked=lambda id: by_id[id]["verdict"] != Verdict.UNCHECKED,
         mesh=mesh(runs("paper")),
         caution=caution(runs("paper")),
@@ -92,18 +91,6 @@ def digits(value: float | None, number: int) -> str:
         return mantissa
     factor = "" if mantissa == "1" else rf"{mantissa}\times "
     return f"${factor}10^{{{int(power)}}}$"
-
-
-def rounded(row: Row) -> str:
-    """Our number of a claim with range and unit, to three digits of the largest of them."""
-    if row["ours"] is None:
-        return "not computed"
-    numbers = [row["ours"], *row["uncertainty"]]
-    largest = max(map(abs, numbers)) or 1.0
-    places = max(0, 2 - math.floor(math.log10(largest)))
-    value, low, high = (f"{number:.{places}f}" for number in numbers)
-    unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    return f"{value}{unit}" if low == high else f"{value} ({low} to {high}){unit}"
 
 
 def _percent(value: float | None, places: int = 0) -> str:

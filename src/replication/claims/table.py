@@ -150,7 +150,7 @@ def to_markdown(rows: list[Row]) -> str:
             row["where"],
             row["statement"],
             row["paper"] or "",
-            _number_text(row),
+            number_text(row),
             row["method"],
             row["verdict"],
             row["reason"],
@@ -159,7 +159,7 @@ def to_markdown(rows: list[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _number_text(row: Row) -> str:
+def number_text(row: Row) -> str:
     """Our number of a row with its range and unit, to four digits."""
     if row["ours"] is None:
         return ""
