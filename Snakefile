@@ -55,16 +55,16 @@ from replication.configuration.load import completed, configure
 from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
 from replication.configuration.roles import PAIRS as PAIR_ROLES
 from replication.configuration.runs import first_realisations, varied
-from replication.configuration.settings import estimated_megabytes
-from nucleation.strict_yaml import read_yaml
-from replication.configuration.study_names import study_parameters
+from nucleation.run.checks import estimated_megabytes
+from nucleation.fault.strict_yaml import read_yaml
+from nucleation.run.names import parameters
 from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication import figures
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
-from nucleation.model.identity import fault, identity
+from nucleation.run.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from replication.pipeline.check import CURRENT
 from replication.pipeline.launch import options

@@ -10,12 +10,11 @@ import xarray as xr
 from scipy.sparse.linalg import splu
 
 from nucleation.extraction.extraction import extract
-from nucleation.fem.body import Body, body_of
-from nucleation.fem.grid import Grid
-from nucleation.model.parameters import Parameters
+from nucleation.fem.body import Body
 from nucleation.model.perturbation import KINDS
-from nucleation.model.second_body import BOTTOMS
-from nucleation.simulation.run import composed, run, simulate
+from nucleation.run.run import Run
+from nucleation.simulation.bodies import body_of, grid_of
+from nucleation.simulation.run import composed, instants, simulate
 from nucleation.simulation.stepping import BDF, rung_value
 from replication.configuration.load import Configuration
 
@@ -26,7 +25,8 @@ BLOCKS, STEPS = 8, 40  # of timed steps
 END_TIME = 16.0  # s, of the whole run
 MESHES_ALONG_X, ROWS = (400, 800, 1600, 3200), 20  # values of n_x, and their n_y
 MESHES_ALONG_Y, COLUMNS = (20, 40, 80, 150), 400  # values of n_y, and their n_x
-PAIR = {"n_x": 400, "n_y": 16, "height": 0.02, "length": 0.7}  # of each block
+BOTTOMS = ("free", "clamped", "roller")
+PAIR = {"n_x": 400, "n_y": 16, "height": 0.02, "block_length": 0.7}  # of each block
 STRENGTH = 1e-3  # of the perturbed steps
 PRECISIONS = (
     (1e-1, 0.4),
@@ -45,14 +45,14 @@ REFERENCE = (1e-4, 0.02)
 Task = Callable[[], Any]
 
 
-def of_figure_s2(settings: Configuration) -> Parameters:
+def of_figure_s2(settings: Configuration) -> Run:
     """Return the simulation that is measured."""
-    return settings.shown(settings.figures.space_time_height).parameters
+    return settings.shown(settings.figures.space_time_height).run
 
 
-def measure_solver(parameters: Parameters) -> dict[str, Any]:
+def measure_solver(parameters: Run) -> dict[str, Any]:
     """Return all measurements of one simulation."""
-    simulate(parameters.replaced({"n_x": 16, "n_y": 4}))  # compiles the kernels
+    simulate(parameters.replaced(n_x=16, n_y=4))  # compiles the kernels
     whole = _whole_run(parameters)  # first: the memory is that of the process
     return {
         **whole,
@@ -96,15 +96,15 @@ def _fastest(*tasks: Task, blocks: int = BLOCKS) -> list[float]:
     return best
 
 
-def _longest_rung(parameters: Parameters) -> int:
+def _longest_rung(parameters: Run) -> int:
     """The rung of the longest steps."""
     longest = parameters.stepping.longest_step * parameters.memory_time
     return BDF().steady_rung(longest)
 
 
-def _timed_steps(parameters: Parameters) -> Task:
+def _timed_steps(parameters: Run) -> Task:
     """A task that makes the next :data:`STEPS` longest steps, from the middle of the creep."""
-    for instant in run(parameters.replaced({"tolerance": 0.1, "longest_step": 0.4})):
+    for instant in instants(parameters.replaced(tolerance=0.1, longest_step=0.4)):
         if instant.state.time > CREEP_TIME:
             break
     dynamics = composed(parameters)
@@ -120,10 +120,10 @@ def _timed_steps(parameters: Parameters) -> Task:
     return task
 
 
-def _step_over_solve(parameters: Parameters) -> dict[str, float]:
+def _step_over_solve(parameters: Run) -> dict[str, float]:
     """A whole step against the one solve of the block that it needs at least."""
-    grid = Grid.of(parameters.geometry, parameters.mesh)
-    body = Body((grid, parameters.material))
+    grid = grid_of(parameters.upper)
+    body = Body((grid, parameters.upper.material))
     beta = rung_value(_longest_rung(parameters))
     operator = body.operator(1.0 / beta**2)
     load = body.far_load(1e6)
@@ -143,9 +143,9 @@ def _step_over_solve(parameters: Parameters) -> dict[str, float]:
     }
 
 
-def _whole_run(parameters: Parameters) -> dict[str, float]:
+def _whole_run(parameters: Run) -> dict[str, float]:
     """The whole run through the event to :data:`END_TIME`, and its memory."""
-    whole = parameters.replaced({"end_time": END_TIME, "time_after_event": 1e3})
+    whole = parameters.replaced(end_time=END_TIME, time_after_event=1e3)
     record = simulate(whole)
     sizes = record["step_size"].values[1:]
     changed = np.abs(np.diff(sizes)) > 1e-9 * sizes[1:]
@@ -159,15 +159,15 @@ def _whole_run(parameters: Parameters) -> dict[str, float]:
     }
 
 
-def _speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dict[str, float]:
+def _speedup_over_sparse(parameters: Run, whole: dict[str, float]) -> dict[str, float]:
     """The same steps with the assembled sparse matrix; its LU serves while the step size is kept.
 
     One factorisation and two solves are timed and multiplied by the run's counts: two solves in
     each step, accepted or not, and a factorisation whenever the step size changed. The interface's
     Newton iterations are left out, so the result is a lower bound for the ordinary way.
     """
-    grid = Grid.of(parameters.geometry, parameters.mesh)
-    stiffness, mass = assemble(grid, parameters.material)
+    grid = grid_of(parameters.upper)
+    stiffness, mass = assemble(grid, parameters.upper.material)
     nodes = grid.n_x + 1
     driven = 2 * np.arange(grid.n_y + 1) * nodes
     interface = np.arange(2 * nodes)
@@ -195,10 +195,10 @@ def _speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dic
     }
 
 
-def _scaling(parameters: Parameters) -> dict[str, Any]:
+def _scaling(parameters: Run) -> dict[str, Any]:
     """Time per step against the number of elements along x and y, with fitted exponents."""
-    along_x = [parameters.replaced({"n_x": n, "n_y": ROWS}) for n in MESHES_ALONG_X]
-    along_y = [parameters.replaced({"n_y": n, "n_x": COLUMNS}) for n in MESHES_ALONG_Y]
+    along_x = [parameters.replaced(n_x=n, n_y=ROWS) for n in MESHES_ALONG_X]
+    along_y = [parameters.replaced(n_y=n, n_x=COLUMNS) for n in MESHES_ALONG_Y]
     return {
         **_scaling_along("n_x", MESHES_ALONG_X, along_x),
         **_scaling_along("n_y", MESHES_ALONG_Y, along_y),
@@ -208,7 +208,7 @@ def _scaling(parameters: Parameters) -> dict[str, Any]:
 def _scaling_along(
     axis: str,
     numbers: tuple[int, ...],
-    meshes: list[Parameters],
+    meshes: list[Run],
 ) -> dict[str, Any]:
     """Time per step on some meshes with these numbers of elements along one axis."""
     tasks = [_timed_steps(mesh) for mesh in meshes]
@@ -221,12 +221,10 @@ def _scaling_along(
     }
 
 
-def _pair_steps(parameters: Parameters) -> dict[str, float]:
+def _pair_steps(parameters: Run) -> dict[str, float]:
     """A step of two identical blocks over a step of one, on the same mesh in each."""
-    one = parameters.replaced(PAIR)
-    pairs = [
-        one.replaced({"second_body": "deformable", "second_far_side": bottom}) for bottom in BOTTOMS
-    ]
+    one = parameters.replaced(**PAIR)
+    pairs = [one.replaced(second_body="deformable", second_far_side=bottom) for bottom in BOTTOMS]
     base, *times = _fastest(*map(_timed_steps, (one, *pairs)))
     found = {}
     for bottom, seconds in zip(BOTTOMS, times, strict=True):
@@ -237,16 +235,16 @@ def _pair_steps(parameters: Parameters) -> dict[str, float]:
     return found
 
 
-def _perturbed(parameters: Parameters) -> dict[str, float]:
+def _perturbed(parameters: Run) -> dict[str, float]:
     """Time of a step under each kind of perturbation over that of an unperturbed one."""
     kinds = KINDS[1:]
     values = {"strength": STRENGTH, "seed": 1}
-    runs = [parameters.replaced({"kind": kind, **values}) for kind in kinds]
+    runs = [parameters.replaced(perturbation=kind, **values) for kind in kinds]
     unperturbed, *times = _fastest(*map(_timed_steps, (parameters, *runs)))
     return {kind: seconds / unperturbed for kind, seconds in zip(kinds, times, strict=True)}
 
 
-def _precisions(parameters: Parameters) -> list[dict[str, float]]:
+def _precisions(parameters: Run) -> list[dict[str, float]]:
     """Error of the onset time and wall time, by tolerance and longest step."""
     reference = _simulated(parameters, *REFERENCE)
     exact = extract(reference)["onset_time"]
@@ -266,7 +264,7 @@ def _precisions(parameters: Parameters) -> list[dict[str, float]]:
 
 
 def _simulated(
-    parameters: Parameters,
+    parameters: Run,
     tolerance: float,
     longest_step: float,
 ) -> xr.Dataset:
@@ -275,4 +273,4 @@ def _simulated(
         "longest_step": longest_step,
         "time_after_event": 0.0,
     }
-    return simulate(parameters.replaced(values))
+    return simulate(parameters.replaced(**values))

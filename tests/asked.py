@@ -1,8 +1,8 @@
 """Methods of a fault as functions of its parameters, for tests of many faults."""
 
 from nucleation.api import Fault
-from nucleation.drop.of_run import drop_of_run
 from nucleation.lengths.in_use import values_of
+from nucleation.run.drop import drop_of_run
 
 
 def critical_length(**fault):

@@ -24,7 +24,7 @@ def settings():
 @pytest.fixture(scope="session")
 def simulation(settings):
     """The record of the run."""
-    return simulate(settings.runs[0].parameters)
+    return simulate(settings.runs[0].run)
 
 
 @pytest.fixture(scope="session")

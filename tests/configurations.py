@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from nucleation.strict_yaml import read_yaml
 from replication.configuration.load import Configuration, configure, load
 
 CONFIG = Path(__file__).parents[1] / "config"

@@ -1,21 +1,19 @@
 """Made-up records of runs whose hops, onset and length are known, without any simulation."""
 
-import dataclasses
-
 import numpy as np
 import xarray as xr
 
-from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
 
 ONSET = 10.0  # s
-PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.0), mesh=Mesh(n_x=200, n_y=4))
+PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=2.0, n_x=200, n_y=4)
 
 
 def record(period=0.1, parameters=PARAMETERS, onset=ONSET):
     """A front that reaches node i at ``i * period`` (s), and a force that falls by 20 % at once."""
-    x = np.linspace(0.0, parameters.geometry.length, parameters.mesh.n_x + 1)
+    x = np.linspace(0.0, parameters.block.length, parameters.block.n_x + 1)
     time = np.append(np.arange(0.0, onset, 0.01), onset + np.array([0.0, 1e-3, 2e-3]))
-    velocity = parameters.loading.velocity
+    velocity = parameters.fault.velocity
     slips = time[:, None] >= np.arange(x.size) * period - 1e-9
     rate = np.where(slips, velocity, 1e-6 * velocity)
     rate[-2:] *= 100.0
@@ -35,13 +33,14 @@ def record(period=0.1, parameters=PARAMETERS, onset=ONSET):
 
 def changed(**values):
     """The usual parameters with other values."""
-    return PARAMETERS.replaced(values)
+    return PARAMETERS.replaced(**values)
 
 
 def run(identifier, parameters=PARAMETERS, critical_length=0.5):
     """A run as rules give it."""
     return {
         "id": identifier,
-        "parameters": dataclasses.asdict(parameters),
+        "parameters": parameters.to_dict(),
         "critical_length": critical_length,
+        "theory": {name: getattr(parameters.fault, name) for name in ("friction", "a", "zeta")},
     }

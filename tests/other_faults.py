@@ -97,7 +97,7 @@ def _entry(random, ratio, height, law, body):
         "initial_state": rounded(memory * log_uniform(random, 5.0, 50.0)),
         "end_time": rounded(latest * memory),
     }
-    return fault | {"law": law, "evolution": evolution} | scales | perturbed | run
+    return fault | {"friction_law": law, "evolution": evolution} | scales | perturbed | run
 
 
 def _base(random, fault, body):

@@ -10,9 +10,9 @@ import pandas as pd
 import xarray as xr
 from configurations import papers
 
-from nucleation.theory.curves import Curves, theory_dataset
 from replication.claims import table as table_of_claims
 from replication.claims.evidence import Evidence
+from replication.tables.curves import theory_dataset
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"
@@ -78,20 +78,13 @@ def _evidence():
     config = papers()
     lengths = table("lengths.csv")
     patches = table("patch_stability.csv")
-    curves = Curves(
-        heights=config.curves.heights, f_beta=config.curves.f_beta, slip_rates=(1e-6, 1e-5)
-    )
+    curves = dataclasses.replace(config.curves, slip_rates=(1e-6, 1e-5))
     by_id = {}
     for i, id in enumerate(patches["id"].values):
         by_id[str(id)] = patches.isel(run=i)
-    theory = theory_dataset(
-        config.base.material, config.base.friction, config.main_text_interface, curves
-    )
+    theory = theory_dataset(config.base, dataclasses.asdict(curves))
     return Evidence(
-        material=config.base.material,
-        friction=config.base.friction,
-        loading=config.base.loading,
-        interface=config.main_text_interface,
+        base=config.base,
         theory=theory,
         dispersion=dispersion(),
         lengths=tuple(of_role(lengths, role) for role in ROLES),

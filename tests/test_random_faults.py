@@ -12,20 +12,8 @@ from asked import (
     stability_length,
 )
 
-from nucleation.api import (
-    Fault,
-    Friction,
-    Geometry,
-    Loading,
-    Material,
-    NoLength,
-    ParameterError,
-    Parameters,
-    Perturbation,
-    SecondBody,
-)
-from nucleation.model.friction.constants import full_law
-from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
+from nucleation.api import Fault, NoLength, ParameterError, Run
+from nucleation.model.own_fault import own_law
 from nucleation.theory.creep import slow_slip
 from nucleation.theory.creep.lengths import LONGEST, stability_length_of
 from nucleation.theory.creep.patches import Patches
@@ -119,30 +107,12 @@ def test_theory_answers(cost, number):
 
 
 def run_of(fault, law, evolution):
-    """The same fault as `drop` has it: blocks, and the full law with its constants."""
-    velocity, distance = fault["velocity"], fault["slip_distance"]
-    scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY[law].items()}
-    if law == "product":
-        scales["state_scale"] = STATE_SCALE * distance / velocity
-    base = Friction(law=law, evolution=evolution, slip_distance=distance, **scales)
-    friction = full_law(base, velocity, *(fault[name] for name in ("friction", "a", "zeta")))
-    second = SecondBody()
-    if fault.get("second_shear_modulus") != math.inf:
-        second = SecondBody(
-            kind="deformable",
-            shear_modulus=fault.get("second_shear_modulus"),
-            poisson_ratio=fault.get("second_poisson_ratio"),
-            height=fault.get("second_height"),
-        )
+    """The same fault in blocks, and the full law with its constants."""
+    kept = {name: value for name, value in fault.items() if not name.endswith("far_side")}
+    base = own_law(fault["velocity"], fault["slip_distance"], evolution, law)
+    blocks = Fault(**kept, far_side="free", evolution=evolution, friction_law=base)
     length = 6.0 * float(critical_length(**fault))
-    return Parameters(
-        material=Material(fault["shear_modulus"], fault["poisson_ratio"], plane=fault["plane"]),
-        friction=friction,
-        loading=Loading(fault["normal_stress"], velocity, initial_state=20.0 * distance / velocity),
-        geometry=Geometry(fault["height"], length),
-        second_body=second,
-        perturbation=Perturbation("normal_load", 1e-5),
-    )
+    return Run(blocks, block_length=length, perturbation="normal_load", strength=1e-5)
 
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
@@ -169,7 +139,7 @@ def test_the_drop_answers(cost, number):
             return
     assert cost <= MOST
     assert found.stability_length == pytest.approx(
-        stability_length_of(run, critical), rel=1e-6, nan_ok=True
+        stability_length_of(run.patches, critical), rel=1e-6, nan_ok=True
     )
     assert np.isfinite(found.law.length) or found.doubt
     if law == "dieterich_ruina" and math.isfinite(found.stability_length):

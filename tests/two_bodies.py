@@ -1,19 +1,34 @@
 """Single systems of two given bodies, for tests of the linear theory."""
 
+import dataclasses
 from typing import NamedTuple
 
 import numpy as np
 
+from nucleation.fault import Fault
 from nucleation.model.material import ANTIPLANE, Material
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory import critical, crossings, spectrum
 from nucleation.theory.pair import LayerPair
 from nucleation.theory.stiffness import Layers
 
 
+@dataclasses.dataclass(frozen=True)
+class Interface:
+    """Friction linearised about steady sliding (SI units); by default that of the main text."""
+
+    friction: float = 0.41
+    a: float = 0.0068
+    zeta: float = 0.016
+    slip_length: float = 5.0e-7
+    velocity: float = 1.0e-5
+    normal_stress: float = 1.0e6
+
+
 class Body(NamedTuple):
     """A body beside the interface; half-spaces and layers of one material."""
 
-    material: Material = Material()
+    material: Material = PAPER_RUN.upper.material
     height: float = np.inf
     far_side: str = "velocity"
 
@@ -78,12 +93,19 @@ def critical_wavenumber(upper, lower, interface):
     return critical.CriticalMode(*(float(value[0]) for value in found))
 
 
-def critical_length(height, material, interface):
-    """L_c (m) of a block on a rigid base."""
-    return critical.modes_on_rigid_base(height, material, interface).length
-
-
 def critical_lengths(cases):
     """L_c (m) of each system, NaN where sliding is stable."""
     k = [crossings.largest_crossings(system(*case))[0] for case in cases]
     return 2.0 * np.pi / np.array(k)
+
+
+def fault_of(material, interface):
+    """A half-space on a rigid body, with this friction."""
+    return Fault(
+        shear_modulus=material.shear_modulus,
+        poisson_ratio=material.poisson_ratio,
+        plane=material.plane,
+        second_shear_modulus=np.inf,
+        slip_distance=interface.slip_length,
+        **{k: x for k, x in dataclasses.asdict(interface).items() if k != "slip_length"},
+    )

@@ -1,6 +1,5 @@
 """``python -m benchmarks.crosscheck``: three runs by FreeFem++ and by this project, compared."""
 
-import dataclasses
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -11,11 +10,10 @@ import xarray as xr
 
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import Parameters
-from nucleation.model.second_body import SecondBody
+from nucleation.run.run import Run
 from nucleation.simulation.run import simulate
-from nucleation.theory.critical import run_length
 from replication.configuration.load import load
+from replication.tables.main_text import main_text
 
 from .freefem import FIXED, solve
 
@@ -25,31 +23,33 @@ INSTANTS = 2000  # at which two records are compared
 LENGTH = 2.0  # of the blocks over the theory's critical length
 
 COMMON = FIXED | {
-    "perturbation.kind": "normal_load",
-    "perturbation.strength": 1e-4,
-    "perturbation.seed": 1,
-    "stepping.time_after_event": 0.05,
-    "mesh.n_x": 800,
-    "mesh.n_y": 8,
+    "perturbation": "normal_load",
+    "strength": 1e-4,
+    "seed": 1,
+    "time_after_event": 0.05,
+    "n_x": 800,
+    "n_y": 8,
 }
-RIGID = SecondBody()
-STIFFER = SecondBody(kind="deformable", far_side="clamped", shear_modulus=6.2e9)
-RUNS: dict[str, tuple[dict[str, Any], SecondBody]] = {
-    "H0.005": ({"geometry.height": 0.005}, RIGID),
-    "H0.05": ({"geometry.height": 0.05}, RIGID),
-    "pair": ({"geometry.height": 0.02, "mesh.n_x": 300, "mesh.n_y": 6}, STIFFER),
+STIFFER = {
+    "second_body": "deformable",
+    "second_far_side": "clamped",
+    "second_shear_modulus": 6.2e9,
 }
-"""Parameters by full name, and the lower block."""
+RUNS: dict[str, dict[str, Any]] = {
+    "H0.005": {"height": 0.005},
+    "H0.05": {"height": 0.05},
+    "pair": {"height": 0.02, "n_x": 300, "n_y": 6, **STIFFER},
+}
 
 
-def runs() -> dict[str, Parameters]:
+def runs() -> dict[str, Run]:
     """The runs by name, with material, friction and steps of the paper's configuration."""
     settings = load("config/config.yaml")
     found = {}
-    for name, (changes, below) in RUNS.items():
-        run = dataclasses.replace(settings.base, second_body=below).replaced(COMMON | changes)
-        length = LENGTH * run_length(run, settings.main_text_interface)
-        found[name] = run.replaced({"geometry.length": float(f"{length:.4g}")})
+    for name, changes in RUNS.items():
+        run = settings.base.replaced(**COMMON | changes)
+        length = LENGTH * main_text(run.fault).critical_length()
+        found[name] = run.replaced(block_length=float(f"{length:.4g}"))
     return found
 
 
@@ -60,7 +60,7 @@ def compare(own: xr.Dataset, theirs: xr.Dataset) -> dict[str, float]:
     elements as well. NaN where a run has no event or no patch.
     """
     record, record_freefem = Record(own), Record(theirs)
-    parameters = record.parameters
+    parameters = record.run
     found, found_freefem = extract(own), extract(theirs)
     end = BEFORE_ONSET * min(found["onset_time"], found_freefem["onset_time"])
     instants = np.linspace(SETTLED * parameters.memory_time, end, INSTANTS)
@@ -73,11 +73,11 @@ def compare(own: xr.Dataset, theirs: xr.Dataset) -> dict[str, float]:
         for run in (own, theirs)
     )
     stronger = force_freefem / force - 1.0
-    element = parameters.geometry.length / parameters.mesh.n_x
+    element = parameters.block.length / parameters.block.n_x
     return {
-        "height": parameters.geometry.height,
-        "n_x": parameters.mesh.n_x,
-        "n_y": parameters.mesh.n_y,
+        "height": parameters.fault.height,
+        "n_x": parameters.block.n_x,
+        "n_y": parameters.block.n_y,
         "onset_time": found["onset_time"],
         "onset_time_freefem": found_freefem["onset_time"],
         "length": found["length"],

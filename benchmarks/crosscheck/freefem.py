@@ -13,8 +13,8 @@ import numpy as np
 import xarray as xr
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import IN_TIME
+from nucleation.run.run import Run
 from nucleation.simulation.event import FAST
 from nucleation.simulation.realisation import Series, Sheet
 
@@ -38,99 +38,99 @@ NUMBERS = {
     "fast": FAST,
 }
 FIXED = {
-    "loading.kind": "edge",
-    "friction.law": "product",
-    "friction.evolution": "aging",
-    "mesh.grading": 1.0,
-    "loading.initial_stress": "no_slip",
-    "heterogeneity.varies": "none",
+    "loading": "edge",
+    "friction_law": "product",
+    "evolution": "aging",
+    "grading": 1.0,
+    "initial_stress": "no_slip",
+    "heterogeneity": "none",
 }
-"""Parameters for which the script has this one value, by full name."""
+"""Parameters for which the script has this one value, by name."""
 
 USED = (
-    "material.shear_modulus",
-    "material.density",
-    "friction.slip_distance",
-    "friction.regularisation_slip_rate",
-    "friction.aging_coefficient",
-    "friction.slip_rate_scale",
-    "friction.base_friction",
-    "friction.state_scale",
-    "friction.rate_coefficient",
-    "loading.normal_stress",
-    "loading.velocity",
-    "loading.initial_state",
-    "geometry.height",
-    "geometry.length",
-    "mesh.n_x",
-    "mesh.n_y",
-    "stepping.end_time",
-    "stepping.time_after_event",
-    "stepping.longest_step",
-    "perturbation.kind",
-    "perturbation.strength",
+    "shear_modulus",
+    "density",
+    "slip_distance",
+    "regularisation_slip_rate",
+    "aging_coefficient",
+    "slip_rate_scale",
+    "base_friction",
+    "state_scale",
+    "rate_coefficient",
+    "normal_stress",
+    "velocity",
+    "initial_state",
+    "height",
+    "block_length",
+    "n_x",
+    "n_y",
+    "end_time",
+    "time_after_event",
+    "longest_step",
+    "perturbation",
+    "strength",
 )
-"""Parameters that the script receives by their short names."""
+"""Parameters that the script receives; it calls two of them length and kind."""
 
 
 class FreeFemError(RuntimeError):
     """FreeFem++ has failed, or does not support a value of a parameter."""
 
 
-def arguments(parameters: Parameters) -> dict[str, str]:
+def arguments(run: Run) -> dict[str, str]:
     """The script's arguments by name; FreeFemError if it does not support a value."""
-    named = parameters.named()
+    named = {"second_grading": run.block.grading} | run.to_dict()
     supported = {name: (value,) for name, value in FIXED.items()}
-    supported |= {"perturbation.kind": ("none", *IN_TIME)}
-    below = parameters.below
+    supported |= {"perturbation": ("none", *IN_TIME)}
+    below = run.below
     if below is not None:
-        supported["second_body.grading"] = (1.0,)
-        named["second_body.grading"] = below.mesh.grading
+        supported["second_grading"] = (1.0,)
     for name, values in supported.items():
         if named[name] not in values:
             choices = ", ".join(map(str, values))
             raise FreeFemError(f"the script for FreeFem++ has {name} = {choices} only")
-    values = NUMBERS | {name.partition(".")[2]: named[name] for name in USED}
-    values["poisson_ratio"] = parameters.material.in_plane_ratio
-    lower = below or parameters  # of a rigid base the script uses only that it is fixed
+    called = {"block_length": "length", "perturbation": "kind"}
+    values = NUMBERS | {called.get(name, name): named[name] for name in USED}
+    values["poisson_ratio"] = run.upper.material.in_plane_ratio
+    lower = below or run.upper  # of a rigid base the script uses only that it is fixed
     values |= {f"second_{name}": value for name, value in asdict(lower.material).items()}
     values |= {
         "second_poisson_ratio": lower.material.in_plane_ratio,
-        "second_height": lower.geometry.height,
-        "second_n_y": below.mesh.n_y if below else 1,
+        "second_height": lower.height,
+        "second_n_y": below.n_y if below else 1,
         "second_far_side": below.far_side if below else "rigid",
     }
     return {name: str(value) for name, value in values.items()}
 
 
-def realisation(parameters: Parameters) -> str:
+def realisation(run: Run) -> str:
     """The declared perturbation on its own grid, up to the end of a run, for the script to read.
 
     Spacing of the splines (s), phase, number of splines and of places, and the coefficients a_i of
     :mod:`nucleation.simulation.realisation`: one line for each spline, of all places.
     """
-    declared = parameters.perturbation
-    time = declared.correlation_time * parameters.memory_time
+    declared = run.perturbation
+    time = declared.correlation_time * run.memory_time
     series: Series | Sheet = Series(declared.seed, time)
     if declared.kind == "state":
-        x = np.linspace(0.0, parameters.geometry.length, parameters.mesh.n_x + 1)
+        x = np.linspace(0.0, run.block.length, run.block.n_x + 1)
         series = Sheet(declared.seed, time, declared.correlation_length, x)
     # the last step ends after the end of the run
-    coefficients = series.coefficients(parameters.stepping.end_time + parameters.memory_time)
+    coefficients = series.coefficients(run.stepping.end_time + run.memory_time)
     rows = [(series.spacing, series.phase, *coefficients.shape), *coefficients.tolist()]
     return "\n".join(" ".join(map(repr, row)) for row in rows) + "\n"
 
 
-def solve(directory: Path, parameters: Parameters) -> xr.Dataset:
+def solve(directory: Path, run: Run) -> xr.Dataset:
     """Solve the block, or both, with FreeFem++; its plain-text records are put in the directory.
 
     The fields of the interface are on (time, x) and the driving force is on (step), as those of
     :func:`nucleation.simulation.run.simulate`. Of its stepping, the end and the longest step are
     used.
     """
-    given = arguments(parameters) | {"directory": str(directory)}
-    if parameters.perturbation.kind != "none":
-        (directory / REALISATION).write_text(realisation(parameters), encoding="ascii")
+    given = arguments(run) | {"directory": str(directory)}
+    if run.perturbation.kind != "none":
+        (directory / REALISATION).write_text(realisation(run), encoding="ascii")
     command = [PROGRAM, "-nw", "-v", "0", str(SCRIPT)]
     command += [f"{name}={value}" for name, value in given.items()]
     done = subprocess.run(
@@ -145,22 +145,22 @@ def solve(directory: Path, parameters: Parameters) -> xr.Dataset:
     )
     if done.returncode:
         raise FreeFemError(f"FreeFem++ failed (code {done.returncode}):\n{done.stdout[-2000:]}")
-    return read(directory, parameters)
+    return read(directory, run)
 
 
-def read(directory: Path, parameters: Parameters) -> xr.Dataset:
+def read(directory: Path, run: Run) -> xr.Dataset:
     """The records in a directory: a line of STEPS for each step, then for each frame its time (s)
     and a line for each of FIELDS at the nodes 0..n_x."""
-    nodes = parameters.mesh.n_x + 1
+    nodes = run.block.n_x + 1
     steps = np.loadtxt(directory / "steps.txt", ndmin=2)
     numbers = np.array((directory / "frames.txt").read_text(encoding="ascii").split(), dtype=float)
     frames = numbers.reshape(-1, 1 + len(FIELDS) * nodes)
     fields = frames[:, 1:].reshape(-1, len(FIELDS), nodes)
     on_frames = {name: (("time", "x"), fields[:, i]) for i, name in enumerate(FIELDS)}
     on_steps = {name: ("step", column) for name, column in zip(STEPS, steps.T, strict=True)}
-    x = np.linspace(0.0, parameters.geometry.length, nodes)
+    x = np.linspace(0.0, run.block.length, nodes)
     return xr.Dataset(
         on_frames | on_steps,
         {"time": frames[:, 0], "x": x},
-        {"parameters": parameters.to_json(), "steps": steps.shape[0]},
+        {"parameters": run.to_json(), "steps": steps.shape[0]},
     )

@@ -20,14 +20,14 @@ from collections.abc import Callable
 import numpy as np
 
 from nucleation.fem.body import Body
-from nucleation.fem.grid import Field, Grid, Motion
+from nucleation.fem.grid import Field, Motion
 from nucleation.fem.modes import BlockModes
 from nucleation.fem.operator import Operator, Response
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import Run
+from nucleation.simulation.bodies import grid_of
 from nucleation.simulation.drive import Drive, Imposed
 from nucleation.simulation.interface import Interface, InterfaceSolution, Past
-from nucleation.simulation.step import State
-from nucleation.simulation.step import Dynamics, StepReport
+from nucleation.simulation.step import Dynamics, State, StepReport
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array
 
@@ -83,16 +83,16 @@ class Manufactured(Drive):
 
     def __init__(
         self,
-        parameters: Parameters,
+        run: Run,
         exact: Displacement,
         log_state: tuple[Term, ...] = (),
         lumped: bool = True,
     ) -> None:
         self.log_state = log_state
         self.lumped = lumped
-        self.friction = parameters.friction
-        self.velocity = parameters.loading.velocity
-        self.body = self.body_of(parameters)
+        self.friction = run.law
+        self.velocity = run.fault.velocity
+        self.body = self.body_of(run)
         self.grid = self.body.grid
         self.exact = exact
         self.loads = Loads(self.grid, exact)
@@ -102,10 +102,9 @@ class Manufactured(Drive):
         scheme = BDF(self.body.crossing_time)
         self.dynamics = Dynamics(self.body, interface, self, scheme)
 
-    def body_of(self, parameters: Parameters) -> Body:
+    def body_of(self, run: Run) -> Body:
         """Make the elastic body."""
-        grid = Grid.of(parameters.geometry, parameters.mesh)
-        return Body((grid, parameters.material))
+        return Body((grid_of(run.upper), run.upper.material))
 
     def at(self, time: float) -> Imposed:
         """The motion of the driven edge and the source of the state at a time (s)."""

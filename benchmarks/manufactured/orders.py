@@ -21,9 +21,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from nucleation.model.friction.law import Friction
-from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array
 
@@ -35,8 +33,8 @@ REFINEMENTS = ("mesh", "step", "quasi_static_step")
 ERRORS = ("displacement_error", "slip_rate_error", "log_state_error")
 """Of the displacement over its scale, of the slip rate over V, of the log of the state."""
 
-MATERIAL = Material()
-GEOMETRY = Geometry(height=0.3, length=1.0)
+MATERIAL = PAPER_RUN.upper.material
+HEIGHT, LENGTH = 0.3, 1.0  # m
 SCALE = 1e-6  # m, of displacements; inertia and elasticity are comparable for times of 1e-3 s
 DISTANCE = 2e-6  # m, D: D/V is about the duration, and slip rates vary between V/2 and 2 V
 GRADING = 3.0  # of the meshes
@@ -114,11 +112,11 @@ FIELDS = {
 }
 
 
-def log_state(fields: _Fields, parameters: Parameters) -> tuple[Term, Term]:
+def log_state(fields: _Fields, run: Run) -> tuple[Term, Term]:
     """The terms of psi = log(phi): steady sliding, and what varies."""
     constant = power(1.0)
     steady = Term(
-        np.log(parameters.memory_time),
+        np.log(run.memory_time),
         constant,
         constant,
         constant,
@@ -137,12 +135,18 @@ def manufactured(
     fields = FIELDS[name]
     alone = problem == "elastodynamics"
     evolution = "aging" if alone else problem
-    friction = Friction(slip_distance=DISTANCE, evolution=evolution)
-    loading = Loading(velocity=fields.velocity)
-    mesh = Mesh(2 * rows, rows, grading)
-    parameters = Parameters(MATERIAL, friction, loading, GEOMETRY, mesh)
-    terms = () if alone else log_state(fields, parameters)
-    return Manufactured(parameters, fields.displacement, terms, fields.lumped)
+    run = PAPER_RUN.replaced(
+        slip_distance=DISTANCE,
+        evolution=evolution,
+        velocity=fields.velocity,
+        height=HEIGHT,
+        block_length=LENGTH,
+        n_x=2 * rows,
+        n_y=rows,
+        grading=grading,
+    )
+    terms = () if alone else log_state(fields, run)
+    return Manufactured(run, fields.displacement, terms, fields.lumped)
 
 
 def _errors(problem: Manufactured, rungs: Iterable[int]) -> tuple[float, float, float]:
@@ -202,7 +206,7 @@ def convergence() -> pd.DataFrame:
     for problem, refinement in itertools.product(PROBLEMS, REFINEMENTS):
         alone = problem == "elastodynamics"
         if refinement == "mesh":
-            errors, spacing = _mesh_errors(problem), GEOMETRY.length / (2.0 * np.array(ROWS))
+            errors, spacing = _mesh_errors(problem), LENGTH / (2.0 * np.array(ROWS))
         elif alone and refinement == "quasi_static_step":
             continue
         else:

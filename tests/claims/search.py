@@ -31,7 +31,7 @@ def growth_at(
 ):
     """The root of Eq. (5) with the larger real part, over V/ell."""
     g1, g2 = transfer(wavenumber)
-    scale = modulus * wavenumber * interface.slip_length / interface.normal_stress
+    scale = modulus * wavenumber * interface.slip_distance / interface.normal_stress
     load = scale * (g1 - 1j * interface.friction * g2)
     return _growth(load, interface.a, interface.zeta)
 

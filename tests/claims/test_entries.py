@@ -16,8 +16,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from nucleation.extraction.measures import BY_DEFINITION, MEASURES
-from nucleation.model.identity import fault
-from nucleation.model.parameters import Geometry, Parameters
+from nucleation.run.identity import fault
+from nucleation.run.run import PAPER_RUN
 from replication.claims import table
 from replication.claims.expected import WORDS, Verdict, read
 from replication.configuration.roles import LONGER
@@ -317,9 +317,8 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
 def test_runs_of_another_material_are_ignored():
     on = evidence()
     table = on.lengths[1]
-    stiff = on.material.__class__(shear_modulus=9.3e9)
     changed = [
-        fault(Parameters(stiff, on.friction.changed({"evolution": law}), geometry=Geometry(height)))
+        fault(PAPER_RUN.replaced(shear_modulus=9.3e9, evolution=law, height=float(height)))
         for law, height in zip(table["evolution"].values, table["height"].values, strict=True)
     ]
     other = table.assign(

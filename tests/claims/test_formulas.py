@@ -56,7 +56,7 @@ def linearised(law, velocity):
 def test_spring_block_is_unstable_below_the_printed_stiffness():
     """The stiffness at which a root of the linearised law and spring gets a positive real part."""
     on = evidence()
-    law, velocity = on.friction, on.loading.velocity
+    law, velocity = on.friction, on.fault.velocity
     (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
 
     def growth(stiffness):
@@ -72,7 +72,7 @@ def test_spring_block_is_unstable_below_the_printed_stiffness():
 
 def test_perturbed_friction_is_the_printed_one():
     on = evidence()
-    law, velocity = on.friction, on.loading.velocity
+    law, velocity = on.friction, on.fault.velocity
     ell = law.slip_distance
     _, a, zeta = law.expansion(velocity)
     (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
@@ -131,7 +131,7 @@ def test_response_matrix_of_a_half_space():
 def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():
     """Identical half-spaces and a thin and a high block, with transfer functions by collocation."""
     on = evidence()
-    at, modulus = on.interface, on.material.shear_modulus
+    at, modulus = on.interface, on.fault.shear_modulus
     curve = on.theory
     mode = theory.main_text(on).critical_mode()
     cases = [(lambda k: half_spaces(NU), mode.wavenumber, mode.angular_frequency)]
@@ -143,7 +143,7 @@ def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():
     for transfer, wavenumber, frequency in cases:
         k, rate = search.critical_wavenumber(transfer, modulus, at, 2.0 * wavenumber)
         assert k == pytest.approx(wavenumber, rel=1e-8)
-        assert rate * at.velocity / at.slip_length == pytest.approx(abs(frequency), rel=1e-6)
+        assert rate * at.velocity / at.slip_distance == pytest.approx(abs(frequency), rel=1e-6)
         short = [search.growth_at(k * r, transfer, modulus, at).real for r in (1.001, 1.1, 10.0)]
         assert max(short) < 0.0
 

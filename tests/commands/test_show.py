@@ -9,12 +9,10 @@ from matplotlib.image import imread
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import annotate
-from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import InterfaceState
-from nucleation.model.material import Material
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 from nucleation.simulation.to_file import simulation_code
-from nucleation.theory.curves import Curves, theory_dataset
+from replication.tables.curves import theory_dataset
 
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
@@ -28,11 +26,14 @@ def kept(folder, name, dataset, parameters, digest="0" * 64):
 def files(tmp_path_factory, settings, simulation, table):
     """A dataset of each kind that is quickly made, by name."""
     folder = tmp_path_factory.mktemp("datasets")
-    parameters = settings.runs[0].parameters
+    parameters = settings.runs[0].run
     digest = simulation_code(parameters)
-    short = parameters.replaced({"end_time": 0.02, "time_after_event": 0.01})
-    curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
-    theory = theory_dataset(Material(), Friction(), InterfaceState(), curves)
+    short = parameters.replaced(end_time=0.02, time_after_event=0.01)
+    theory = theory_dataset(
+        PAPER_RUN,
+        {"heights": (0.005, 0.05, 0.1), "f_beta": (0.0, 0.1), "zeta_over_a": (1.0,),
+         "slip_rates": (1e-6, 1e-5)},
+    )  # fmt: skip
     ends = {
         "instant_time": (0.0, 8.0), "patch_length": (0.1, 0.2), "growth_rate": (-1.0, 1.0),
         "oscillation_growth": (-1.0, 1.0), "growth_frequency": (12.0, 13.0),

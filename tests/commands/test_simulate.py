@@ -8,30 +8,28 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from replication.configuration.study_names import study_parameters
 
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.units import parse
+from nucleation.run.estimates import growth_time
+from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import simulate
 from nucleation.simulation.to_file import simulation_code
-from nucleation.theory.estimates import growth_time
-from replication.configuration.study_names import study_parameters
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = [
     "--height", "5mm", "--block-length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms",
     "--second-body", "rigid",
 ]  # fmt: skip
-PARAMETERS = Parameters(
-    geometry=Geometry(0.005, 0.9), mesh=Mesh(16, 2), stepping=Stepping(end_time=0.02)
-)
+PARAMETERS = PAPER_RUN.replaced(height=0.005, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
 
 
 def parameters_of(path):
-    return Parameters.from_json(netcdf.read(path).attrs["parameters"])
+    return Run.from_json(netcdf.read(path).attrs["parameters"])
 
 
 def test_record_is_that_of_the_library(nucleation, tmp_path):
@@ -204,7 +202,7 @@ def test_end_time_is_found_from_the_theory(nucleation, tmp_path):
     found = json.loads(nucleation("simulate", tmp_path / "a.nc", *words).out)
     end, after = (found["parameters"]["stepping"][n] for n in ("end_time", "time_after_event"))
     critical = found["theory"]["critical_length"]
-    assert end == pytest.approx(1.5 * growth_time(Parameters(), critical), rel=0.05)
+    assert end == pytest.approx(1.5 * growth_time(PAPER_RUN, critical), rel=0.05)
     assert after == pytest.approx(10.0 * 0.05)
     given = [*words, "--end-time", "3 s"]
     kept = json.loads(nucleation("simulate", tmp_path / "a.nc", *given).out)["parameters"]

@@ -5,7 +5,8 @@ import json
 import pytest
 from asked import critical_length
 
-from nucleation.api import PAPER, Parameters
+from nucleation.api import PAPER
+from nucleation.run.run import PAPER_RUN
 
 FAULT = {
     "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
@@ -117,7 +118,7 @@ def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
 
 
 def test_the_paper_fills_in_what_is_not_given(nucleation, tmp_path):
-    usual = Parameters().to_dict()
+    usual = PAPER_RUN.to_dict()
     run = nucleation("simulate", tmp_path / "run.nc", "--paper", "--dry-run", "--json").out
     found = json.loads(run)["parameters"]
     for group in ("material", "friction", "second_body", "perturbation"):

@@ -9,11 +9,10 @@ from configurations import messages, papers, study
 
 from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.theory.estimates import growth_time, process_zone, steepness
+from nucleation.run.estimates import element_height, steepness
+from nucleation.run.run import PAPER_RUN
 from replication.configuration.advice import advise, summary_of_meshes, warned
 from replication.configuration.load import configure
-from replication.configuration.mesh_advice import element_sizes
 
 GOOD = {"height": 0.005, "n_x": 400}
 
@@ -30,10 +29,10 @@ def test_the_papers_configuration_needs_no_warning():
 def test_process_zone_of_the_paper():
     """By hand, from the constants f, a, zeta of science: b = 0.00682 + 0.0156, nu = 1/3."""
     thick = 3.1e9 * 5e-7 / (2.0 / 3.0 * (0.00682 + 0.0156) * 1e6)
-    tall = Parameters(geometry=Geometry(height=10.0))
-    assert process_zone(tall) == pytest.approx(thick, rel=2e-3)
-    thin = Parameters(geometry=Geometry(height=0.005))
-    assert process_zone(thin) == pytest.approx(math.sqrt(2 * 0.005 * thick), rel=2e-3)
+    tall = PAPER_RUN.replaced(height=10.0)
+    assert tall.process_zone() == pytest.approx(thick, rel=2e-3)
+    thin = PAPER_RUN.replaced(height=0.005)
+    assert thin.process_zone() == pytest.approx(math.sqrt(2 * 0.005 * thick), rel=2e-3)
 
 
 @pytest.fixture
@@ -68,11 +67,11 @@ def test_round_off_of_steady_sliding_is_no_age():
 @pytest.mark.parametrize(("change", "warned"), [(-0.5, True), (-2.0, False)])
 def test_a_patch_may_weaken_in_a_fault_that_strengthens(change, warned):
     defaults = {
-        "length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
+        "block_length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
         "loading": "remote", "stress_rate": 1e-3, "second_body": "deformable",
-        "law": "dieterich_ruina", "friction": 0.4, "a": 0.0068,
+        "friction_law": "dieterich_ruina", "friction": 0.4, "a": 0.0068,
         "zeta": -0.0034, "end_time": 10.0,
-        "varies": "zeta", "shape": "step", "width": 1.2, "change": change,
+        "heterogeneity": "zeta", "shape": "step", "width": 1.2, "change": change,
     }  # fmt: skip
     given = advice({"height": 1.0}, defaults=defaults)
     assert any("nothing will nucleate" in text for text in given) == warned
@@ -88,28 +87,25 @@ def test_steepness_of_the_laws_of_the_house(omega):
 
 def test_process_zone_of_a_law_of_ones_own(square):
     """It is older by half the time at rest, and E = pi^2/4 for a large drop."""
-    tall = Parameters(geometry=Geometry(height=10.0), loading=Loading(initial_state=1.0))
+    tall = PAPER_RUN.replaced(height=10.0, initial_state=1.0)
     thick = 3.1e9 * 5e-7 / (2.0 / 3.0 * (0.00682 + 0.0156) * 1e6)
     drop = math.log((1.0 + 0.5 * 1e6) * 1e-5 / 5e-7)
     zone = thick / (2.0 * drop**2 / math.pi**2)
-    assert process_zone(tall, rest=1e6) == pytest.approx(zone, rel=2e-3)
+    assert tall.process_zone(rest=1e6) == pytest.approx(zone, rel=2e-3)
 
 
 def test_growth_time_by_force_balance():
     """The edge's displacement that lets a thin bar slip over a length against f sigma0."""
-    parameters = Parameters(geometry=Geometry(height=1e-6))
+    parameters = PAPER_RUN.replaced(height=1e-6)
     modulus = 2.0 * 3.1e9 / (1.0 - 1.0 / 3.0)
     displacement = 0.4143 * 1e6 * 0.2**2 / (2.0 * modulus * 1e-6)
-    assert growth_time(parameters, 0.2) == pytest.approx(displacement / 1e-5, rel=1e-3)
+    assert parameters.growth_time(0.2) == pytest.approx(displacement / 1e-5, rel=1e-3)
 
 
-@pytest.mark.parametrize("mesh", [Mesh(60, 10), Mesh(100, 2, 5.0), Mesh(80, 20, 20.0)])
-def test_element_sizes_are_the_grids(mesh):
-    parameters = Parameters(geometry=Geometry(0.02, 2.0), mesh=mesh)
-    grid = Grid(2.0, 0.02, mesh.n_x, mesh.n_y, mesh.grading)
-    x, y = grid.x, grid.y
-    found = element_sizes(parameters.mesh, parameters.geometry)
-    assert found == pytest.approx((x[1] - x[0], y[1] - y[0]), rel=1e-9)
+@pytest.mark.parametrize(("n_y", "grading"), [(10, 1.0), (2, 5.0), (20, 20.0)])
+def test_element_heights_are_the_grids(n_y, grading):
+    grid = Grid(2.0, 0.02, 60, n_y, grading)
+    assert element_height(0.02, n_y, grading) == pytest.approx(grid.y[1] - grid.y[0], rel=1e-9)
 
 
 WARNED = {
@@ -133,7 +129,15 @@ WARNED = {
         "simulated time too short (s-aging-H0.005-phi1-n_x400-end_time5): end_time = 5 s, but the "
         "patch needs about 8.59 s to become unstable",
     ),
-    "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-block_length0.4-n_x400)"),
+    "block": (
+        GOOD | {"block_length": 0.4},
+        "block short (s-aging-H0.005-phi1-block_length0.4-n_x400)",
+    ),
+    "block below L_c": (
+        GOOD | {"block_length": 0.2, "end_time": 20.0},
+        "block shorter than L_c (s-aging-H0.005-phi1-block_length0.2-n_x400-end_time20): length = "
+        "0.2 m is not above the theory's critical length, 0.235 m",
+    ),
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
         "start above the strength (",
@@ -210,12 +214,12 @@ def test_the_summary_counts_runs_and_has_the_worst_mesh():
     topics = {warning.topic for warning in meshes}
     assert topics == {"mesh too coarse along x", "mesh too coarse along y"}
     text = summary_of_meshes(meshes, "list.txt")
-    worst = min(runs, key=lambda run: run.parameters.mesh.n_x)
-    along = worst.parameters.geometry.length / worst.parameters.mesh.n_x
-    zone = process_zone(worst.parameters, growth_time(worst.parameters, worst.critical_length))
+    worst = min(runs, key=lambda run: run.run.block.n_x)
+    along = worst.run.block.length / worst.run.block.n_x
+    zone = worst.run.process_zone(worst.run.growth_time(worst.critical_length))
     assert f"3 runs have a coarse mesh or long steps, with {zone / along:.2g} elements" in text
     assert worst.id in text and text.endswith("list.txt lists them")
-    (short,) = warned(configure(study(GOOD | {"length": 0.4})).runs)
+    (short,) = warned(configure(study(GOOD | {"block_length": 0.4})).runs)
     assert not short.is_of_meshes
 
 
@@ -223,7 +227,7 @@ def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():
     """It was refused, length or not; and where it ran, a critical length stood beside."""
     strengthening = GOOD | {"zeta_over_a": -0.5}
     assert "needs its block_length (m)" in messages(study(strengthening))
-    settings = configure(study(strengthening | {"length": 1.4}))
+    settings = configure(study(strengthening | {"block_length": 1.4}))
     assert math.isnan(settings.runs[0].critical_length)
     (warning,) = advise(settings.runs)
     assert "nothing will nucleate" in warning and "stable at every wavelength" in warning

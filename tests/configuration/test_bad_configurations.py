@@ -6,8 +6,8 @@ import os
 import pytest
 from configurations import PAPER, assert_one_problem, changed, messages, study, with_run
 
+from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from nucleation.strict_yaml import read_yaml
 from replication.configuration.contradictions import directory_problem
 from replication.configuration.load import configure
 
@@ -20,7 +20,7 @@ BAD = {
     "incompressible": (
         changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"],
     ),
-    "infinite stress": (changed("loading.normal_stress", math.inf), ["inf Pa", "(0, 1e+10)"]),
+    "infinite stress": (changed("loading.normal_stress", math.inf), ["inf Pa", "[1e-06, 1e+13)"]),
     "not a number": (changed("loading.velocity", math.nan), ["loading.velocity = nan m/s"]),
     "zero height in list": (with_run(height=[0.01, 0]), [f"{LAST}.height[1] = 0 m"]),
     "zero mesh": (changed("studies.paper.defaults.n_x", 0), ["n_x = 0", "integer in [8, 100000]"]),
@@ -38,20 +38,16 @@ BAD = {
         with_run(height=0.01, evolution="ageing"), [f"{LAST}.evolution = 'ageing'", "aging, slip"],
     ),
     "unknown section": (changed("materials", {}), ["materials = {}", "did you mean material?"]),
-    "unknown key": (changed("material.densty", 1.0), ["material.densty", "mean density?"]),
+    "unknown key": (changed("material.densty", 1.0), ["densty", "mean density?"]),
     "Young's modulus": (
         changed("material.youngs_modulus", 3e9),
-        ["material.youngs_modulus", "unknown key; give shear_modulus: mu = E/(2 (1 + nu))"],
+        ["youngs_modulus", "unknown key; give shear_modulus: mu = E/(2 (1 + nu))"],
     ),
     "symbol of another text": (
         with_run(height=0.01, Dc=1e-6),
         [f"{LAST}.Dc = 1e-06 is not allowed: unknown key; did you mean slip_distance?"],
     ),
     "far from any key": (changed("loading.zzz", 1), ["loading.zzz = 1", "known keys: normal_st"]),
-    "velocity twice": (
-        changed("main_text_interface.velocity", 1e-5),
-        ["main_text_interface.velocity", "unknown key"],
-    ),
     "study's name": (changed("studies.a/b", {"runs": [{"height": 1}]}), ["'a/b'", "as a name"]),
     "name of a number": ({**PAPER, 3: 1}, ["[3] = 1 is not allowed: unknown key"]),
     # missing, empty, repeated, contradictory
@@ -102,7 +98,8 @@ BAD = {
     ),
     "integer beyond any mesh": (study({**TALL, "n_x": 10**400}), ["integer in [8, 100000]"]),
     "list in a list": (
-        study({**TALL, "velocity": [[1e-5]]}), [f"{RUN}.velocity[0] = [1e-05] m/s", "(0, 1) m/s"],
+        study({**TALL, "velocity": [[1e-5]]}),
+        [f"{RUN}.velocity[0] = [1e-05] m/s", "[1e-30, 1000) m/s"],
     ),
     "range of integers": (
         study({**TALL, "n_x": {"start": 100, "stop": 200, "num": 3}}), [f"{RUN}.n_x", "integer"],
@@ -162,27 +159,14 @@ BAD = {
         study({**TALL, "initial_shear_stress": 5e4}),
         [f"{RUN}: initial_shear_stress = 50000 Pa", "no_slip", "must be 0 Pa"],
     ),
-    "block shorter than its nucleation length": (
-        study({**TALL, "length": 0.5}),
-        [f"{RUN}: block_length = 0.5 m", "critical nucleation length of the theory, 0.81 m"],
-    ),
     "block longer than any": (
         study({**TALL, "shear_modulus": 9e12, "slip_distance": 900.0}),
-        [f"{RUN}: geometry.length = ", "(0, 1e+07) m"],
+        [f"{RUN}: block_length = ", "(0, 1e+07) m"],
     ),
     "a theory without instability": (
         {"friction": {"aging_coefficient": 0.0},
-         **study({"height": [0.005, 0.1], "length": 3.0}, role="paper")},
-        ["main_text_interface: zeta = -0.00495", "friction grows with slip rate at every"],
-    ),
-    "a rounding of another fault's friction": (
-        {"main_text_interface": {"zeta": 0.02}, **study(TALL)},
-        ["main_text_interface.zeta = 0.02 is not allowed", "friction law's own value, 0.015599"],
-    ),
-    "a run whose friction is not the one that is rounded": (
-        study({**TALL, "slip_distance": 1e-6}, interface="main_text"),
-        [f"{RUN}: interface = main_text is not allowed", "slip_length = 5e-07 m is no rounding",
-         "own value, 1e-06 m", "it must be friction_law"],
+         **study({"height": [0.005, 0.1], "block_length": 3.0}, role="paper")},
+        ["zeta = -0.005 with a = 0.005 is not allowed", "an instability at H = "],
     ),
     "constants without a law": (
         study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],

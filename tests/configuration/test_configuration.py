@@ -3,34 +3,35 @@
 import math
 from collections import Counter
 
-import asked
 import pytest
 import yaml
 from configurations import CONFIG, PAPER, papers, study
 
+from nucleation.fault import Fault
 from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material
-from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
-from nucleation.theory.critical import modes_on_rigid_base
-from replication.configuration import schema
+from nucleation.run.run import PAPER_RUN, Run
+from replication.configuration.checks import entries_of
 from replication.configuration.load import configure, load
+from replication.configuration.names import SECTIONS
 from replication.configuration.runs import first_realisations
+from replication.configuration.settings import GROUPS
 from replication.configuration.theory_curves import theory_curves
+
+MAIN_TEXT = papers().main_text
 
 
 def test_default_configuration_is_the_papers():
     paper = papers()
     assert paper.results == "results"
-    assert paper.base.material == Material()
-    assert paper.base.friction == Friction()
-    assert paper.base.loading == Loading()
-    assert paper.main_text_interface == InterfaceState()
-    assert {key for key in schema.GROUPS if key not in PAPER} == set()
-    for group in schema.GROUPS:
-        keys = declarations(type(paper.base.friction)) if group == "friction" else None
-        assert set(PAPER[group]) == set(keys or schema.group_entries(group)), group
+    assert (paper.base.fault, paper.base.law) == (PAPER_RUN.fault, PAPER_RUN.law)
+    assert paper.base.start == PAPER_RUN.start
+    assert {key for key in (*SECTIONS, *GROUPS) if key not in PAPER} == set()
+    law = {"friction_law" if name == "law" else name for name in declarations(type(paper.base.law))}
+    for section in (*SECTIONS, *GROUPS):
+        keys = law if section == "friction" else set(entries_of(section))
+        assert set(PAPER[section]) == keys, section
 
 
 def test_papers_study():
@@ -45,10 +46,10 @@ def test_papers_study():
     expected = {"slip-H0.01-phi1", "slip-H0.05-phi1", "aging-H0.1-phi1000"}
     assert others == {f"paper-{name}" for name in expected}
     for run in runs:
-        assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
-        expected = modes_on_rigid_base(run.labels["height"], Material(), InterfaceState()).length
+        assert (run.run.block.n_x, run.run.block.n_y) == (400, 150)
+        expected = MAIN_TEXT.replace(height=run.labels["height"]).critical_length()
         assert run.critical_length == pytest.approx(float(expected), rel=1e-12)
-        assert run.parameters.geometry.length == pytest.approx(6.0 * expected, rel=1e-3)
+        assert run.run.block.length == pytest.approx(6.0 * expected, rel=1e-3)
 
 
 def test_converged_study_has_the_papers_runs():
@@ -59,15 +60,12 @@ def test_converged_study_has_the_papers_runs():
     assert labels[0] == labels[1]
     assert set(realisations(runs)) == {3, 6}
     for run in runs:
-        assert run.parameters.perturbation.acts
+        assert run.run.perturbation.acts
 
 
 def realisations(runs):
     """How many realisations each fault has."""
-    faults = Counter(
-        run.parameters.replaced({"perturbation.seed": 0, "recording.record": "lengths"})
-        for run in runs
-    )
+    faults = Counter(run.run.replaced(seed=0, record="lengths") for run in runs)
     return list(faults.values())
 
 
@@ -80,8 +78,8 @@ def test_what_is_beyond_the_paper_has_six_realisations():
         runs = [
             run
             for run in config.runs_of(name)
-            if run.parameters.perturbation.acts
-            and not (name == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
+            if run.run.perturbation.acts
+            and not (name == "pairs_far_sides" and run.run.block.n_x == 1600)
         ]
         assert min(realisations(runs)) >= 6, name
     shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
@@ -94,9 +92,9 @@ def test_entries_have_defaults_of_their_own_that_are_in_no_name():
     runs = configure(values).runs
     assert [run.id for run in runs] == ["mine-aging-H0.02-phi1", "mine-aging-H0.1-phi1"]
     for run in runs:
-        assert (run.parameters.stepping.longest_step, run.parameters.mesh.n_x) == (0.02, 90)
+        assert (run.run.stepping.longest_step, run.run.block.n_x) == (0.02, 90)
     entry["longest_step"] = [0.05, 0.1]  # what the entry itself gives is stronger
-    assert {r.parameters.stepping.longest_step for r in configure(values).runs} == {0.05, 0.1}
+    assert {r.run.stepping.longest_step for r in configure(values).runs} == {0.05, 0.1}
     entry["defaults"] = {"longest_step": -1.0}
     with pytest.raises(ParameterError, match=r"studies.mine.runs\[0\].defaults.longest_step = -1"):
         configure(values)
@@ -106,10 +104,8 @@ def test_quick_configuration_has_what_the_figures_show():
     quick = load(CONFIG / "quick.yaml")
     assert quick.results != "results"
     for height in (quick.figures.inset_height, quick.figures.space_time_height):
-        assert (
-            quick.shown(height).labels.items()
-            >= {"evolution": "aging", "initial_state": 1.0}.items()
-        )
+        own = {"evolution": "aging", "initial_state": 1.0, "height": height}
+        assert quick.shown(height).labels.items() >= own.items()
     laws = {(run.labels["evolution"], run.labels["initial_state"]) for run in quick.runs}
     assert laws >= {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
@@ -127,8 +123,8 @@ def test_grid_and_identifiers():
     assert config.runs[0].id == "s-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
     assert {run.labels["height"] for run in config.runs} == {0.01, 0.1, 1.0}
     for run in config.runs:
-        assert run.parameters.material == Material(4.0e9, 0.25)
-        assert run.parameters.mesh.n_y == 20
+        assert run.run.upper.material == Material(4.0e9, 0.25)
+        assert run.run.block.n_y == 20
         assert all(character.isalnum() or character in "-_." for character in run.id)
 
 
@@ -168,9 +164,10 @@ def test_constants_of_the_law_in_a_study():
     usual = Friction().expansion(1e-5)
     for run, ratio in zip(config.runs, ratios, strict=True):
         assert run.id == f"s-aging-H0.01-phi1-zeta_over_a{ratio:g}"
-        f, a, zeta = run.parameters.friction.expansion(1e-5)
+        f, a, zeta = run.run.law.expansion(1e-5)
         assert (f, a, zeta / a) == pytest.approx((usual.f0, usual.a, ratio), rel=1e-10)
-        expected = modes_on_rigid_base(0.01, Material(), InterfaceState(f, a, zeta)).length
+        own = {"friction": f, "a": a, "zeta": zeta, "height": 0.01}
+        expected = MAIN_TEXT.replace(**own).critical_length()
         assert run.critical_length == pytest.approx(float(expected), rel=1e-10)
         assert run.value("zeta_over_a") == ratio
         assert run.value("a") == pytest.approx(usual.a)
@@ -204,8 +201,8 @@ def test_constants_of_friction_may_vary():
 @pytest.mark.slow
 def test_parameters_survive_the_way_through_a_rule():
     for run in papers().runs:
-        as_text = yaml.safe_dump(run.parameters.to_dict())
-        assert Parameters.from_dict(yaml.safe_load(as_text)) == run.parameters
+        as_text = yaml.safe_dump(run.run.to_dict())
+        assert Run.from_dict(yaml.safe_load(as_text)) == run.run
 
 
 def test_figures_show_the_nearest_height():
@@ -222,7 +219,7 @@ def test_figure_3_with_other_heights_is_one_edit():
     made = configure({"studies": {"paper": {"runs": [{"height": [0.001, 0.2]}]}}})
     assert made.studies_for("paper") == ["paper"]
     low, high = made.runs
-    assert (low.parameters.mesh.n_y, low.parameters.geometry.height) == (150, 0.001)
+    assert (low.run.block.n_y, low.run.fault.height) == (150, 0.001)
     assert made.shown(made.figures.inset_height) == high
     assert made.shown(made.figures.space_time_height) == low
     heights = made.drawn_curves().heights
@@ -231,24 +228,34 @@ def test_figure_3_with_other_heights_is_one_edit():
     assert papers().drawn_curves() == papers().curves  # whose heights suffice
 
 
+def test_another_b_is_one_edit():
+    made = configure({"friction": {"aging_coefficient": 0.085}}, lazy=True)
+    rounded = {name: float(f"{getattr(made.base.fault, name):.2g}") for name in ("a", "zeta")}
+    assert rounded == {name: getattr(made.main_text, name) for name in rounded}
+    assert made.runs_of("paper")[0].theory.zeta == rounded["zeta"] != 0.016
+
+
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])
 @pytest.mark.parametrize("friction", [{"slip_distance": 1e-6}, {"rate_coefficient": 0.006}])
 def test_the_theory_follows_the_friction_law(friction, interface):
     """Also where its rounded values are not given; by the functions of the library."""
     made = configure({"friction": friction, **study({"height": 0.005}, interface=interface)})
     (run,) = made.runs
-    law, material = run.parameters.friction, run.parameters.material
+    law, material = run.run.law, run.run.upper.material
     friction, a, zeta = law.expansion(1e-5)
-    own = asked.critical_length(
+    if interface == "main_text":
+        friction, a, zeta = (float(f"{value:.2g}") for value in (friction, a, zeta))
+    own = Fault(
         shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio, height=0.005,
         second_shear_modulus=math.inf, normal_stress=1e6, a=a, zeta=zeta,
         friction=friction, slip_distance=law.slip_distance,
     )  # fmt: skip
-    assert run.critical_length == pytest.approx(float(own), rel=1e-12)
-    assert made.main_text_interface == interface_state(run.parameters)
+    assert run.critical_length == pytest.approx(own.critical_length(), rel=1e-12)
 
 
 def test_the_papers_rounding_is_that_of_its_own_law():
-    assert configure(study({"height": 0.005})).main_text_interface == InterfaceState()
-    same = configure({"friction": {"evolution": "slip"}, **study({"height": 0.005})})
-    assert same.main_text_interface == InterfaceState()
+    """The main text has f = .41, a = .0068 and zeta = .016."""
+    for friction in ({}, {"evolution": "slip"}):
+        found = configure({"friction": friction, **study({"height": 0.005})}).main_text
+        assert (found.friction, found.a, found.zeta) == (0.41, 0.0068, 0.016)
+        assert (found.slip_distance, found.velocity) == (5e-7, 1e-5)

@@ -26,14 +26,14 @@ def test_studies_that_are_left_out_are_the_papers(tmp_path):
     assert mine.studies == papers().studies
     for given, usual in zip(mine.runs_of("paper"), papers().runs_of("paper"), strict=True):
         assert given.id == usual.id
-        assert given.parameters == usual.parameters.replaced({"tolerance": 5e-3})
+        assert given.run == usual.run.replaced(tolerance=5e-3)
 
 
 def test_studies_that_are_given_stand_alone(tmp_path):
     (tmp_path / "mine.yaml").write_text("studies: {mine: {runs: [{height: 0.01}]}}\n")
     mine = load(tmp_path / "mine.yaml")
     assert list(mine.studies) == ["mine"]
-    assert mine.base.material == papers().base.material
+    assert mine.base.fault == papers().base.fault
 
 
 def test_later_files_are_stronger(tmp_path):

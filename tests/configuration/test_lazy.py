@@ -6,24 +6,24 @@ import pytest
 from configurations import PAPER, messages, papers, study
 
 from nucleation.model.quantities import ParameterError
-from replication.configuration import configuration
+from replication.configuration import load as module
 from replication.configuration.load import configure
 
 GOOD = {"length_over_critical": 4.0, "runs": [{"height": [0.01, 0.02]}]}
-BAD = {"runs": [{"height": 0.01, "length": 0.02}]}  # shorter than the critical length
+BAD = {"runs": [{"height": 0.01, "initial_shear_stress": 5e4}]}  # without its start
 
 
 @pytest.fixture
 def expanded(monkeypatch):
     """The names of the studies that are expanded, as they are."""
     names = []
-    original = configuration.study_runs
+    original = module.study_runs
 
     def noted(name, *others):
         names.append(name)
         return original(name, *others)
 
-    monkeypatch.setattr(configuration, "study_runs", noted)
+    monkeypatch.setattr(module, "study_runs", noted)
     return names
 
 
@@ -52,7 +52,7 @@ def test_a_study_is_expanded_once_and_only_if_asked_for(expanded):
 
 def test_without_lazy_everything_is_checked():
     config = {"studies": {"good": GOOD, "bad": BAD}}
-    assert "studies.bad.runs[0]: block_length = 0.02 m is not allowed" in messages(config)
+    assert "studies.bad.runs[0]: initial_shear_stress = 50000 Pa is not allowed" in messages(config)
     settings = configure(config, lazy=True)
     assert len(settings.runs_of("good")) == 2
     for ask in (
@@ -64,7 +64,7 @@ def test_without_lazy_everything_is_checked():
     ):
         with pytest.raises(ParameterError) as caught:
             ask()
-        assert "studies.bad.runs[0]: block_length = 0.02 m is not allowed" in str(caught.value)
+        assert "initial_shear_stress = 50000 Pa is not allowed" in str(caught.value)
 
 
 DECLARED = {

@@ -1,13 +1,12 @@
 """Units in the configuration, as people write them, and one vocabulary for all of its readers."""
 
-import asked
 import numpy as np
 import pytest
 from configurations import messages, study
 
-from nucleation import api
+from nucleation.fault import Fault
+from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from nucleation.strict_yaml import read_yaml
 from replication.configuration.load import configure
 
 SI = {
@@ -27,7 +26,7 @@ def test_units_are_read_wherever_a_parameter_stands(tmp_path):
     )
     first, second = configure(read_yaml(path)).runs
     assert {name: first.value(name) for name in SI} == pytest.approx(SI, rel=1e-15)
-    assert second.parameters.geometry.height == 0.04
+    assert second.run.fault.height == 0.04
 
 
 def test_sections_and_ranges_have_units_too():
@@ -40,9 +39,9 @@ def test_sections_and_ranges_have_units_too():
         }
         | {"curves": {"heights": ["5 mm", "1e1"]}}
     )
-    assert made.curves.heights == (0.005, 10.0) and made.base.material.density == 1000.0
-    assert made.base.material.shear_modulus == 30e9 and made.base.stepping.end_time == 7200.0
-    assert [run.parameters.geometry.height for run in made.runs] == [0.005, 0.0223607, 0.1]
+    assert made.curves.heights == (0.005, 10.0) and made.base.fault.density == 1000.0
+    assert made.base.fault.shear_modulus == 30e9 and made.base.stepping.end_time == 7200.0
+    assert [run.run.fault.height for run in made.runs] == [0.005, 0.0223607, 0.1]
 
 
 def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
@@ -50,31 +49,18 @@ def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
         study({"height": "2 kg", "n_x": "8.5"}) | {"material": {"shear_modulus": "30 GPx"}}
     )
     assert "the configuration has 3 problems" in text
-    assert "studies.s.runs[0].height = '2 kg' is not allowed: block height must lie in" in text
+    assert "studies.s.runs[0].height = '2 kg' is not allowed: height of the body" in text
     assert "kg is a unit of mass, but m is needed" in text
     assert "material.shear_modulus = '30 GPx'" in text and "not a known unit" in text
     assert "runs[0].n_x = '8.5' is not allowed: number of elements along x must be an in" in text
 
 
 def test_the_same_names_in_configuration_and_api():
-    """Of the slip distance, the direct effect, the friction coefficient."""
-    names = {"slip_distance": 5e-6, "a": 0.01, "f": 0.6}
-    (run,) = configure(study({"height": 0.02, "zeta_over_a": 0.5} | names)).runs
-    (other,) = configure(
-        study({"height": 0.02, "slip_distance": 5e-6, "a": 0.01,
-               "friction": 0.6, "zeta_over_a": 0.5})
-    ).runs  # fmt: skip
-    assert run.id == other.id and run.parameters == other.parameters
-    fault = dict(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
-                 height=0.02, second_shear_modulus=np.inf)  # fmt: skip
-    lengths = [
-        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
-    ]
-    assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.critical_length, rel=1e-6)
-    with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
-        asked.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
+    own = {"height": 0.02, "slip_distance": 5e-6, "a": 0.01, "friction": 0.6}
+    (run,) = configure(study({"zeta_over_a": 0.5} | own)).runs
+    fault = Fault(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
+                  second_shear_modulus=np.inf, **own)  # fmt: skip
+    assert fault.critical_length() == pytest.approx(run.critical_length, rel=1e-6)
 
 
 def test_a_tag_that_does_not_fit_is_no_yaml(tmp_path):

@@ -14,11 +14,10 @@ from nucleation.datasets import netcdf
 from nucleation.datasets.provenance import attributes
 from nucleation.datasets.variables import Variable, annotate, table, to_csv
 from nucleation.model import units
-from nucleation.model.linearised import InterfaceState
-from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
-from nucleation.theory.curves import CURVES, length_curve
+from replication.tables.curves import CURVES, length_curve
+from replication.tables.main_text import main_text
 
 NUMBERS = {name: entry for name, entry in VARIABLES.items() if entry.units}
 
@@ -41,7 +40,7 @@ def test_a_unit_of_our_own_would_be_refused():
 FILES = {
     "table": lambda: table([{"id": "a", "length": 0.1}, {"id": "b", "length": math.nan}], COLUMNS),
     "curve": lambda: annotate(
-        length_curve(Material(), InterfaceState(), np.array([0.01, 0.1])), CURVES
+        length_curve(main_text(PAPER_RUN.fault), np.array([0.01, 0.1])), CURVES
     ).assign_coords(height=("height", [0.01, 0.1], CURVES["height"].attributes)),
     "simulation": lambda: simulate(SHORT),
 }
@@ -49,7 +48,7 @@ COLUMNS = {
     "id": Variable("", "name of the run"),
     "length": Variable("m", "length at the drop", "L"),
 }
-SHORT = Parameters(geometry=Geometry(0.02, 0.4), mesh=Mesh(16, 4), stepping=Stepping(end_time=1e-3))
+SHORT = PAPER_RUN.replaced(height=0.02, block_length=0.4, n_x=16, n_y=4, end_time=1e-3)
 NAMED_BY_CLIMATE = (
     "Coordinate variable 'time' should have standard_name='time'",
     "Coordinate variable 'height' should have standard_name='height'",

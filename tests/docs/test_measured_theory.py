@@ -1,14 +1,11 @@
 """Numbers in sentences of docs/theory.md, computed anew."""
 
-import dataclasses
-
 import pytest
 from asked import critical_length, expected_drop
 from docs.prose import says
 
-from nucleation.api import Fault, extract, simulate
-from nucleation.model.parameters import Parameters
-from nucleation.model.perturbation import Perturbation
+from nucleation.api import extract, simulate
+from nucleation.run.run import PAPER_RUN
 
 PMMA = {
     "shear_modulus": 3.1e9,
@@ -28,16 +25,11 @@ def test_plates_have_shorter_lengths_than_thick_bodies():
 @pytest.mark.slow
 def test_drop_in_antiplane_shear():
     """One realisation on the mesh of the study ``converged``, and the law's median."""
-    usual = Parameters().replaced({"height": 0.02})
-    material = dataclasses.replace(usual.material, plane="antiplane")
-    fault = dataclasses.replace(
-        usual,
-        material=material,
-        perturbation=Perturbation(kind="normal_load", strength=1e-4),
-    )
-    critical = float(Fault.of(fault).critical_length())
+    usual = PAPER_RUN.replaced(height=0.02)
+    fault = usual.replaced(plane="antiplane", perturbation="normal_load", strength=1e-4)
+    critical = fault.critical_length
     length = 3.0 * critical
-    fault = fault.replaced({"length": length, "n_x": 400, "n_y": 16, "end_time": 40.0})
+    fault = fault.replaced(block_length=length, n_x=400, n_y=16, end_time=40.0)
     simulated = extract(simulate(fault))["length"]
     says(
         "theory.md",

@@ -4,18 +4,18 @@ import dataclasses
 
 import numpy as np
 import pytest
+from parts import with_parts
 
 from nucleation.drop.continued import complex_trend, continued, exponent_of, roughness_weights
 from nucleation.drop.delay import SAMPLED, TINY, grown, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.extraction.extraction import extract
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation, spectral_density
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.realisation import Series, Sheet, profile
 from nucleation.simulation.run import simulate
-from nucleation.theory.creep.patches import Patches
 
-PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.7), mesh=Mesh(n_x=400, n_y=8))
+PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=2.7, n_x=400, n_y=8)
 START, SPEED, SLOPE, FREQUENCY = 0.25, 0.014, 50.0, 11.0  # L_s, dL/dt, d Re Lambda/dL, Im Lambda
 LOAD = Perturbation(kind="normal_load", strength=1e-5)
 
@@ -30,7 +30,7 @@ def history(share=600.0):
     constant = np.full(40, share, dtype=complex)
     time = (length - 0.18) / SPEED
     return ModeHistory(
-        Patches.of(PARAMETERS), x, time, length, rate, constant, constant, along_x, along_x
+        PARAMETERS.patches, x, time, length, rate, constant, constant, along_x, along_x
     )
 
 
@@ -128,7 +128,7 @@ def test_mean_square_of_realisations(kind):
 
 @pytest.fixture(scope="module")
 def own():
-    return mode_history(Patches.of(PARAMETERS), 0.4509, PARAMETERS.loading.initial_state)
+    return mode_history(PARAMETERS.patches, 0.4509, PARAMETERS.fault.initial_state)
 
 
 def test_less_friction_everywhere_is_as_more_load(own):
@@ -139,9 +139,10 @@ def test_less_friction_everywhere_is_as_more_load(own):
 @pytest.mark.slow
 def test_a_perturbed_run_drops_where_its_own_realisation_says(own):
     declared = Perturbation(kind="state", strength=1e-3, seed=4)
-    stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
-    mesh = Mesh(n_x=400, n_y=6, grading=20.0)
-    run = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping, perturbation=declared)
+    run = PARAMETERS.replaced(
+        n_x=400, n_y=6, grading=20.0, end_time=60.0, time_after_event=0.0, longest_step=0.1
+    )
+    run = with_parts(run, perturbation=declared)
     measured = extract(simulate(run))
     expected = length_at(realised(own, declared), 1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

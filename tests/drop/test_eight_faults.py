@@ -10,16 +10,7 @@ from pathlib import Path
 import pytest
 from asked import critical_length, expected_drop, stability_length
 
-from nucleation.api import (
-    Friction,
-    Geometry,
-    Loading,
-    Material,
-    Parameters,
-    Perturbation,
-    SecondBody,
-)
-from nucleation.model.friction.constants import full_law
+from nucleation.api import Fault, Run
 
 FAULTS = Path(__file__).with_name("eight_faults.txt")
 
@@ -31,20 +22,18 @@ def rows():
 
 
 def second_body(text, height):
-    """Of the theory, and of blocks: four times as high where it is a half-space."""
+    """Of the theory, and the height of the lower block: four times H where it is a half-space."""
     if text == "rigid":
-        return {"second_shear_modulus": math.inf}, SecondBody()
+        return {"second_shear_modulus": math.inf}, {}
     if text == "same":
-        return {}, SecondBody("deformable")
+        return {}, {}
     modulus, ratio, own = (float(part) for part in text.split(","))
     theory = {
         "second_shear_modulus": modulus * 1e9,
         "second_poisson_ratio": ratio,
         "second_height": own,
     }
-    high = own if math.isfinite(own) else 4.0 * height
-    block = SecondBody("deformable", shear_modulus=modulus * 1e9, poisson_ratio=ratio, height=high)
-    return theory, block
+    return theory, {"second_height": own if math.isfinite(own) else 4.0 * height}
 
 
 def computed(row):
@@ -62,20 +51,9 @@ def computed(row):
         "slip_distance": distance, "friction": f, "height": height, "plane": row[11],
     }  # fmt: skip
     critical = float(critical_length(**fault))
-    law = Friction(
-        law="dieterich_ruina",
-        slip_distance=distance,
-        reference_slip_rate=velocity,
-        regularisation_slip_rate=1e-4 * velocity,
-    )
-    run = Parameters(
-        material=Material(modulus, nu, plane=row[11]),
-        friction=full_law(law, velocity, f, a, b - a),
-        loading=Loading(stress, velocity, initial_state=20.0 * distance / velocity),
-        geometry=Geometry(height, 6.0 * critical),
-        second_body=block,
-        perturbation=Perturbation("normal_load", 1e-5),
-    )
+    blocks = Fault(**fault | block, velocity=velocity, far_side="free")
+    strength = {"perturbation": "normal_load", "strength": 1e-5}
+    run = Run(blocks, block_length=6.0 * critical, **strength)
     found = expected_drop(run)
     length = f"{found.law.length:.3g} ({found.law.low:.3g} to {found.law.high:.3g})"
     if found.slips_slowly:

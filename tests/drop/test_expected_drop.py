@@ -1,34 +1,34 @@
 """What the law makes of the theory's patch for a user's fault, and when it is not to be trusted."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from asked import expected_drop
 from configurations import CONFIG
+from parts import with_parts
 
-from nucleation.drop.expected_drop import feels_far_end
+from nucleation.drop.expected_drop import Block, feels_far_end
 from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import interface_state
-from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Loading, Parameters
-from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.critical import run_length
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.status import NoLength
 from replication.configuration.load import load
 
 THEORY = 0.4509  # m
-FAULT = Parameters(
-    geometry=Geometry(height=0.02, length=2.7),
-    perturbation=Perturbation(kind="normal_load", strength=1e-5),
-)
-GRANITE = Parameters(
-    material=Material(3e10, 0.25, 2700.0),
-    friction=Friction(slip_distance=2e-6).with_expansion(1e-6, 0.65, 0.008, 0.004),
-    loading=Loading(normal_stress=5e6, velocity=1e-6),
-    geometry=Geometry(height=1.0, length=60.0),
-    perturbation=Perturbation(kind="normal_load", strength=1e-5),
+FAULT = PAPER_RUN.replaced(height=0.02, block_length=2.7, perturbation="normal_load", strength=1e-5)
+GRANITE = PAPER_RUN.replaced(
+    shear_modulus=3e10,
+    poisson_ratio=0.25,
+    density=2700.0,
+    slip_distance=2e-6,
+    friction=0.65,
+    a=0.008,
+    zeta=0.004,
+    normal_stress=5e6,
+    velocity=1e-6,
+    height=1.0,
+    block_length=60.0,
+    perturbation="normal_load",
+    strength=1e-5,
 )
 
 
@@ -47,10 +47,9 @@ def test_drop_follows_loss_of_stability():
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["drive_velocity", "normal_load", "strength", "state"])
 def test_the_less_it_is_shaken_the_later_it_drops(kind):
-    shaken = FAULT.replaced({"perturbation.kind": kind})
+    shaken = FAULT.replaced(perturbation=kind)
     drops = [
-        expected_drop(shaken.replaced({"strength": strength})).law
-        for strength in (1e-4, 1e-6, 1e-8)
+        expected_drop(shaken.replaced(strength=strength)).law for strength in (1e-4, 1e-6, 1e-8)
     ]
     assert (np.diff([drop.length for drop in drops]) > 0.01 * THEORY).all()
     assert (np.diff([drop.time for drop in drops]) > 0.0).all()
@@ -61,9 +60,7 @@ def test_the_less_it_is_shaken_the_later_it_drops(kind):
 def test_examples_of_weak_weakening(name):
     """They slip slowly up to L_run."""
     run = load(CONFIG / "examples" / f"{name}.yaml").runs[0]
-    fault = run.parameters.replaced(
-        {"perturbation.kind": "normal_load", "perturbation.strength": 1e-5}
-    )
+    fault = run.run.replaced(perturbation="normal_load", strength=1e-5)
     found = expected_drop(fault)
     assert found.slips_slowly and found.length == found.runaway_length
     assert not found.doubt
@@ -80,9 +77,9 @@ def test_slow_slip_by_a_law_with_scales_near_the_imposed_velocity():
 @pytest.mark.parametrize(
     ("fault", "said"),
     [
-        (FAULT.replaced({"perturbation.strength": 0.1}), "bursts"),
-        (FAULT.replaced({"geometry.length": 0.5}), "the block's far end"),
-        (FAULT.replaced({"strength": 1e-60, "geometry.length": 20.0}), "beyond"),
+        (FAULT.replaced(strength=0.1), "bursts"),
+        (FAULT.replaced(block_length=0.5), "the block's far end"),
+        (FAULT.replaced(strength=1e-60, block_length=20.0), "beyond"),
     ],
 )
 def test_what_is_not_trusted(fault, said):
@@ -103,12 +100,12 @@ def test_what_is_not_trusted(fault, said):
 def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulated):
     """Simulations on 600 elements in blocks of 3 L_c, load 1e-4, means of two; lengths over L_c."""
     law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
-    fault = dataclasses.replace(
-        FAULT.replaced({"geometry.height": height}),
-        friction=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio),
+    fault = with_parts(
+        FAULT.replaced(height=height),
+        law=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio),
     )
-    critical = run_length(fault, interface_state(fault))
-    fault = fault.replaced({"geometry.length": 6.0 * critical})
+    critical = fault.critical_length
+    fault = fault.replaced(block_length=6.0 * critical)
     found = expected_drop(fault)
     assert not found.doubt and found.slips_slowly
     assert found.stability_length < found.law.length < found.runaway_length
@@ -122,9 +119,9 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     Shorter patches have other modes that oscillate and decay a thousand times faster.
     """
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
-    fault = FAULT.replaced({"geometry.height": 0.01})
-    fault = dataclasses.replace(fault, friction=law)
-    critical = run_length(fault, interface_state(fault))
+    fault = FAULT.replaced(height=0.01)
+    fault = with_parts(fault, law=law)
+    critical = fault.critical_length
     found = expected_drop(fault)
     start = found.closed_form.front_length
     assert 0.4 * critical < start < found.law.low < found.law.length < 1.3 * start
@@ -134,10 +131,10 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
 @pytest.mark.parametrize(
     ("change", "error", "said"),
     [
-        ({"friction.aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
-        ({"perturbation.strength": 0.0}, NoLength, "nothing is perturbed"),
+        ({"aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
+        ({"strength": 0.0}, NoLength, "nothing is perturbed"),
         (
-            {"loading.kind": "remote", "loading.stress_rate": 1e5},
+            {"loading": "remote", "stress_rate": 1e5},
             ParameterError,
             "measure = stability gives L_s of other",
         ),
@@ -145,18 +142,18 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
 )
 def test_what_the_law_does_not_know(change, error, said):
     with pytest.raises(error, match=said):
-        expected_drop(FAULT.replaced(change))
+        expected_drop(FAULT.replaced(**change))
 
 
 def test_every_doubt_is_told():
-    shaken = FAULT.replaced({"perturbation.strength": 3e-3, "geometry.length": 0.4})
+    shaken = FAULT.replaced(strength=3e-3, block_length=0.4)
     doubt = expected_drop(shaken).doubt
     assert "bursts that come to rest" in doubt and "would feel the block's far end" in doubt
 
 
 def long_block(**changes):
     """The fault in a block with an end that has no effect."""
-    return FAULT.replaced({"geometry.length": 20.0, **changes})
+    return FAULT.replaced(block_length=20.0, **changes)
 
 
 def test_perturbation_is_strong_from_two_per_cent_on():
@@ -178,7 +175,7 @@ def test_growth_is_slow_below_a_factor_of_four_in_a_period():
 def test_far_end_of_a_thin_block_is_near_from_six_tenths_on():
     high = expected_drop(long_block()).high
     for part, near in ((0.59, False), (0.61, True)):
-        doubt = expected_drop(FAULT.replaced({"geometry.length": high / part})).doubt
+        doubt = expected_drop(FAULT.replaced(block_length=high / part)).doubt
         assert ("would feel the block's far end" in doubt) == near
 
 
@@ -186,7 +183,7 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
     law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
     for ratio, weak in ((1.97, True), (2.03, False)):
         friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-        found = expected_drop(dataclasses.replace(FAULT, friction=friction))
+        found = expected_drop(with_parts(FAULT, law=friction))
         assert np.isfinite(found.runaway_length) == weak
 
 
@@ -198,7 +195,7 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
 def test_bursts_by_the_slip_law_hardly_lower_the_force(ratio, evolution, late):
     law = Friction(law="dieterich_ruina", evolution=evolution, reference_slip_rate=1e-5)
     friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-    found = expected_drop(dataclasses.replace(long_block(), friction=friction))
+    found = expected_drop(with_parts(long_block(), law=friction))
     assert found.slips_slowly
     assert ("hardly lower the force" in found.doubt) == late
 
@@ -219,4 +216,4 @@ def test_bursts_by_the_slip_law_hardly_lower_the_force(ratio, evolution, late):
     ],
 )
 def test_a_thick_block_feels_its_far_end(height, length, feels):
-    assert feels_far_end(0.65, Geometry(height=height, length=length)) == feels
+    assert feels_far_end(0.65, Block(length, height)) == feels

@@ -4,14 +4,15 @@ import dataclasses
 
 import numpy as np
 import pytest
+from parts import with_parts
 from scipy.signal import savgol_filter
 
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, run
+from nucleation.simulation.run import composed, instants
 from nucleation.simulation.step import Dynamics
 
 pytestmark = pytest.mark.slow
@@ -20,22 +21,26 @@ THEORY = 0.4509  # m
 COARSE = 200  # elements, on each of which a fine mesh has three
 UNEVEN = 0.58  # relative strength of the period, that makes the patch swing as the hops do
 ROUGH = Perturbation(kind="strength", strength=1e-4)  # replaced by the mesh's period
-FAULT = Parameters(
-    geometry=Geometry(height=0.02, length=1.35),
-    mesh=Mesh(n_x=COARSE, n_y=6, grading=20.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.0),
+FAULT = PAPER_RUN.replaced(
+    height=0.02,
+    block_length=1.35,
+    n_x=COARSE,
+    n_y=6,
+    grading=20.0,
+    end_time=30.0,
+    time_after_event=0.0,
 )
 
 
 def recorded(parameters, uneven=0.0):
     """A run up to its drop on a fault whose strength has the period of the coarse mesh."""
     usual = composed(parameters)
-    wave = np.cos(2.0 * np.pi * COARSE * usual.grid.x / parameters.geometry.length)
-    rough = dataclasses.replace(parameters, perturbation=ROUGH)
+    wave = np.cos(2.0 * np.pi * COARSE * usual.grid.x / parameters.block.length)
+    rough = with_parts(parameters, perturbation=ROUGH)
     drive = dataclasses.replace(composed(rough).drive, strength=uneven, uneven=wave)
     dynamics = Dynamics(usual.body, usual.interface, drive, usual.scheme)
     recorder = Recorder(parameters, dynamics)
-    for instant in run(parameters, dynamics=dynamics):
+    for instant in instants(parameters, dynamics=dynamics):
         recorder.record(instant.state, instant.report)
         if recorder.covers_event:
             break
@@ -57,7 +62,7 @@ def swing(simulation):
 
 
 def test_a_fine_mesh_with_the_coarse_one_s_period_drops_where_that_drops():
-    fine = dataclasses.replace(FAULT, mesh=dataclasses.replace(FAULT.mesh, n_x=3 * COARSE))
+    fine = FAULT.replaced(n_x=3 * COARSE)
     hopping, uneven, even = recorded(FAULT), recorded(fine, UNEVEN), recorded(fine)
     assert swing(uneven) == pytest.approx(swing(hopping), rel=0.5)
     assert swing(even) < 0.05 * swing(hopping)

@@ -7,7 +7,6 @@ from configurations import CONFIG, papers
 
 from nucleation.drop.delay import growth
 from nucleation.drop.mode_history import followed, mode_history
-from nucleation.theory.creep.patches import Patches
 
 RUNS = {run.id: run for run in papers().runs}
 TABLE = pd.read_csv(CONFIG.parent / "results" / "reference" / "drop.csv")
@@ -23,11 +22,11 @@ def drops(table):
         fault = first.evolution, first.height
         if fault not in histories:
             histories[fault] = mode_history(
-                Patches.of(run.parameters),
+                run.run.patches,
                 run.critical_length,
-                run.parameters.loading.initial_state,
+                run.run.fault.initial_state,
             )
-        declared = run.parameters.perturbation
+        declared = run.run.perturbation
         drop = growth(histories[fault], declared).drop(declared.strength)
         rows.append((same.length.mean(), same.law_length.mean(), drop.length))
     return np.array(rows).T

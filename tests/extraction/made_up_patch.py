@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 
 VELOCITY = 1e-5
 
@@ -35,5 +35,5 @@ def synthetic_simulation(onset=10.0, decay=0.05, **drop):
             "maximal_slip_rate": ("step", np.where(step_time < onset, 1.0, 1e5) * VELOCITY),
         },
         coords={"time": time, "x": x},
-        attrs={"parameters": Parameters().to_json()},
+        attrs={"parameters": PAPER_RUN.to_json()},
     )

@@ -38,7 +38,7 @@ def test_a_larger_drop_is_recorded_without_time_after_the_event():
     assert own.parameters.stepping.event_drop == 0.1
     found = extract(simulate(own.parameters), asked.extraction)
     assert 0.1 < found["length"] < own.critical_length
-    usual = simulate(own.parameters.replaced({"event_drop": 0.02}))
+    usual = simulate(own.parameters.replaced(event_drop=0.02))
     with pytest.warns(UserWarning, match="before it fell by drop = 0.1: simulate with a larger"):
         assert np.isnan(extract(usual, asked.extraction)["length"])
     assert extract(usual)["length"] > 0.1

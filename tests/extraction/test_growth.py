@@ -6,28 +6,24 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from parts import with_parts
 
 from nucleation.extraction import growth
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.growth import FITTED, fitted_crossing, follow_patch, rough_crossing
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
-from nucleation.model.linearised import interface_state
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
-from nucleation.model.second_body import SecondBody
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, run, simulate
-from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import run_length
-from replication.configuration.runs import Run
+from nucleation.simulation.run import composed, instants, simulate
+from nucleation.theory.creep.lengths import stability_point
+from replication.configuration.runs import StudyRun
 from replication.tables.stability import STABILITY, gather_stability
 
 pytestmark = pytest.mark.slow
 
-PARAMETERS = Parameters(
-    geometry=Geometry(height=0.02, length=1.8),
-    mesh=Mesh(n_x=120, n_y=6),
-    stepping=Stepping(end_time=11.0, tolerance=5e-2),
+PARAMETERS = PAPER_RUN.replaced(
+    height=0.02, block_length=1.8, n_x=120, n_y=6, end_time=11.0, tolerance=5e-2
 )
 THEORY = 0.451  # m
 FIRST = "stability_length"
@@ -130,7 +126,9 @@ def test_table_compares_with_the_reference_study():
     declared = [("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5)]
     declared += [("converged", stiff, 0.8), ("paper", stiff, 0.84)]
     runs = [
-        Run(role, "mine", PARAMETERS.replaced(changes), 0.4, role=role).to_dict()
+        StudyRun(
+            role, "mine", PARAMETERS.replaced(**changes), 0.4, PARAMETERS.fault, role=role
+        ).to_dict()
         for role, changes, _ in declared
     ]
     patches = [
@@ -144,32 +142,36 @@ def test_table_compares_with_the_reference_study():
 
 LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
 WEAK = Heterogeneity(varies="friction", change=-0.8, width=0.25)
-TWO = SecondBody(kind="deformable")
-LOADED = Parameters(
-    loading=Loading(
-        kind="remote", stress_rate=1e5, initial_state=0.01, initial_stress="uniform_shear",
-        initial_shear_stress=7.5e4,
-    ),
-    geometry=Geometry(0.1, 1.2), mesh=Mesh(161, 6, 4.0), second_body=TWO,
-)  # fmt: skip
+LOADED = PAPER_RUN.replaced(
+    loading="remote",
+    stress_rate=1e5,
+    initial_state=0.01,
+    initial_stress="uniform_shear",
+    initial_shear_stress=7.5e4,
+    height=0.1,
+    block_length=1.2,
+    n_x=161,
+    n_y=6,
+    grading=4.0,
+    second_body="deformable",
+)
 
 
 def test_a_patch_in_the_interior_turns_unstable_where_theory_says():
     """It begins where the fault is weakest: the numbers of docs/creeping_patch.md, coarser."""
-    parameters = dataclasses.replace(
+    parameters = with_parts(
         LOADED,
-        friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),
+        law=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),
         heterogeneity=WEAK,
-        stepping=Stepping(longest_step=0.4),
-    )
-    dynamics, velocity = composed(parameters), parameters.loading.velocity
+    ).replaced(longest_step=0.4)
+    dynamics, velocity = composed(parameters), parameters.fault.velocity
     recorder = Recorder(parameters, dynamics)
-    for instant in run(parameters, dynamics=dynamics):
+    for instant in instants(parameters, dynamics=dynamics):
         recorder.record(instant.state, instant.report)
         if instant.report.interface.slip_rate.max() > 30.0 * velocity:
             break
     found = follow_patch(recorder.dataset(), ExtractionSettings())
-    critical = run_length(parameters, interface_state(parameters))
-    theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
+    critical = parameters.critical_length
+    theory = stability_point(dataclasses.replace(parameters.patches, law=None), critical)
     assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
     assert found["stability_length_error"] < 0.03 * theory.length

@@ -16,13 +16,13 @@ from nucleation.extraction.record import Record
 from nucleation.model.friction.law import Friction
 
 ONSET = 8.0  # s: the front has not come half-way along the block
-VELOCITY = PARAMETERS.loading.velocity
-STRESS = PARAMETERS.loading.normal_stress
+VELOCITY = PARAMETERS.fault.velocity
+STRESS = PARAMETERS.fault.normal_stress
 
 
 def made_up(law="aging"):
     """The record of a front at constant speed, with the fields that measures need beside."""
-    parameters = PARAMETERS.replaced({"evolution": law})
+    parameters = PARAMETERS.replaced(evolution=law)
     run = record(parameters=parameters, onset=ONSET)
     rate, time = run["slip_rate"], run["time"].values
     stress = 0.4 * STRESS * (rate > 0.1 * VELOCITY)
@@ -39,7 +39,7 @@ def made_up(law="aging"):
 def test_numbers_of_a_steady_front():
     run = made_up()
     found = measure(Record(run))
-    dx = PARAMETERS.geometry.length / PARAMETERS.mesh.n_x
+    dx = PARAMETERS.block.length / PARAMETERS.block.n_x
     assert list(found) == list(MEASURES)
     lengths = extract(run)
     assert found["length_usual_start"] == lengths["length"]
@@ -110,7 +110,7 @@ def test_nothing_is_read_of_runs_of_other_kinds(given):
     """Their interface is not recorded, or the patch does not begin at x = 0."""
     run = made_up()
     assert measure(Record(run))
-    other = run.assign_attrs(parameters=PARAMETERS.replaced(given).to_json())
+    other = run.assign_attrs(parameters=PARAMETERS.replaced(**given).to_json())
     assert measure(Record(other)) == {}
 
 

@@ -7,7 +7,7 @@ from extraction.made_up_patch import VELOCITY, synthetic_simulation
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.patch import slipping_edge
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
@@ -66,7 +66,7 @@ def test_a_rupture_begins_before_its_force_falls_only_where_an_edge_is_pushed(ki
     force = simulation["driving_force"].values.copy()
     force[(steps > 8.99) & (steps < 9.5)] *= 0.999  # a small fall, then the rupture raises it
     rate = 1.0 if kind == "remote" else 0.0
-    parameters = Parameters().replaced({"loading": kind, "stress_rate": rate})
+    parameters = PAPER_RUN.replaced(loading=kind, stress_rate=rate)
     changed = simulation.assign(
         maximal_slip_rate=("step", rates), driving_force=("step", force)
     ).assign_attrs(parameters=parameters.to_json())

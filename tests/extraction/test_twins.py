@@ -13,19 +13,16 @@ import pytest
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.frozen import Freezer
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.patch import slipping_edge
-from nucleation.simulation.run import composed, run
+from nucleation.simulation.run import composed, instants
 from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
 from nucleation.theory.creep.front import advance, oscillating
-from nucleation.theory.creep.lengths import Patches
 
 pytestmark = pytest.mark.slow
 
-PARAMETERS = Parameters(
-    geometry=Geometry(height=0.1, length=3.2),
-    mesh=Mesh(n_x=400, n_y=8, grading=10.0),
-    stepping=Stepping(end_time=14.0, longest_step=0.04),
+PARAMETERS = PAPER_RUN.replaced(
+    height=0.1, block_length=3.2, n_x=400, n_y=8, grading=10.0, end_time=14.0, longest_step=0.04
 )
 THEORY = 0.7949  # m
 SHARES = (0.45, 0.62)  # of it, at which a patch is kicked
@@ -40,7 +37,7 @@ class Twin:
         self.freezer, self.dynamics = freezer, composed(PARAMETERS)
         patch, self.rate = self.freeze(instant)
         self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
-        shape = np.zeros(PARAMETERS.mesh.n_x + 1)
+        shape = np.zeros(PARAMETERS.block.n_x + 1)
         shape[patch.nodes] = patch.mode(self.rate)[1].real
         past = instant.state.past_log_states + kick * shape / np.abs(shape).max()
         self.state = dataclasses.replace(instant.state, past_log_states=past)
@@ -82,10 +79,10 @@ class Twin:
 
 def twins(shares, kick=KICK):
     """Twins of the run, each followed to its end."""
-    threshold = ExtractionSettings().edge_threshold * PARAMETERS.loading.velocity
+    threshold = ExtractionSettings().edge_threshold * PARAMETERS.fault.velocity
     freezer = Freezer(PARAMETERS, threshold)
     length, waiting, active, found = 0.0, [*shares], [], []
-    for instant in run(PARAMETERS):
+    for instant in instants(PARAMETERS):
         rate = instant.report.interface.slip_rate
         length = max(length, float(slipping_edge(freezer.grid.x, rate, threshold)))
         for twin in active:
@@ -116,7 +113,7 @@ def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
 
 
 def test_the_theory_has_the_time_and_the_growth_of_each_patch(followed):
-    patches, start = Patches.of(PARAMETERS), PARAMETERS.loading.initial_state
+    patches, start = PARAMETERS.patches, PARAMETERS.fault.initial_state
     first = advance(patches, np.array([twin.first_length for twin in followed]), start)
     assert first.time == pytest.approx([twin.start for twin in followed], rel=0.015)
     mean = advance(patches, np.array([np.mean(twin.lengths) for twin in followed]), start)
@@ -132,5 +129,5 @@ def test_twin_without_a_kick_is_the_run(monkeypatch):
     (twin,), state = twins((0.3,), kick=0.0)
     assert twin.state.time == pytest.approx(state.time, rel=1e-12)
     displacement, log_state = np.split(twin.difference(state), 2)
-    assert np.abs(displacement).max() < 1e-12 * PARAMETERS.geometry.length
+    assert np.abs(displacement).max() < 1e-12 * PARAMETERS.block.length
     assert np.abs(log_state).max() < 1e-7

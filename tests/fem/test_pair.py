@@ -11,9 +11,8 @@ from nucleation.fem import body as body_module
 from nucleation.fem.body import Body as ElasticBody
 from nucleation.fem.grid import Grid, Motion
 from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.model.second_body import SecondBody
-from nucleation.simulation.run import run
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.run import instants
 
 UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
 LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)
@@ -183,16 +182,13 @@ def test_a_translation_that_has_grown_from_rounding_is_taken_out():
 
 def test_what_is_taken_out_is_not_felt(monkeypatch):
     """A run of a free pair, from which every step takes the translation, or none does."""
-    parameters = Parameters(
-        geometry=Geometry(0.01, 0.4),
-        mesh=Mesh(40, 3),
-        stepping=Stepping(end_time=1.0),
-        second_body=SecondBody(kind="deformable"),
+    parameters = PAPER_RUN.replaced(
+        height=0.01, block_length=0.4, n_x=40, n_y=3, end_time=1.0, second_body="deformable"
     )
 
     def last(lifted):
         monkeypatch.setattr(body_module, "LIFTED", lifted)
-        *_, instant = itertools.takewhile(lambda one: one.state.time < 1.0, run(parameters))
+        *_, instant = itertools.takewhile(lambda one: one.state.time < 1.0, instants(parameters))
         return instant.state
 
     never, always = last(np.inf), last(0.0)

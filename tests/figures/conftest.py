@@ -9,7 +9,7 @@ from made_up_theory import critical_length
 from scipy.special import expit
 
 from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Parameters
+from nucleation.run.run import PAPER_RUN
 
 ONSET = 13.0  # s
 PEAK = 2e-3  # s after the onset
@@ -90,7 +90,7 @@ def make_simulation(height: float, length: float) -> xr.Dataset:
     step_time.sort()
     drop = np.clip((step_time - ONSET - 0.5 * PEAK) / PEAK, 0.0, 1.0)
     force = -0.5e6 * height - 4e5 * length * (np.sqrt(step_time / ONSET) - 0.6 * drop)
-    parameters = Parameters(geometry=Geometry(height=height, length=float(x[-1])))
+    parameters = PAPER_RUN.replaced(height=height, block_length=float(x[-1]))
     return xr.Dataset(
         {
             "slip_rate": (("time", "x"), rate),

@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 from made_up_theory import critical_length
 
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from replication.figures import figure_3_extended, figure_patch
 from replication.tables.lengths import over_realisations
 
@@ -46,7 +46,7 @@ def patches(table):
             "mode_real": ("x", shape.real),
             "mode_imaginary": ("x", shape.imag),
         }
-        attributes = {"parameters": Parameters().to_json()}
+        attributes = {"parameters": PAPER_RUN.to_json()}
         made.append(xr.Dataset(columns, coords={"x": X}, attrs=attributes))
     return made
 
@@ -74,7 +74,7 @@ def test_growth_and_frequency_of_the_converged_runs(drawn):
 
 
 def test_ranges_follow_the_memory_time(drawn, table, patches):
-    slower = Parameters().replaced({"velocity": 1e-6}).to_json()  # D/V is ten times as long
+    slower = PAPER_RUN.replaced(velocity=1e-6).to_json()  # D/V is ten times as long
     slow = figure_patch.draw_stability(
         table, [patch.assign_attrs(parameters=slower) for patch in patches]
     )

@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 from matplotlib.collections import QuadMesh
 
-from nucleation.model.parameters import Parameters
 from nucleation.pictures import run
+from nucleation.run.run import PAPER_RUN
 
 
 @pytest.fixture
@@ -88,7 +88,7 @@ def test_the_zoom_takes_the_first_event_only():
     time = np.linspace(0.0, 10.0, 10001)
     rate = 1e-5 + 0.1 * (np.abs(time - 5.002) < 2.1e-3) + 0.1 * (np.abs(time - 8.0) < 2.1e-3)
     record = xr.Dataset({"step_time": ("step", time), "maximal_slip_rate": ("step", rate)})
-    record.attrs["parameters"] = Parameters().to_json()
+    record.attrs["parameters"] = PAPER_RUN.to_json()
     start, peak, end = run.event_window(record, 5.0)
     assert 4.99 < start < 5.0 <= peak <= 5.004 < end < 5.01
 

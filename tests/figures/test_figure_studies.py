@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from replication.configuration.study_names import study_parameters
+from nucleation.run.names import parameters
 from replication.figures import figure_studies
 
 
@@ -23,7 +23,7 @@ def table(theory, length):
 
 
 def draw(theory, length, **varied):
-    entries = {name: asdict(study_parameters()[name]) for name in varied}
+    entries = {name: asdict(parameters()[name]) for name in varied}
     return figure_studies.draw(table(theory, length), varied, entries, {})
 
 
@@ -56,7 +56,7 @@ def test_words_tell_curves_apart(theory, curves):
 
 def test_theory_is_a_smooth_curve_where_it_is_given():
     x = np.linspace(1.0, 2.0, 81)
-    given = {"height": [1.0, 2.0]}, {"height": asdict(study_parameters()["height"])}
+    given = {"height": [1.0, 2.0]}, {"height": asdict(parameters()["height"])}
     theory = {"": {"x": x, "length": np.sqrt(x)}}
     axes = figure_studies.draw(table([1, 1.4], [0.9, 1.3]), *given, theory).axes[0]
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), np.sqrt(x))

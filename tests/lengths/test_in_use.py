@@ -9,14 +9,13 @@ from asked import critical_length, lengths_in_use
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from two_bodies import Body, transfer_functions
+from two_bodies import Body, Interface, fault_of, transfer_functions
 
 from nucleation.api import Fault
 from nucleation.lengths import formulas
 from nucleation.lengths.expanding_zone import expanding_length
 from nucleation.lengths.in_use import LENGTHS
 from nucleation.lengths.length import TWO_MATERIALS
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import closed_forms
@@ -41,7 +40,7 @@ def one(key, **changes):
 @pytest.mark.parametrize("eta", [*formulas.CONVENTIONAL_ETA, 1.0])
 def test_conventional_length_makes_a_slider_marginal(eta):
     """Its stiffness ``eta mu/L`` is that of a spring (Pa/m) at which steady sliding is neutral."""
-    s, mu = InterfaceState(), 3.1e9
+    s, mu = Interface(), 3.1e9
     setting = formulas.Setting(
         mu, 0.3, s.normal_stress, s.a, s.a + s.zeta, s.zeta, s.slip_length, math.inf, 0.0
     )
@@ -58,11 +57,11 @@ def test_conventional_length_makes_a_slider_marginal(eta):
 
 def test_closed_forms_of_the_paper():
     """Eqs. (6) and (11) as the theory has them, for one fault at a time."""
-    material, interface = Material(3.1e9, 1 / 3), InterfaceState()
+    fault = fault_of(Material(3.1e9, 1 / 3), Interface())
     expected = math.pi * 3.1e9 * 5e-7 / (0.016 * (1 - 1 / 3) * 1e6)
     assert one("homogeneous_sliding") == pytest.approx(expected, rel=1e-14)
     height = np.array([1e-4, 1e-3])
-    expected = closed_forms.thin_limit_length(height, material, interface)
+    expected = closed_forms.thin_limit_length(height, fault)
     assert_allclose(one("thin_limit", height=height), expected, rtol=1e-14)
 
 

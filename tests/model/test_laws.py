@@ -147,7 +147,7 @@ def test_every_parameter_is_checked(law):
         with pytest.raises(ParameterError) as caught:
             Friction(**{"law": law.law, name: bad})
         rule = entry.range_text() + ("" if entry.choices or entry.unit == "1" else f" {entry.unit}")
-        for part in (f"friction.{name} = {bad!r}", entry.description, rule):
+        for part in (f"{name} = {bad!r}", entry.description, rule):
             assert part in str(caught.value)
         if name != "law":
             assert f"(friction law {law.law})" in str(caught.value)

@@ -15,8 +15,8 @@ from nucleation.model.friction.registry import (
     module,
     plugins,
 )
-from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
+from nucleation.run.run import PAPER_RUN
 from replication.pipeline import code
 
 HOME = "nucleation.model.friction"
@@ -36,9 +36,9 @@ def test_parameters_of_the_same_name_are_the_same():
 
 
 def test_plugins_of_a_run():
-    run = Parameters(friction=Friction(law="dieterich_ruina", evolution="slip"))
+    run = PAPER_RUN.replaced(friction_law="dieterich_ruina", evolution="slip")
     expected = (f"{HOME}.laws.dieterich_ruina", f"{HOME}.evolutions.slip")
-    assert plugins(run) == plugins(run.friction) == expected
+    assert plugins(run.law) == expected
 
 
 def test_code_of_a_run_is_that_of_its_own_laws():
@@ -46,7 +46,7 @@ def test_code_of_a_run_is_that_of_its_own_laws():
     packages = (f"{HOME}.laws.", f"{HOME}.evolutions.")
     plain = code.closure("nucleation.simulation.run")
     assert f"{HOME}.law" in plain and not [name for name in plain if name.startswith(packages)]
-    own = plugins(Parameters())
+    own = plugins(PAPER_RUN.law)
     whole = code.closure("nucleation.simulation.run", *own)
     assert {name for name in whole if name.startswith(packages)} == set(own)
 
@@ -73,18 +73,11 @@ def test_parameters_of_another_law_are_refused():
     with pytest.raises(ParameterError) as caught:
         Friction(law="dieterich_ruina", aging_coefficient=0.1, state_scale=1.0)
     assert str(caught.value).startswith(
-        "friction.aging_coefficient = 0.1, friction.state_scale = 1.0 is not allowed: "
+        "aging_coefficient = 0.1, state_scale = 1.0 is not allowed: "
         "the friction law dieterich_ruina has no such parameter; it has law, evolution, "
     )
-    with pytest.raises(ParameterError, match=r"friction.law = 'none'.*one of dieterich_ruina, pr"):
+    with pytest.raises(ParameterError, match=r"friction_law = 'none'.*one of dieterich_ruina, pr"):
         Friction(law="none")
-
-
-def test_records_of_before_there_were_laws():
-    """Parameters without the name of a law are the paper's law's."""
-    values = Parameters().to_dict()
-    assert values["friction"].pop("law") == "product"
-    assert Parameters.from_dict(values) == Parameters()
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,9 @@ import xarray as xr
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import magnitude, parse, registry
+from nucleation.run.names import parameters
 from nucleation.theory.values import QUANTITIES
-from replication.configuration import schema
-from replication.configuration.settings import Limits
-from replication.configuration.study_names import study_parameters
+from replication.configuration.settings import GROUPS
 
 DENSITY = declarations(Material)["density"]
 
@@ -95,8 +94,8 @@ def test_integers():
 
 
 def test_every_declared_unit_is_known_to_the_units_library():
-    groups = [declarations(Limits), *map(schema.group_entries, schema.GROUPS)]
-    entries = [*study_parameters().values(), *QUANTITIES.values()]
+    groups = [declarations(cls) for cls in GROUPS.values()]
+    entries = [*parameters().values(), *QUANTITIES.values()]
     entries += [entry for group in groups for entry in group.values()]
     for entry in entries:
         if entry.unit != "1":

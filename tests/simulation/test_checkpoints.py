@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as shaped
 
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS
 from nucleation.model.quantities import ParameterError
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.checkpoints import (
     EVERY,
     SIGNALS,
@@ -24,15 +24,27 @@ from nucleation.simulation.checkpoints import (
 )
 from nucleation.simulation.run import simulate
 
-COARSE = Parameters(
-    geometry=Geometry(height=0.005, length=0.9),
-    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.25),
+COARSE = PAPER_RUN.replaced(
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.1,
+    tolerance=5e-2,
+    longest_step=0.25,
 )
-SHORT = Parameters().replaced(
-    {"height": 0.1, "length": 1.5, "n_x": 40, "n_y": 4, "grading": 2.0, "end_time": 0.5,
-     "tolerance": 5e-2, "longest_step": 0.1}
-)  # fmt: skip
+SHORT = PAPER_RUN.replaced(
+    height=0.1,
+    block_length=1.5,
+    n_x=40,
+    n_y=4,
+    grading=2.0,
+    end_time=0.5,
+    tolerance=5e-2,
+    longest_step=0.1,
+)
 SHAKEN = {"strength": 1e-2, "seed": 7}
 PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 5}
 RUNS = {
@@ -40,8 +52,8 @@ RUNS = {
     "antiplane": {"plane": "antiplane"},
     **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
     **{side: {**PAIR, "second_far_side": side} for side in ("free", "clamped", "roller")},
-    "remote": {"loading.kind": "remote", "stress_rate": 2e5, "height": 0.5, "length": 3.0,
-               "n_x": 61, "n_y": 6, "varies": "normal_stress", "change": -0.1, "width": 0.3,
+    "remote": {"loading": "remote", "stress_rate": 2e5, "height": 0.5, "block_length": 3.0,
+               "n_x": 61, "n_y": 6, "heterogeneity": "normal_stress", "change": -0.1, "width": 0.3,
                "perturbation": "drive_velocity", "strength": 1e-3},
     "interface": {"record": "interface"},
     "lengths": {"record": "lengths"},
@@ -96,9 +108,9 @@ def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
 
 @pytest.mark.parametrize("changes", RUNS.values(), ids=RUNS.keys())
 def test_restart_is_exact_whatever_is_simulated(changes):
-    record, offered = kept_at(SHORT.replaced(changes), range(20))
+    record, offered = kept_at(SHORT.replaced(**changes), range(20))
     for arrays in (offered[0], offered[1], [one for one in offered if one is not None][-1]):
-        assert_same(simulate(SHORT.replaced(changes), start=arrays), record)
+        assert_same(simulate(SHORT.replaced(**changes), start=arrays), record)
 
 
 @pytest.mark.slow

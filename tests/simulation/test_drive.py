@@ -4,17 +4,15 @@ import dataclasses
 
 import numpy as np
 
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
 from nucleation.simulation.run import composed
 from nucleation.simulation.start import at_rest
 from nucleation.simulation.step import Dynamics
 
-PARAMETERS = Parameters(
-    geometry=Geometry(height=0.02, length=0.4),
-    mesh=Mesh(n_x=16, n_y=4, grading=2.0),
-    loading=Loading(normal_stress=2e5, velocity=1e-3),
+PARAMETERS = PAPER_RUN.replaced(
+    height=0.02, block_length=0.4, n_x=16, n_y=4, grading=2.0, normal_stress=2e5, velocity=1e-3
 )
 LADDER = (*range(-92, -60, 4), *[-60] * 30)
 STRENGTH = 1.3
@@ -26,7 +24,7 @@ def last_step(parameters, drive=None, interface=None):
     dynamics = Dynamics(
         usual.body, interface or usual.interface, drive or usual.drive, usual.scheme
     )
-    state, report = at_rest(dynamics, parameters.loading)
+    state, report = at_rest(dynamics, parameters)
     for rung in LADDER:
         state, report = dynamics.advance(state, rung)
     return state, report
@@ -41,7 +39,7 @@ class Stronger(Steady):
 
 
 def test_strength_multiplies_friction():
-    friction, steady = PARAMETERS.friction, composed(PARAMETERS).drive
+    friction, steady = PARAMETERS.law, composed(PARAMETERS).drive
     _, found = last_step(PARAMETERS, Stronger(steady.velocity, steady.constant_load))
     stronger = dataclasses.replace(
         friction,

@@ -1,7 +1,5 @@
 """The watch for the drop against a maximum taken anew over the whole window."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +7,7 @@ from hypothesis import strategies as st
 
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import remarks, start
 from nucleation.simulation.event import DropWatch, Outcome, PatchBursts
 from nucleation.simulation.run import composed, simulate
@@ -31,7 +29,7 @@ def fastest_elsewhere(record):
     """
     made = record.simulation
     return remarks.fastest_elsewhere(
-        record.parameters,
+        record.run,
         record.step_time,
         record.fastest,
         made["fastest_position"].values,
@@ -70,10 +68,8 @@ def test_watch_goes_on_from_its_maxima(values, seed, window, data):
     assert (np.diff(watch.maxima[:, 1]) < 0.0).all()
 
 
-THICK = Parameters(
-    geometry=Geometry(height=2.0, length=5.6),
-    mesh=Mesh(n_x=800, n_y=16, grading=20.0),
-    stepping=Stepping(end_time=1e-3, time_after_event=0.0),
+THICK = PAPER_RUN.replaced(
+    height=2.0, block_length=5.6, n_x=800, n_y=16, grading=20.0, end_time=1e-3, time_after_event=0.0
 )
 """A thick block: without slip at the start its free corner would bear more than its strength."""
 
@@ -86,9 +82,9 @@ def strained_corner(monkeypatch):
 
 def strength_used(parameters):
     """Shear at the start over the strength of sliding at V, at all nodes but the driven one."""
-    _, report = start.at_rest(composed(parameters), parameters.loading)
-    loading, interface = parameters.loading, report.interface
-    strength = parameters.friction.coefficient(loading.velocity, loading.initial_state)
+    _, report = start.at_rest(composed(parameters), parameters)
+    fault, interface = parameters.fault, report.interface
+    strength = parameters.law.coefficient(fault.velocity, fault.initial_state)
     return np.abs(interface.tangential[1:]) / (float(strength) * interface.normal[1:])
 
 
@@ -97,7 +93,7 @@ def test_the_corner_starts_with_what_it_can_carry():
     assert used.max() == pytest.approx(1.0, rel=1e-9) and used[-1] == used.max()
     assert np.sort(used)[-2] < 1.0
     made = simulate(THICK)
-    assert float(made["maximal_slip_rate"].max()) < 2.0 * THICK.loading.velocity
+    assert float(made["maximal_slip_rate"].max()) < 2.0 * THICK.fault.velocity
 
 
 def test_the_corner_would_not_carry_it(strained_corner):
@@ -107,8 +103,8 @@ def test_the_corner_would_not_carry_it(strained_corner):
 @pytest.mark.parametrize("height", [0.005, 0.1])
 def test_the_papers_start_is_without_slip(height):
     """To the last bit, so that none of the paper's runs depends on how a start is relaxed."""
-    parameters = replace(Parameters(), geometry=Geometry(height=height, length=30.0 * height))
-    state, _ = start.at_rest(composed(parameters), parameters.loading)
+    parameters = PAPER_RUN.replaced(height=height, block_length=30.0 * height)
+    state, _ = start.at_rest(composed(parameters), parameters)
     assert not state.past_w.any()
 
 
@@ -117,9 +113,9 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     made = simulate(THICK)
     record = Record(made)
     time, rate, place = fastest_elsewhere(record)
-    assert time < 1e-4 and rate > 1e-3 and place > 0.9 * THICK.geometry.length
+    assert time < 1e-4 and rate > 1e-3 and place > 0.9 * THICK.block.length
     force = np.abs(made["driving_force"].values)
-    fast = made["maximal_slip_rate"].values > 10.0 * THICK.loading.velocity
+    fast = made["maximal_slip_rate"].values > 10.0 * THICK.fault.velocity
     naive_onset = find_onset(made["step_time"].values, force, THICK.memory_time, 0.02, fast)
     assert naive_onset is not None, "anything that slips fast was enough"
     assert made.attrs["status"].startswith(Outcome.END_TIME.value) and record.onset is None
@@ -135,10 +131,9 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     ],
 )
 def test_whose_burst_it_is(kind, time, position, expected):
-    loading = Loading(kind=kind, stress_rate=1.0 if kind == "remote" else 0.0)
-    parameters = replace(Parameters(), loading=loading)
+    parameters = PAPER_RUN.replaced(loading=kind, stress_rate=1.0 if kind == "remote" else 0.0)
     bursts = PatchBursts(parameters)
-    slow, fast = 9.0 * parameters.loading.velocity, 11.0 * parameters.loading.velocity
+    slow, fast = 9.0 * parameters.fault.velocity, 11.0 * parameters.fault.velocity
     assert not bursts.at(time, slow, position)
     assert bursts.at(time, fast, position) == expected
     assert bursts.at(time + 1e-3, fast, 0.9) == expected, "until the burst is over"

@@ -1,26 +1,30 @@
 """Perturbed runs: each kind acts as declared, and none is none."""
 
-import dataclasses
-
 import numpy as np
 import pytest
+from parts import with_parts
 
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS, Perturbation
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.realisation import profile
 from nucleation.simulation.run import composed, simulate
 
-QUIET = Parameters(
-    geometry=Geometry(height=0.005, length=0.9),
-    mesh=Mesh(n_x=60, n_y=4, grading=2.0),
-    stepping=Stepping(end_time=1.0, tolerance=5e-2, longest_step=0.1),
+QUIET = PAPER_RUN.replaced(
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=4,
+    grading=2.0,
+    end_time=1.0,
+    tolerance=5e-2,
+    longest_step=0.1,
 )
 ACTING = KINDS[1:]
 
 
 def perturbed(kind, strength=1e-2, base=QUIET, **others):
     declared = Perturbation(kind=kind, strength=strength, seed=7, **others)
-    return dataclasses.replace(base, perturbation=declared)
+    return with_parts(base, perturbation=declared)
 
 
 def assert_same(one, other, *without):
@@ -90,9 +94,9 @@ def test_strength_varies_as_declared(records):
 @pytest.mark.slow
 def test_state_is_forced_as_declared():
     # of a fault at rest in the slip law nothing changes but by the source
-    parameters = perturbed("state").replaced({"evolution": "slip", "longest_step": 0.02})
+    parameters = perturbed("state").replaced(evolution="slip", longest_step=0.02)
     record = simulate(parameters)
-    even = simulate(dataclasses.replace(parameters, perturbation=Perturbation()))
+    even = simulate(parameters.replaced())
     x, time = record["x"].values, record["time"].values
     drive, far = composed(parameters).drive, x > 0.6
     fine = np.linspace(0.0, time[-1], 4001)
@@ -105,7 +109,7 @@ def test_state_is_forced_as_declared():
 
 def test_steps_resolve_the_correlation_time():
     declared = {"correlation_time": 0.2}
-    short = simulate(perturbed("normal_load", **declared).replaced({"end_time": 0.2}))
+    short = simulate(perturbed("normal_load", **declared).replaced(end_time=0.2))
     assert short["step_size"].values.max() <= 0.1 * 0.2 * 0.05 * (1 + 1e-12)
 
 
@@ -113,7 +117,7 @@ def test_steps_resolve_the_correlation_time():
 def test_step_error_falls_with_the_second_order_of_the_steps():
     def last(longest):
         values = {"longest_step": longest, "end_time": 0.6, "tolerance": 0.9}
-        return simulate(perturbed("drive_velocity", 0.1).replaced(values))
+        return simulate(perturbed("drive_velocity", 0.1).replaced(**values))
 
     runs = [last(step) for step in (0.08, 0.04, 0.005)]
     at = [np.interp(0.5, r["step_time"].values, r["driving_force"].values) for r in runs]

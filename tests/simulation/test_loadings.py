@@ -4,28 +4,39 @@ import dataclasses
 
 import numpy as np
 import pytest
+from parts import with_parts
 
 from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
-from nucleation.model.second_body import SecondBody
+from nucleation.run.checks import require_consistent
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import composed, simulate
 
-STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
 SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)
-REMOTE = Parameters(
-    loading=Loading(kind="remote", stress_rate=2e5), geometry=Geometry(0.5, 3.0),
-    mesh=Mesh(61, 6, 4.0), stepping=STEPPING, heterogeneity=SEED,
-)  # fmt: skip
+REMOTE = PAPER_RUN.replaced(
+    loading="remote",
+    stress_rate=2e5,
+    height=0.5,
+    block_length=3.0,
+    n_x=61,
+    n_y=6,
+    grading=4.0,
+    end_time=10.0,
+    time_after_event=0.0,
+    longest_step=0.2,
+    heterogeneity="normal_stress",
+    change=-0.1,
+    width=0.3,
+)
 
 
 def test_a_patch_begins_where_it_is_told():
     for centre in (0.9, 2.0):
         own = dataclasses.replace(SEED, centre=centre)
-        record = simulate(dataclasses.replace(REMOTE, heterogeneity=own))
+        record = simulate(with_parts(REMOTE, heterogeneity=own))
         before = record.isel(time=-10)
         at = float(before["x"].values[before["slip_rate"].values.argmax()])
         assert abs(at - centre) < 0.3
@@ -37,9 +48,9 @@ def test_a_fault_in_a_period_has_no_first_node():
     """A heterogeneity elsewhere in the period gives the same run, elsewhere."""
     element = 3.0 / 61
     shifted = dataclasses.replace(SEED, centre=1.5 + 20 * element)
-    short = dataclasses.replace(REMOTE, stepping=dataclasses.replace(STEPPING, end_time=2.0))
+    short = REMOTE.replaced(end_time=2.0)
     one, other = (
-        simulate(dataclasses.replace(short, heterogeneity=own))["slip"].isel(time=-1).values
+        simulate(with_parts(short, heterogeneity=own))["slip"].isel(time=-1).values
         for own in (dataclasses.replace(SEED, centre=1.5), shifted)
     )
     np.testing.assert_allclose(np.roll(one[1:], 20), other[1:], rtol=1e-6)
@@ -88,18 +99,18 @@ def test_zeta_changes_its_sign_within_a_patch(law):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"heterogeneity.varies": "zeta", "heterogeneity.change": -2e3}, "lie in (-1000, 1000)"),
-        ({"loading.kind": "sideways"}, "must be one of edge, remote"),
-        ({"loading.kind": "remote"}, "stress_rate = 0 Pa/s is not allowed with loading.kind = rem"),
-        ({"loading.stress_rate": 1.0}, "with loading.kind = edge: it must be 0 Pa/s"),
-        ({"heterogeneity.change": 0.1}, "heterogeneity.varies = none: it must be 0"),
-        ({"heterogeneity.varies": "b"}, "it must be different from 0"),
-        ({"heterogeneity.varies": "b", "heterogeneity.change": -1.0}, "lie in (-1, 1000)"),
+        ({"heterogeneity": "zeta", "change": -2e3}, "lie in (-1000, 1000)"),
+        ({"loading": "sideways"}, "must be one of edge, remote"),
+        ({"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with loading = rem"),
+        ({"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
+        ({"change": 0.1}, "heterogeneity = none: it must be 0"),
+        ({"heterogeneity": "b"}, "it must be different from 0"),
+        ({"heterogeneity": "b", "change": -1.0}, "lie in (-1, 1000)"),
     ],
 )
 def test_bad_values_are_refused(change, words):
     with pytest.raises(ParameterError, match=words.replace("(", r"\(").replace(")", r"\)")):
-        Parameters().replaced(change)
+        require_consistent(PAPER_RUN.replaced(n_x=401, **change))
 
 
 @pytest.mark.parametrize(
@@ -107,24 +118,24 @@ def test_bad_values_are_refused(change, words):
     [
         (
             REMOTE,
-            {"mesh.n_x": 60},
+            {"n_x": 60},
             "n_x = 60 .*: it must be odd",
         ),
-        (REMOTE, {"heterogeneity.centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
-        (REMOTE, {"heterogeneity.width": 0.01}, r"width = 0.01 m is not allowed"),
+        (REMOTE, {"centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
+        (REMOTE, {"width": 0.01}, r"width = 0.01 m is not allowed"),
     ],
 )
 def test_what_does_not_go_together_is_refused(parameters, change, words):
     with pytest.raises(ParameterError, match=words):
-        composed(parameters.replaced(change))
+        composed(parameters.replaced(**change))
 
 
-EDGE = Parameters(geometry=Geometry(0.02, 0.6), mesh=Mesh(60, 6, 2.0))
-TWO = SecondBody(kind="deformable", far_side="clamped")
+EDGE = PAPER_RUN.replaced(height=0.02, block_length=0.6, n_x=60, n_y=6, grading=2.0)
+TWO = {"second_body": "deformable", "second_far_side": "clamped"}
 CASES = {
-    "edge, two": dataclasses.replace(EDGE, second_body=TWO),
+    "edge, two": EDGE.replaced(**TWO),
     "remote": REMOTE,
-    "remote, two": dataclasses.replace(REMOTE, second_body=TWO),
+    "remote, two": REMOTE.replaced(**TWO),
 }
 
 
@@ -133,14 +144,17 @@ CASES = {
 def test_onset_converges_with_mesh_tolerance_and_step(parameters):
     """Under a declared perturbation: each of them made finer moves the onset by less than 1e-3."""
     declared = Perturbation(kind="drive_velocity", strength=1e-4, seed=1)
-    own, odd = dataclasses.replace(parameters, perturbation=declared), parameters.mesh.n_x % 2
+    own, odd = with_parts(parameters, perturbation=declared), parameters.block.n_x % 2
 
     def onset(elements=120, tolerance=1e-2, longest_step=0.1):
-        mesh = {"mesh.n_x": elements + odd, "mesh.n_y": elements // 10}
-        stepping = Stepping(
-            end_time=20.0, time_after_event=0.0, tolerance=tolerance, longest_step=longest_step
+        made = own.replaced(
+            n_x=elements + odd,
+            n_y=elements // 10,
+            end_time=20.0,
+            time_after_event=0.0,
+            tolerance=tolerance,
+            longest_step=longest_step,
         )
-        made = dataclasses.replace(own, stepping=stepping).replaced(mesh)
         return extract(simulate(made))["onset_time"]
 
     coarse = onset()

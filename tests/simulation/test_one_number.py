@@ -5,12 +5,13 @@ import functools
 
 import numpy as np
 import pytest
+from parts import with_parts
 
 from nucleation.extraction.extraction import extract
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, run
+from nucleation.simulation.run import composed, instants
 from nucleation.simulation.step import Dynamics
 
 
@@ -35,7 +36,7 @@ def drop(parameters, units=0):
     if units:
         dynamics = Rounded(dynamics, units)
     recorder = Recorder(parameters, dynamics)
-    for instant in run(parameters, dynamics=dynamics):
+    for instant in instants(parameters, dynamics=dynamics):
         recorder.record(instant.state, instant.report)
         if recorder.covers_event:
             break
@@ -43,10 +44,14 @@ def drop(parameters, units=0):
     return np.array([found["onset_time"], found["length"]])
 
 
-SILENT = Parameters(
-    geometry=Geometry(height=0.02, length=0.85),
-    mesh=Mesh(n_x=250, n_y=4, grading=20.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.0),
+SILENT = PAPER_RUN.replaced(
+    height=0.02,
+    block_length=0.85,
+    n_x=250,
+    n_y=4,
+    grading=20.0,
+    end_time=30.0,
+    time_after_event=0.0,
 )
 NINE_DIGITS = 2**20  # units in the last place: arithmetic with nine digits
 
@@ -61,7 +66,7 @@ DECLARED = {
 @functools.cache
 def exact_drop(kind):
     """The perturbed run, and where it drops in arithmetic as it is."""
-    parameters = dataclasses.replace(SILENT, perturbation=DECLARED[kind])
+    parameters = with_parts(SILENT, perturbation=DECLARED[kind])
     return parameters, drop(parameters)
 
 
@@ -76,12 +81,12 @@ def test_a_declared_perturbation_makes_one_number(kind):
 @pytest.mark.parametrize("change", [{"tolerance": 1e-3}, {"longest_step": 0.05}], ids=str)
 def test_nor_does_it_hang_on_the_steps(change):
     parameters, exact = exact_drop("normal_load")
-    np.testing.assert_allclose(drop(parameters.replaced(change)), exact, rtol=3e-3)
+    np.testing.assert_allclose(drop(parameters.replaced(**change)), exact, rtol=3e-3)
 
 
 @pytest.mark.slow
 def test_in_numerical_silence_the_last_digits_decide():
     """On a mesh and with steps that shake the patch by less than that."""
-    finer = SILENT.replaced({"n_x": 330, "longest_step": 0.04})
+    finer = SILENT.replaced(n_x=330, longest_step=0.04)
     exact, rounded = drop(finer), drop(finer, NINE_DIGITS)
     assert abs(rounded[0] / exact[0] - 1.0) > 1e-2

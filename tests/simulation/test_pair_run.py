@@ -6,28 +6,35 @@ import numpy as np
 import pytest
 
 from nucleation.extraction.frozen import frozen_patch
-from nucleation.fem.body import body_of
-from nucleation.model.parameters import Parameters
-from nucleation.simulation.run import composed, run, simulate
+from nucleation.run.run import PAPER_RUN, Run
+from nucleation.simulation.bodies import body_of
+from nucleation.simulation.run import composed, instants, simulate
 
-COARSE = Parameters().replaced(
-    {"height": 0.02, "length": 1.2, "n_x": 60, "n_y": 4, "grading": 2.0, "end_time": 30.0,
-     "time_after_event": 0.0, "longest_step": 0.2, "tolerance": 0.05}
-)  # fmt: skip
+COARSE = PAPER_RUN.replaced(
+    height=0.02,
+    block_length=1.2,
+    n_x=60,
+    n_y=4,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.0,
+    longest_step=0.2,
+    tolerance=0.05,
+)
 BOTTOMS = ("free", "clamped", "roller")
 
 
 def pair(bottom="free", **changed):
     second = {"second_body": "deformable", "second_far_side": bottom, "second_n_y": 5}
-    return COARSE.replaced(second | changed)
+    return COARSE.replaced(**(second | changed))
 
 
 def test_bodies_meet_at_the_interface():
     parameters = pair(second_height=0.03, second_density=2400.0, end_time=0.3)
     record = simulate(parameters)
-    assert Parameters.from_json(record.attrs["parameters"]).below.material.density == 2400.0
+    assert Run.from_json(record.attrs["parameters"]).below.material.density == 2400.0
     dynamics = composed(parameters)
-    for instant in itertools.islice(run(parameters, dynamics=dynamics), 0, 21, 10):
+    for instant in itertools.islice(instants(parameters, dynamics=dynamics), 0, 21, 10):
         state = instant.state
         above_x, above_y = dynamics.body.nodal_values(state.displacement)
         below_x, below_y = dynamics.body.nodal_values(state.displacement, 1)
@@ -47,7 +54,7 @@ def test_identical_blocks_under_the_same_load_keep_sigma0():
 def test_a_stiff_clamped_block_is_the_rigid_base():
     """Force and slip rates are the same, but for the base's own compliance."""
     short = {"end_time": 2.0, "longest_step": 0.4}
-    rigid = simulate(COARSE.replaced(short))
+    rigid = simulate(COARSE.replaced(**short))
     stiff = simulate(
         pair("clamped", **short, second_shear_modulus=9e12, second_height=0.001, second_n_y=2)
     )
@@ -65,11 +72,11 @@ def test_the_frozen_patch_of_a_pair(bottom):
     rate, state = np.zeros(n + 1), np.full(n + 1, 0.05)
     rate[:20] = 1e-5
     force = 1e6 * operator.body.grid.nodal_lengths
-    patch = frozen_patch(operator, COARSE.friction, rate, state, force, 1e-7)
+    patch = frozen_patch(operator, COARSE.law, rate, state, force, 1e-7)
     w = np.zeros(n)
     w[patch.nodes - 1] = np.random.default_rng(3).normal(size=patch.nodes.size)
     p, normal = operator.apply(w)
-    law = COARSE.friction
+    law = COARSE.law
     f, (f_v, _) = law.coefficient(1e-5, 0.05), law.derivatives(1e-5, 0.05)
     expected = -(p[patch.nodes - 1] + f * normal[patch.nodes]) / (f_v * force[patch.nodes])
     np.testing.assert_allclose(patch.by_w @ w[patch.nodes - 1], expected, rtol=1e-9)

@@ -1,21 +1,26 @@
 """What a run shows of itself while it works."""
 
-import dataclasses
 import io
 import re
 
 import numpy as np
 import pytest
 
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import progress
 from nucleation.simulation.progress import Progress
 from nucleation.simulation.run import simulate
 
-COARSE = Parameters(
-    geometry=Geometry(height=0.005, length=0.9),
-    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.0, tolerance=5e-2, longest_step=0.1),
+COARSE = PAPER_RUN.replaced(
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.0,
+    tolerance=5e-2,
+    longest_step=0.1,
 )
 
 
@@ -49,7 +54,7 @@ def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
 def test_terminal_gets_a_bar_that_goes_away(monkeypatch):
     monkeypatch.setattr(progress, "PAUSE_ON_TERMINAL", 0.0)
     terminal = Terminal()
-    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=0.5))
+    short = COARSE.replaced(end_time=0.5)
     bar = Progress(short, terminal)
     simulate(short, progress=bar)
     bar.close()

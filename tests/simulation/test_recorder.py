@@ -5,20 +5,20 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed
 from nucleation.simulation.start import at_rest
 
-PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=0.4), mesh=Mesh(n_x=16, n_y=4))
-V = PARAMETERS.loading.velocity
+PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=0.4, n_x=16, n_y=4)
+V = PARAMETERS.fault.velocity
 MEMORY = PARAMETERS.memory_time
 
 
 @pytest.fixture(scope="module")
 def start():
     dynamics = composed(PARAMETERS)
-    return dynamics, *at_rest(dynamics, PARAMETERS.loading)
+    return dynamics, *at_rest(dynamics, PARAMETERS)
 
 
 def recorded(start, times, rates):

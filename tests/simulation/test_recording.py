@@ -11,23 +11,29 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.growth import follow_patch
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 
-ONE = Parameters().replaced(
-    {
-        "height": 0.02, "length": 1.83, "n_x": 80, "n_y": 4, "grading": 6.0, "tolerance": 5e-2,
-        "longest_step": 0.5, "time_after_event": 0.0, "end_time": 30.0, "strength": 1e-3,
-        "perturbation": "normal_load",
-    }
-)  # fmt: skip
+ONE = PAPER_RUN.replaced(
+    height=0.02,
+    block_length=1.83,
+    n_x=80,
+    n_y=4,
+    grading=6.0,
+    tolerance=5e-2,
+    longest_step=0.5,
+    time_after_event=0.0,
+    end_time=30.0,
+    strength=1e-3,
+    perturbation="normal_load",
+)
 """A run to its event of a tenth of the usual cost."""
 
 
 @pytest.fixture(scope="module")
 def records():
     levels = ("interface", "lengths")
-    return {level: simulate(ONE.replaced({"record": level})) for level in levels}
+    return {level: simulate(ONE.replaced(record=level)) for level in levels}
 
 
 def test_lengths_and_stability_are_the_same_from_every_level(records):

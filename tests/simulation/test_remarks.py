@@ -8,16 +8,21 @@ from simulation.test_event import THICK, fastest_elsewhere
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.record import Record
 from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import start
 from nucleation.simulation.event import FEW, long_after
 from nucleation.simulation.remarks import front_width, of_front
 from nucleation.simulation.run import simulate
 
-COARSE = Parameters(
-    geometry=Geometry(height=0.02, length=1.84),
-    mesh=Mesh(n_x=60, n_y=6),
-    stepping=Stepping(end_time=30.0, time_after_event=0.0, tolerance=5e-2, longest_step=0.2),
+COARSE = PAPER_RUN.replaced(
+    height=0.02,
+    block_length=1.84,
+    n_x=60,
+    n_y=6,
+    end_time=30.0,
+    time_after_event=0.0,
+    tolerance=5e-2,
+    longest_step=0.2,
 )
 """The mesh of docs/extending.md: two elements to the process zone of the aging law."""
 
@@ -53,7 +58,7 @@ def test_a_patch_is_long_from_the_frame_nearest():
 
 @pytest.mark.parametrize(("rate", "slips"), [(0.007, False), (0.013, True)])
 def test_the_patch_slips_faster_than_a_hundredth_of_the_imposed_velocity(rate, slips):
-    rates = np.full((2, X.size), rate * COARSE.loading.velocity)
+    rates = np.full((2, X.size), rate * COARSE.fault.velocity)
     assert (long_after(COARSE, X, np.array([0.0, 1.0]), rates) == -np.inf) == slips
 
 
@@ -91,7 +96,7 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
 
 @pytest.mark.slow
 def test_a_run_that_its_mesh_resolves_says_nothing():
-    made = simulate(COARSE.replaced({"n_x": 120}))
+    made = simulate(COARSE.replaced(n_x=120))
     assert ";" not in made.attrs["status"]
 
 

@@ -7,21 +7,25 @@ import numpy as np
 import pytest
 
 from nucleation.extraction.extraction import extract
-from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import EVOLUTIONS
-from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.event import Outcome
 from nucleation.simulation.interface import Interface, NewtonFailure
 from nucleation.simulation.recorded import RECORDED
-from nucleation.simulation.run import composed, run, simulate
+from nucleation.simulation.run import composed, instants, simulate
 from nucleation.simulation.step import Dynamics
 
-COARSE = Parameters(
-    geometry=Geometry(height=0.005, length=0.9),
-    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.1),
+COARSE = PAPER_RUN.replaced(
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.1,
+    tolerance=5e-2,
+    longest_step=0.1,
 )
 
 
@@ -47,7 +51,7 @@ def test_records_are_whole(coarse_run):
     np.testing.assert_allclose(
         np.diff(coarse_run["step_time"]), coarse_run["step_size"][1:], rtol=1e-6, atol=1e-15
     )
-    assert Parameters.from_json(coarse_run.attrs["parameters"]) == COARSE
+    assert Run.from_json(coarse_run.attrs["parameters"]) == COARSE
 
 
 def test_frames_are_dense_through_the_event(coarse_run):
@@ -59,7 +63,7 @@ def test_frames_are_dense_through_the_event(coarse_run):
 
 
 def test_interface_obeys_friction_in_every_frame(coarse_run):
-    law = COARSE.friction
+    law = COARSE.law
     f = law.coefficient(coarse_run["slip_rate"].values[1:], coarse_run["state"].values[1:])
     ratio = -coarse_run["shear_stress"] / coarse_run["sigma_yy"]
     np.testing.assert_allclose(ratio.values[1:], f, atol=1e-6)
@@ -69,7 +73,7 @@ def test_interface_obeys_friction_in_every_frame(coarse_run):
 def test_the_body_meets_the_boundary_conditions():
     """Its left edge has no more than the drive's displacement, and its base stays at y = 0."""
     dynamics = composed(COARSE)
-    for instant in itertools.islice(run(COARSE, dynamics=dynamics), 0, 60, 20):
+    for instant in itertools.islice(instants(COARSE, dynamics=dynamics), 0, 60, 20):
         along_x, along_y = dynamics.body.nodal_values(instant.state.displacement)
         np.testing.assert_allclose(along_x[:, 0], 0.0, atol=1e-18)
         assert (along_y[0] == 0.0).all()
@@ -80,15 +84,15 @@ def test_the_body_meets_the_boundary_conditions():
 @pytest.mark.parametrize("evolution", EVOLUTIONS)
 def test_the_regularised_law_nucleates(evolution):
     """The interface slips under its strength, also where it is stuck far ahead."""
-    changes = {"friction.law": "dieterich_ruina", "evolution": evolution, "height": 0.02}
-    parameters = COARSE.replaced(changes | {"length": 1.8, "time_after_event": 0.0})
+    changes = {"friction_law": "dieterich_ruina", "evolution": evolution, "height": 0.02}
+    parameters = COARSE.replaced(**(changes | {"length": 1.8, "time_after_event": 0.0}))
     record = simulate(parameters)
     assert record.attrs["completed"] and "event" in record.attrs["status"]
     assert record.attrs["rejected_steps"] < 0.5 * record.attrs["steps"]
     assert 0.4 < extract(record)["length"] / 0.45 < 1.0  # m, of the theory
     rate, state = record["slip_rate"].values[5:, 1:], record["state"].values[5:, 1:]
     ratio = (record["shear_stress"] / record["sigma_yy"]).values[5:, 1:]
-    strength = parameters.friction.coefficient(rate, state)
+    strength = parameters.law.coefficient(rate, state)
     assert (np.abs(np.abs(ratio) - np.abs(strength)) < 1e-3).mean() > 0.99
     assert np.abs(rate).min() < 1e-30 < np.abs(rate).max()
 
@@ -96,10 +100,7 @@ def test_the_regularised_law_nucleates(evolution):
 @pytest.mark.slow
 def test_quasi_static_run_covers_its_event(coarse_run):
     """Friction strengthens at high rates and bounds the slip rate in place of inertia."""
-    stepping = dataclasses.replace(COARSE.stepping, time_after_event=0.0)
-    quasi_static = simulate(
-        dataclasses.replace(COARSE, stepping=stepping, material=Material(density=0.0))
-    )
+    quasi_static = simulate(COARSE.replaced(time_after_event=0.0, density=0.0))
     assert quasi_static.attrs["status"] == Outcome.AFTER_EVENT.value
     one, other = extract(coarse_run), extract(quasi_static)
     assert other["onset_time"] == pytest.approx(one["onset_time"], rel=0.01)
@@ -107,9 +108,9 @@ def test_quasi_static_run_covers_its_event(coarse_run):
 
 
 def test_step_underflow_is_a_named_failure():
-    parameters = dataclasses.replace(COARSE, stepping=Stepping(shortest_step=0.5))
+    parameters = COARSE.replaced(shortest_step=0.5)
     with pytest.raises(SimulationFailure, match="fell below the shortest step"):
-        list(run(parameters))
+        list(instants(parameters))
     dataset = simulate(parameters)
     assert dataset.attrs["completed"] == 0
     assert dataset.attrs["status"] == Outcome.STEP_UNDERFLOW.value
@@ -117,10 +118,10 @@ def test_step_underflow_is_a_named_failure():
 
 def test_steps_below_the_round_off_of_time_are_a_named_failure():
     """Steps of 1e-7 s after 1e9 s would leave the time as it is."""
-    first = next(run(COARSE))
+    first = next(instants(COARSE))
     late = dataclasses.replace(first.state, past_times=first.state.past_times + 1e9)
     with pytest.raises(SimulationFailure, match="fell below the shortest step"):
-        list(itertools.islice(run(COARSE, (late, first.control)), 3))
+        list(itertools.islice(instants(COARSE, (late, first.control)), 3))
 
 
 def test_tension_is_a_named_failure(monkeypatch):
@@ -148,18 +149,25 @@ def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
         return new, dataclasses.replace(report, driving_force=np.nan)
 
     monkeypatch.setattr(Dynamics, "advance", spoilt)
-    dataset = simulate(dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)))
+    dataset = simulate(COARSE.replaced(end_time=1e-5))
     assert dataset.attrs["status"] == Outcome.NOT_FINITE.value
     assert not dataset.attrs["completed"]
 
 
 def test_a_perturbed_patch_grows_under_a_law_that_is_steep_at_rest():
     """Nodes whose strength is exceeded must not count as solved: the fault would open in 2.8 s."""
-    law = Friction(law="dieterich_ruina", log_state_coefficient=0.0136)  # zeta/a = 1
-    parameters = Parameters(friction=law, geometry=Geometry(height=0.03, length=3.427)).replaced(
-        {"n_x": 100, "n_y": 4, "grading": 20.0, "perturbation": "normal_load", "strength": 1e-4,
-         "end_time": 3.0}
-    )  # fmt: skip
+    parameters = PAPER_RUN.replaced(
+        friction_law="dieterich_ruina",
+        log_state_coefficient=0.0136,  # zeta/a = 1
+        height=0.03,
+        block_length=3.427,
+        n_x=100,
+        n_y=4,
+        grading=20.0,
+        perturbation="normal_load",
+        strength=1e-4,
+        end_time=3.0,
+    )
     record = simulate(parameters)
     assert record.attrs["status"] == Outcome.END_TIME.value
-    assert (np.abs(record["slip_rate"][-1]) > 0.1 * parameters.loading.velocity).sum() >= 4
+    assert (np.abs(record["slip_rate"][-1]) > 0.1 * parameters.fault.velocity).sum() >= 4

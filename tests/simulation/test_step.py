@@ -6,22 +6,22 @@ import itertools
 import numpy as np
 import pytest
 
-from nucleation.model.friction.law import Friction
-from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import interface, step
 from nucleation.simulation.interface import NewtonFailure
-from nucleation.simulation.run import composed, run
+from nucleation.simulation.run import composed, instants
 from nucleation.simulation.start import at_rest
 from nucleation.simulation.stepping import BDF, Formula
 
 
 def small(law="aging", **mesh):
-    return Parameters(
-        geometry=Geometry(height=0.02, length=0.4),
-        mesh=Mesh(**({"n_x": 16, "n_y": 4, "grading": 2.0} | mesh)),
-        friction=Friction(evolution=law),
-        loading=Loading(normal_stress=2e5, velocity=1e-3),  # a patch forms within some steps
+    return PAPER_RUN.replaced(
+        height=0.02,
+        block_length=0.4,
+        **{"n_x": 16, "n_y": 4, "grading": 2.0} | mesh,
+        evolution=law,
+        normal_stress=2e5,
+        velocity=1e-3,
     )
 
 
@@ -30,18 +30,18 @@ LADDER = (*range(-92, -60, 4), *[-60] * 100)
 
 
 def test_initial_force_is_that_of_uniaxial_strain():
-    parameters = Parameters(geometry=Geometry(0.01, 0.4), mesh=Mesh(60, 8))
-    _, report = at_rest(composed(parameters), parameters.loading)
-    nu = parameters.material.poisson_ratio
-    expected = -nu / (1 - nu) * parameters.loading.normal_stress * parameters.geometry.height
+    parameters = PAPER_RUN.replaced(height=0.01, block_length=0.4, n_x=60, n_y=8)
+    _, report = at_rest(composed(parameters), parameters)
+    nu = parameters.fault.poisson_ratio
+    expected = -nu / (1 - nu) * parameters.fault.normal_stress * parameters.fault.height
     assert report.driving_force == pytest.approx(expected, rel=1e-9)
 
 
 def test_start_in_uniform_shear_carries_it_at_every_node():
     shear = 5e4
-    loading = Loading(initial_stress="uniform_shear", initial_shear_stress=shear)
-    dynamics = composed(dataclasses.replace(small(), loading=loading))
-    state, report = at_rest(dynamics, loading)
+    run = small().replaced(initial_stress="uniform_shear", initial_shear_stress=shear)
+    dynamics = composed(run)
+    state, report = at_rest(dynamics, run)
     forces = shear * dynamics.grid.nodal_lengths[1:]
     # the tangent leaves out couplings through the right edge below 1e-8
     np.testing.assert_allclose(report.interface.tangential[1:], -forces, rtol=3e-8)
@@ -51,27 +51,27 @@ def test_start_in_uniform_shear_carries_it_at_every_node():
 
 def test_start_without_shear_is_uniaxial_stress():
     """The relaxed start: sigma_xx = sigma_xy = 0 everywhere, which bilinear elements hold."""
-    parameters = dataclasses.replace(small(), loading=Loading(initial_stress="uniform_shear"))
+    parameters = small().replaced(initial_stress="uniform_shear")
     dynamics = composed(parameters)
-    state, report = at_rest(dynamics, parameters.loading)
+    state, report = at_rest(dynamics, parameters)
     u_x, u_y = dynamics.body.nodal_values(state.displacement)
-    material, stress = parameters.material, parameters.loading.normal_stress
+    material, stress = parameters.upper.material, parameters.fault.normal_stress
     x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
     nu, scale = material.poisson_ratio, stress / (2.0 * material.shear_modulus)
     np.testing.assert_allclose(u_x, nu * scale * x, atol=1e-9 * scale)
     np.testing.assert_allclose(u_y, -(1.0 - nu) * scale * y, atol=1e-9 * scale)
-    assert abs(report.driving_force) < 1e-8 * stress * parameters.geometry.height
+    assert abs(report.driving_force) < 1e-8 * stress * parameters.fault.height
     np.testing.assert_allclose(
         report.interface.normal, stress * dynamics.grid.nodal_lengths, rtol=1e-8
     )
 
 
 def test_without_density_every_step_is_a_static_field():
-    parameters = dataclasses.replace(small(), material=Material(density=0.0))
+    parameters = small().replaced(density=0.0)
     dynamics = composed(parameters)
     static = dynamics.body.operator(0.0)
-    load = dynamics.body.far_load(parameters.loading.normal_stress)
-    state, _ = at_rest(dynamics, parameters.loading)
+    load = dynamics.body.far_load(parameters.fault.normal_stress)
+    state, _ = at_rest(dynamics, parameters)
     for rung in LADDER[:40]:
         state, report = dynamics.advance(state, rung)
         expected = static.respond(load, report.interface.w)
@@ -84,7 +84,7 @@ def test_without_density_every_step_is_a_static_field():
 
 def test_a_step_changes_nothing_and_repeats_exactly():
     dynamics = composed(small())
-    state, _ = at_rest(dynamics, small().loading)
+    state, _ = at_rest(dynamics, small())
     for rung in LADDER[:20]:
         state, _ = dynamics.advance(state, rung)
     before = state.displacement.modes.copy()
@@ -97,7 +97,7 @@ def test_a_step_changes_nothing_and_repeats_exactly():
 
 def test_a_residual_that_is_undefined_at_one_node_is_a_failure():
     dynamics = composed(small())
-    state, _ = at_rest(dynamics, small().loading)
+    state, _ = at_rest(dynamics, small())
     states = state.past_log_states.copy()
     states[0, 9] = np.nan
     with pytest.raises(NewtonFailure, match="not finite"):
@@ -106,9 +106,9 @@ def test_a_residual_that_is_undefined_at_one_node_is_a_failure():
 
 def test_first_step_from_rest_on_a_fine_mesh():
     """The singular corner breaks loose at once; Newton's method gets there from rest."""
-    parameters = Parameters(geometry=Geometry(0.005, 1.0), mesh=Mesh(3200, 20))
+    parameters = PAPER_RUN.replaced(height=0.005, block_length=1.0, n_x=3200, n_y=20)
     dynamics = composed(parameters)
-    _, report = dynamics.advance(at_rest(dynamics, parameters.loading)[0], -92)
+    _, report = dynamics.advance(at_rest(dynamics, parameters)[0], -92)
     assert report.interface.iterations > 8
 
 
@@ -125,7 +125,7 @@ def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
     for unchanged in (interface.UNCHANGED, -1.0):
         monkeypatch.setattr(interface, "UNCHANGED", unchanged)
         evaluated.append(0)
-        *_, last = itertools.islice(run(small(n_x=64)), 200)
+        *_, last = itertools.islice(instants(small(n_x=64)), 200)
         found.append(last.report.interface)
     assert evaluated[0] < 0.8 * evaluated[1]
     for name in ("slip_rate", "log_state", "tangential", "normal"):
@@ -144,7 +144,7 @@ def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
 def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     """Where a slip rate begins to be slow, its relative error counts by 1/sqrt(2)."""
     dynamics = composed(small())
-    state, report = at_rest(dynamics, small().loading)
+    state, report = at_rest(dynamics, small())
     rates = np.full_like(report.interface.slip_rate, slow)
     rates[0] = fastest
     state = dataclasses.replace(state, past_slip_rates=rates[None])

@@ -2,14 +2,14 @@
 
 import pytest
 
-from nucleation.fem.grid import Grid
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.bodies import grid_of
 from nucleation.simulation.run import interface_of
 
 
 def tolerance(**values):
-    parameters = Parameters().replaced({"tolerance": 1e-2, **values})
-    return interface_of(parameters, Grid.of(parameters.geometry, parameters.mesh)).tolerance
+    parameters = PAPER_RUN.replaced(tolerance=1e-2, **values)
+    return interface_of(parameters, grid_of(parameters.upper)).tolerance
 
 
 def test_under_a_perturbation_it_is_a_thousandth_of_the_step_s():

@@ -10,15 +10,14 @@ import xarray as xr
 from drop.test_delay import LOAD, PARAMETERS, START, history
 
 from nucleation.drop.delay import growth
-from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
-from nucleation.theory.creep.patches import Patches
+from nucleation.run.identity import fault
 from replication.figures import figure_drop
 from replication.tables import drops as module
 from replication.tables.drops import COLUMNS, NOISE_FLOORS, gather_drops, noise_floors
 
 FAULT = fault(PARAMETERS)
-STIFF = PARAMETERS.replaced({"shear_modulus": 9.3e9})
+STIFF = PARAMETERS.replaced(shear_modulus=9.3e9)
 
 
 def drops(**changes):
@@ -49,7 +48,7 @@ def softness(patches):
 @pytest.fixture(scope="module", autouse=True)
 def histories():
     """Made-up ones: of the usual fault, and of one that is stiffer."""
-    patches, length = Patches.of(STIFF), 1.5 * history().length
+    patches, length = STIFF.patches, 1.5 * history().length
     other = dataclasses.replace(history(), patches=patches, length=length)
     with pytest.MonkeyPatch.context() as patched:
         made = {softness(own.patches): own for own in (history(), other)}

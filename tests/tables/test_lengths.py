@@ -7,8 +7,7 @@ from made_up_runs import ONSET, PARAMETERS, changed, record
 from made_up_runs import run as made_up_run
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.linearised import linearised
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from replication.tables.lengths import (
     COMPARED,
     files,
@@ -56,15 +55,14 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
 def test_rows_say_what_lies_below(table):
     assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
     assert np.isnan(table["second_height"].item())
-    pair = Parameters().replaced(
-        {"second_body": "deformable", "second_far_side": "clamped", "second_shear_modulus": 9e9,
-         "height": 0.02}
-    )  # fmt: skip
+    pair = PAPER_RUN.replaced(
+        second_body="deformable", second_far_side="clamped", second_shear_modulus=9e9, height=0.02
+    )
     assert second_body(pair) == {
         "far_side": "clamped",
         "second_height": 0.02,
         "second_shear_modulus": 9e9,
-        "second_poisson_ratio": pair.material.poisson_ratio,
+        "second_poisson_ratio": pair.fault.poisson_ratio,
     }
 
 
@@ -74,8 +72,8 @@ PERTURBED = {"perturbation": "normal_load", "strength": 1e-3, "seed": 3}
 
 def made_up_table(parameters, simulation):
     """The table of one run with this record, of slip rates alone."""
-    parameters = parameters.replaced({"record": "lengths"})
-    interface = linearised(parameters.friction, parameters.loading)
+    parameters = parameters.replaced(record="lengths")
+    interface = parameters.fault
     own = made_up_run("mine", parameters) | {"study": "made_up", "role": "own"}
     own |= {"interface": {name: getattr(interface, name) for name in ("friction", "a", "zeta")}}
     simulation = simulation.assign_attrs(RUN | {"parameters": parameters.to_json()})
@@ -94,7 +92,7 @@ def test_a_run_without_an_event_has_the_length_that_it_reached():
     quiet = record()
     rising = -np.linspace(1.0, 2.0, quiet.sizes["step"])
     table = made_up_table(PARAMETERS, quiet.assign(driving_force=("step", rising)))
-    last = np.flatnonzero(quiet["slip_rate"].values[-1] > 0.01 * PARAMETERS.loading.velocity)[-1]
+    last = np.flatnonzero(quiet["slip_rate"].values[-1] > 0.01 * PARAMETERS.fault.velocity)[-1]
     assert np.isnan(table["length"].item())
     assert table["reached_length"].item() == pytest.approx(float(quiet["x"][last]), abs=0.011)
 
@@ -106,9 +104,9 @@ REMOTE = {"loading": "remote", "stress_rate": 1e5}
     ("given", "known"),
     [
         ({}, True),
-        ({"varies": "normal_stress", "change": -0.1, "width": 0.3}, True),
-        (REMOTE | {"varies": "friction", "change": -0.1, "width": 0.3}, True),
-        (REMOTE | {"varies": "normal_stress", "change": -0.1, "width": 0.3}, False),
+        ({"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, True),
+        (REMOTE | {"heterogeneity": "friction", "change": -0.1, "width": 0.3}, True),
+        (REMOTE | {"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, False),
     ],
 )
 def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):

@@ -4,14 +4,12 @@ import numpy as np
 import xarray as xr
 from asked import expected_drop
 
-from nucleation.model.identity import ensemble
-from nucleation.model.parameters import Parameters
-from nucleation.model.perturbation import Perturbation
+from nucleation.run.identity import ensemble
+from nucleation.run.run import PAPER_RUN
 from replication.tables.weakening import OF_FAULT, gather_other_faults
 
 FAULTS = [
-    Parameters(perturbation=Perturbation(kind="normal_load", strength=strength))
-    for strength in (1e-4, 1e-5)
+    PAPER_RUN.replaced(perturbation="normal_load", strength=strength) for strength in (1e-4, 1e-5)
 ]
 RUNS = [{"parameters": parameters.to_dict()} for parameters in FAULTS]
 

@@ -5,7 +5,7 @@ import pytest
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.growth import follow_patch
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 from replication.configuration.load import configure
@@ -23,7 +23,7 @@ STUDY = {
 
 def test_rows_say_what_the_runs_are():
     runs = configure({"studies": {"pairs": STUDY}}).runs
-    records, settings = [simulate(run.parameters) for run in runs], ExtractionSettings()
+    records, settings = [simulate(run.run) for run in runs], ExtractionSettings()
     patches = [follow_patch(record, settings) for record in records]
     table = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
     assert tuple(table.data_vars) == tuple(COLUMNS)
@@ -32,7 +32,7 @@ def test_rows_say_what_the_runs_are():
     assert table["kind"].values.tolist() == ["normal_load"] * 2
     assert table["seed"].values.tolist() == [3, 3]
     assert table["critical_length"].values.tolist() == [run.critical_length for run in runs]
-    first = runs[0].parameters
+    first = runs[0].run
     contrast = bimaterial_contrast(first.material, first.below.material)
     f_beta = float(table["f_beta"][0])
     assert contrast > 0.0 and f_beta == pytest.approx(contrast * float(table["friction"][0]))
@@ -43,7 +43,7 @@ def test_rows_say_what_the_runs_are():
 def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
     study = {**STUDY, "runs": [{"height": [0.02, 0.03], "seed": [3, 4]}]}
     runs, settings = configure({"studies": {"pairs": study}}).runs, ExtractionSettings()
-    records = [simulate(run.parameters) for run in runs]
+    records = [simulate(run.run) for run in runs]
     patches = [follow_patch(record, settings) for record in records[::2]]
     for patch, length in zip(patches, (0.1, 0.2), strict=True):
         patch["stability_length"] = length
@@ -61,4 +61,4 @@ def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
 
 def test_a_rigid_base_is_no_pair():
     with pytest.raises(ValueError, match="rigid base"):
-        pair_description({"parameters": Parameters().to_dict()})
+        pair_description({"parameters": PAPER_RUN.to_dict()})

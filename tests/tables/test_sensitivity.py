@@ -18,12 +18,13 @@ BASE = run("base")
         ({}, 0.5, ("base", "base")),
         ({"density": 600.0}, 0.5, ("density", "rho x 0.5")),
         ({"density": 0.0}, 0.5, ("density", "rho = 0")),
-        ({"velocity": 2e-5, "length": 2.001}, 0.5, ("velocity", "V x 2")),
+        ({"velocity": 2e-5, "block_length": 2.001}, 0.5, ("velocity", "V x 2")),
         ({"time_after_event": 0.1}, 0.5, ("base", "base")),
-        ({"length": 4.0, "n_x": 400}, 0.5, ("length", "L x 2")),
-        ({"length": 2.014}, 0.5, ("base", "base")),  # the same multiple of L_c, but for rounding
-        ({"length": 2.03}, 0.5, ("length", "L x 1.01")),
-        ({"slip_distance": 1e-6, "length": 4.0}, 1.0,
+        ({"block_length": 4.0, "n_x": 400}, 0.5, ("block_length", "L x 2")),
+        # the same multiple of L_c, but for rounding
+        ({"block_length": 2.014}, 0.5, ("base", "base")),
+        ({"block_length": 2.03}, 0.5, ("block_length", "L x 1.01")),
+        ({"slip_distance": 1e-6, "block_length": 4.0}, 1.0,
          ("slip_distance", "D x 2")),
         ({"initial_stress": "uniform_shear"}, 0.5, ("initial_shear_stress", "tau0 = 0")),
         ({"initial_stress": "uniform_shear", "initial_shear_stress": 5e4}, 0.5,
@@ -38,7 +39,7 @@ def test_variation_in_words(values, critical, expected):
 
 @pytest.fixture(scope="module")
 def table():
-    doubled = changed(density=2400.0, length=4.0, n_x=400)
+    doubled = changed(density=2400.0, block_length=4.0, n_x=400)
     runs = [run("a"), run("b", doubled, critical_length=1.0), run("c", changed(height=0.1))]
     simulations = [record(0.1), record(0.125, doubled), record(0.1, changed(height=0.1))]
     return sensitivity_table(runs, simulations)

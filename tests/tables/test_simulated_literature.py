@@ -11,8 +11,7 @@ from lengths.test_in_use import crack_coefficients
 from nucleation.extraction import zones
 from nucleation.lengths.formulas import LOCALISED_LIMIT
 from nucleation.lengths.in_use import LENGTHS
-from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from replication.figures import figure_literature
 from replication.tables import literature
 
@@ -138,9 +137,8 @@ def test_a_run_is_read_as_the_length_whose_setting_it_is():
     runs = []
     for name, changes in SETTINGS.items():
         ratio = changes.get("zeta_over_a", 2.0)
-        friction = Friction().with_expansion(1e-5, 0.41, 0.0068, ratio * 0.0068)
-        own = {key: value for key, value in changes.items() if key != "zeta_over_a"}
-        parameters = Parameters(friction=friction).replaced(own)
+        constants = {"friction": 0.41, "a": 0.0068, "zeta_over_a": ratio}
+        parameters = PAPER_RUN.replaced(**changes | constants)
         runs.append({"id": name, "parameters": parameters.to_dict()})
     table = literature.literature_table(runs, [simulation] * len(runs)).to_dataframe()
     read = table[table["id"] != ""]

@@ -6,8 +6,8 @@ import xarray as xr
 from asked import critical_length, weakening_patch_length
 from configurations import papers
 
-from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
+from nucleation.run.run import Run
 from replication.figures import figure_weakening
 from replication.tables.weakening_patches import CURVE, outcome, patch_of, weakening_patches_table
 
@@ -22,7 +22,7 @@ FAULT = {
 def runs():
     """Three runs of one patch width each, with zeta/a = 0.5 and r = 1."""
     every = papers().runs_of("weakening_patches")
-    own = [run for run in every if run.parameters.heterogeneity.change == -2.0]
+    own = [run for run in every if run.run.heterogeneity.change == -2.0]
     return own[: len(FASTEST)]
 
 
@@ -43,7 +43,7 @@ def test_table_has_the_theory_of_each_patch(runs, table):
     smallest = float(weakening_patch_length(outside_zeta=-0.0034, **FAULT))
     assert simulated["smallest_width"].values == pytest.approx(smallest, rel=1e-4)
     assert simulated["critical_length"].values == pytest.approx(float(critical_length(**FAULT)))
-    widths = [run.parameters.heterogeneity.width for run in runs]
+    widths = [run.run.heterogeneity.width for run in runs]
     assert simulated["width_ratio"].values == pytest.approx(np.array(widths) / smallest, rel=1e-4)
     assert simulated["strengthening"].values == pytest.approx(1.0)
     curve = table.isel(run=slice(len(runs), None))
@@ -70,9 +70,10 @@ def test_outcomes():
         assert outcome(fastest) == name
 
 
-@pytest.mark.parametrize("change", [{"varies": "friction", "change": 0.5}, {"shape": "bump"}])
+@pytest.mark.parametrize(
+    "change", [{"heterogeneity": "friction", "change": 0.5}, {"shape": "bump"}]
+)
 def test_other_heterogeneity_is_refused(runs, change):
-    named = {f"heterogeneity.{name}": value for name, value in change.items()}
-    parameters = Parameters.from_dict(runs[0].to_dict()["parameters"]).replaced(named)
+    parameters = Run.from_dict(runs[0].to_dict()["parameters"]).replaced(**change)
     with pytest.raises(ParameterError, match="it must be zeta with a step"):
         patch_of(parameters)

@@ -6,9 +6,8 @@ import xarray as xr
 from asked import expected_drop
 
 from nucleation.datasets.variables import table
-from nucleation.model.identity import fault
-from nucleation.model.parameters import Parameters
-from nucleation.model.perturbation import Perturbation
+from nucleation.run.identity import fault
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.thin import thin_limit
 from replication.figures import figure_weakening
 from replication.tables.lengths import COLUMNS as LENGTHS
@@ -20,8 +19,8 @@ from replication.tables.weakening import (
     weakening_curves,
 )
 
-STRONG = Parameters(perturbation=Perturbation(kind="normal_load", strength=1e-4))
-QUIET = Parameters()
+STRONG = PAPER_RUN.replaced(perturbation="normal_load", strength=1e-4)
+QUIET = PAPER_RUN
 
 
 def lengths(parameters, seeds):
@@ -92,8 +91,8 @@ def test_the_figure_has_a_panel_for_each_base_with_curves():
 def test_curves_of_a_thin_layer_and_of_half_spaces():
     """L_s of a thin layer is that of the thin limit; high blocks have the curves of half-spaces."""
     law = {"friction_law": "dieterich_ruina", "strength": 1e-4, "perturbation": "normal_load"}
-    thin = Parameters().replaced(law | {"height": 0.002})
-    high = Parameters().replaced(law | {"height": 3.0, "second_body": "deformable"})
+    thin = PAPER_RUN.replaced(**(law | {"height": 0.002}))
+    high = PAPER_RUN.replaced(**(law | {"height": 3.0, "second_body": "deformable"}))
     runs = []
     for parameters in (thin, high):
         one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
@@ -103,7 +102,7 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     assert found["curve_half_spaces"].values.tolist() == [False, True]
     limits = [thin_limit(ratio).length_ratio for ratio in (2.5, 6.0)]
     np.testing.assert_allclose(found["curve_stability"][0], limits, rtol=0.05)
-    higher = high.replaced({"height": 600.0, "second_height": 600.0})
+    higher = high.replaced(height=600.0, second_height=600.0)
     runs[1] = runs[1] | {"parameters": higher.to_dict()}
     again = weakening_curves(runs[1:], [2.5, 6.0])
     np.testing.assert_allclose(again["curve_law"][0], found["curve_law"][1], rtol=1e-2)

@@ -17,23 +17,16 @@ from scipy.optimize import brentq
 from benchmarks.assembled import assemble
 from nucleation.api import (
     Fault,
-    Geometry,
-    Loading,
     Material,
-    Mesh,
     ParameterError,
-    Parameters,
-    Perturbation,
-    Stepping,
     extract,
     simulate,
 )
-from nucleation.fem.body import body_of
 from nucleation.fem.grid import Grid
-from nucleation.model.linearised import interface_state
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.bodies import body_of
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.creep.thin import thin_limit
-from nucleation.theory.critical import run_length
 
 BP1 = {
     "shear_modulus": 32.04e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
@@ -140,11 +133,14 @@ def test_condensed_stiffness_converges_to_the_theory():
     """Second order in h, to mu k tanh kH; slip does not change the normal stress."""
     errors, k, height = [], 2.0 * np.pi / 0.4, 0.1
     for n in (20, 40, 80):
-        parameters = Parameters(
-            material=Material(plane="antiplane"),
-            geometry=Geometry(height, 0.4),
-            mesh=Mesh(2 * n + 1, n),
-            loading=Loading(kind="remote", stress_rate=1.0),
+        parameters = PAPER_RUN.replaced(
+            plane="antiplane",
+            height=height,
+            block_length=0.4,
+            n_x=2 * n + 1,
+            n_y=n,
+            loading="remote",
+            stress_rate=1.0,
         )
         body = body_of(parameters)
         tangential, normal = body.operator(0.0).tangent(np.arange(1, 2 * n + 2))
@@ -156,18 +152,22 @@ def test_condensed_stiffness_converges_to_the_theory():
     np.testing.assert_allclose(orders, 2.0, atol=0.1)
 
 
-RUN = Parameters(
-    material=Material(plane="antiplane"),
-    geometry=Geometry(0.02, 0.8),
-    mesh=Mesh(320, 8),
-    stepping=Stepping(end_time=60.0, time_after_event=0.1),
-    perturbation=Perturbation("normal_load", 1e-4),
+RUN = PAPER_RUN.replaced(
+    plane="antiplane",
+    height=0.02,
+    block_length=0.8,
+    n_x=320,
+    n_y=8,
+    end_time=60.0,
+    time_after_event=0.1,
+    perturbation="normal_load",
+    strength=1e-4,
 )
 
 
 @pytest.mark.slow
 def test_a_patch_nucleates_where_the_law_of_the_drop_says():
-    critical = run_length(RUN, interface_state(RUN))
+    critical = RUN.critical_length
     found = expected_drop(RUN)
     assert found.stability_length == stability_length_of(RUN, critical)
     measured = float(extract(simulate(RUN))["length"])

@@ -3,10 +3,9 @@ import dataclasses
 import numpy as np
 import pytest
 from layer_problem import reference_transfer
-from two_bodies import Body, critical_wavenumber
+from two_bodies import Body, Interface, critical_wavenumber, fault_of
 
 from nucleation.lengths.formulas import bimaterial
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.closed_forms import (
     bimaterial_contrast,
@@ -16,7 +15,7 @@ from nucleation.theory.closed_forms import (
 from nucleation.theory.status import NoLength
 
 SOFT, STIFF = Material(3.1e9, 1 / 3), Material(9.3e9, 0.2)
-INTERFACE = InterfaceState()
+INTERFACE = Interface()
 
 
 def bimaterial_modulus(upper, lower):
@@ -109,7 +108,7 @@ def test_the_ratio_is_that_of_the_theory(zeta):
 def test_thin_limit():
     """With G1 = 2 Hk/(1 - nu) and G2 = 0 in Eq. (5) both roots are marginal."""
     heights, s, mu = np.array([1e-4, 5e-3]), INTERFACE, SOFT.shear_modulus
-    lengths = thin_limit_length(heights, SOFT, s)
+    lengths = thin_limit_length(heights, fault_of(SOFT, s))
     for height, length in zip(heights, lengths, strict=True):
         k = 2 * np.pi / length
         gamma = mu * k * 2 * height * k / (1 - SOFT.poisson_ratio) * s.slip_length
@@ -120,4 +119,4 @@ def test_thin_limit():
 
 def test_velocity_strengthening_is_refused():
     with pytest.raises(NoLength, match="zeta"):
-        thin_limit_length(0.1, SOFT, dataclasses.replace(INTERFACE, zeta=-0.001))
+        thin_limit_length(0.1, fault_of(SOFT, dataclasses.replace(INTERFACE, zeta=-0.001)))

@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 from two_bodies import (
     RIGID,
     Body,
-    critical_length,
+    Interface,
     critical_wavenumber,
+    fault_of,
     growth_rates,
     transfer_functions,
 )
 
 from nucleation.lengths.formulas import bimaterial
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 from nucleation.theory.status import NoLength
@@ -33,7 +33,8 @@ heights = powers(-3, 2) | st.just(math.inf)
 bodies = st.builds(Body, materials, heights, st.sampled_from(sorted(FAR_SIDES)))
 wavenumbers = powers(-3, 5)
 interfaces = st.builds(
-    InterfaceState,
+    Interface,
+    fault_of,
     friction=st.floats(0.0, 0.9), a=powers(-3, -1), zeta=powers(-3, -1), slip_length=powers(-7, -2),
     velocity=powers(-12, 0), normal_stress=powers(4, 9),
 )  # fmt: skip
@@ -43,7 +44,7 @@ interfaces = st.builds(
 def test_exchange_of_the_bodies_reverses_the_coupling(k, upper, lower):
     g1, g2 = transfer_functions(k, upper, lower)
     other = np.array(transfer_functions(k, lower, upper))
-    other *= lower.material.shear_modulus / upper.material.shear_modulus
+    other *= lower.fault.shear_modulus / upper.material.shear_modulus
     assert other[0] == pytest.approx(float(g1), rel=1e-9)
     assert other[1] == pytest.approx(float(-g2), rel=1e-6, abs=1e-9 * float(g1))
 
@@ -86,7 +87,7 @@ def test_only_ratios_of_lengths_matter(upper, lower, interface, scale):
         return body if body is RIGID else Body(body.material, body.height * scale, body.far_side)
 
     values = vars(interface) | {"slip_length": interface.slip_length * scale}
-    larger = InterfaceState(**values)
+    larger = Interface(**values)
     assume(larger.slip_length < 1e3)
     try:
         length = critical_wavenumber(upper, lower, interface).length
@@ -115,14 +116,16 @@ def test_nothing_grows_beyond_the_critical_wavenumber(upper, lower, interface, f
 @given(materials, interfaces, powers(-6, -4), powers(2, 4))
 def test_block_lies_between_its_limits(material, interface, thin, tall):
     """From the root of Eq. (11), friction being small, to a half-space on a rigid base."""
-    plain = InterfaceState(**vars(interface) | {"friction": 0.0})
+    plain = Interface(**vars(interface) | {"friction": 0.0})
     unit = critical_wavenumber(Body(material), Body(material), plain).length
     heights = np.array([thin, 0.01, 1.0, tall]) * unit
     assume((heights > 1e-9).all() and (heights < 1e9).all())
-    lengths = critical_length(heights, material, plain)
+    lengths = np.array(
+        [critical_wavenumber(Body(material, h, "traction"), RIGID, plain).length for h in heights]
+    )
     assert (np.diff(lengths) > 0.0).all()
     assert lengths[0] == pytest.approx(
-        float(thin_limit_length(heights[0], material, plain)), rel=0.05
+        float(thin_limit_length(heights[0], fault_of(material, plain))), rel=0.05
     )
     half = critical_wavenumber(Body(material), RIGID, plain).length
     assert lengths[-1] == pytest.approx(half, rel=0.05)

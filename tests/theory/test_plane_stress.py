@@ -5,9 +5,10 @@ import pytest
 from asked import critical_length, lengths_in_use, spectrum, stability_length, transfer_functions
 
 from benchmarks.assembled import assemble
-from nucleation.api import Material, ParameterError, Parameters
+from nucleation.api import Material, ParameterError
 from nucleation.fem.grid import Grid
-from nucleation.model.identity import fault
+from nucleation.run.identity import fault
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 
 PMMA = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "a": 0.0068, "zeta": 0.016,
@@ -69,13 +70,18 @@ def test_stiffness_matrix_is_that_of_plane_stress():
 
 def test_simulation_is_that_of_the_other_ratio():
     """To the last bit, of two materials; in plane stress nothing else changes."""
-    base = Parameters().replaced(
-        {"height": 0.05, "block_length": 0.6, "n_x": 40, "n_y": 4, "end_time": 0.3,
-         "second_body": "deformable", "second_shear_modulus": 6e9}
-    )  # fmt: skip
+    base = PAPER_RUN.replaced(
+        height=0.05,
+        block_length=0.6,
+        n_x=40,
+        n_y=4,
+        end_time=0.3,
+        second_body="deformable",
+        second_shear_modulus=6e9,
+    )
     ratios = {"poisson_ratio": NU, "second_poisson_ratio": NU2}
-    stress = base.replaced(ratios | {"plane": "stress"})
-    strain = base.replaced({name: nu / (1.0 + nu) for name, nu in ratios.items()})
+    stress = base.replaced(**(ratios | {"plane": "stress"}))
+    strain = base.replaced(**({name: nu / (1.0 + nu) for name, nu in ratios.items()}))
     ours, expected = simulate(stress), simulate(strain)
     for name in ours:
         np.testing.assert_array_equal(ours[name], expected[name], err_msg=name)
@@ -84,8 +90,8 @@ def test_simulation_is_that_of_the_other_ratio():
 
 
 def test_faults_keep_their_digests_in_plane_strain():
-    assert fault(Parameters()) == fault(Parameters().replaced({"plane": "strain"}))
-    assert fault(Parameters()) != fault(Parameters().replaced({"plane": "stress"}))
+    assert fault(PAPER_RUN) == fault(PAPER_RUN.replaced(plane="strain"))
+    assert fault(PAPER_RUN) != fault(PAPER_RUN.replaced(plane="stress"))
 
 
 def test_other_planes_are_refused():

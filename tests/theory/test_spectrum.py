@@ -2,12 +2,11 @@ import warnings
 
 import numpy as np
 import pytest
-from two_bodies import RIGID, Body, growth_rates, transfer_functions
+from two_bodies import RIGID, Body, Interface, growth_rates, transfer_functions
 
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 
-INTERFACE = InterfaceState(
+INTERFACE = Interface(
     friction=0.6, a=0.0068, zeta=0.016, slip_length=5e-7, velocity=3e-5, normal_stress=2e6
 )
 SOFT, STIFF = Material(3.1e9, 1 / 3), Material(2.4e10, 0.2)
@@ -21,7 +20,7 @@ PAIRS = [
 
 def linear_dynamics(k, upper, lower, s):
     """Matrix of ``d/dt (slip, state)`` for ``f = f0 + a log v + b log phi`` and the aging law."""
-    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
+    mu = (upper if isinstance(upper, Body) else lower).fault.shear_modulus
     g1, g2 = transfer_functions(k, upper, lower)
     steady_state = s.slip_length / s.velocity
     by_rate = s.normal_stress * s.a / s.velocity
@@ -43,7 +42,7 @@ def distance(pairs, others):
 @pytest.mark.parametrize(("upper", "lower"), PAIRS)
 @pytest.mark.parametrize("zeta", [0.016, -0.003, -0.009])
 def test_growth_rates_are_eigenvalues_of_the_dynamics(upper, lower, zeta):
-    interface = InterfaceState(friction=0.6, a=0.0068, zeta=zeta, velocity=3e-5)
+    interface = Interface(friction=0.6, a=0.0068, zeta=zeta, velocity=3e-5)
     wavenumbers = np.concatenate([np.geomspace(0.3, 300, 20), -np.geomspace(0.3, 300, 5)])
     computed = growth_rates(wavenumbers, upper, lower, interface)
     assert np.all(computed[0].real >= computed[1].real)
@@ -56,7 +55,7 @@ def test_growth_rates_are_eigenvalues_of_the_dynamics(upper, lower, zeta):
 def test_growth_rates_satisfy_the_spectrum_equation(upper, lower):
     """Eq. (5) as printed, at wavenumbers where the two roots differ by many orders."""
     s, k = INTERFACE, np.geomspace(1e-6, 1e6, 50)
-    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
+    mu = (upper if isinstance(upper, Body) else lower).fault.shear_modulus
     g1, g2 = transfer_functions(k, upper, lower)
     elastic = mu * k * (g1 - 1j * s.friction * g2)
     with warnings.catch_warnings():

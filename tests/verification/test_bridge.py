@@ -15,18 +15,17 @@ from two_bodies import Body as Layer
 from benchmarks.manufactured.orders import orders
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
-from nucleation.model import linearised
 from nucleation.model.material import Material
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.critical import unstable_modes
-from nucleation.theory.of_runs import systems_of
+from nucleation.theory.evaluation import single_system
 from replication.claims import printed
 from replication.tables import dispersion, pair_modes, sliding_modes
 from replication.tables.sliding_modes import sliding_period, sliding_state
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 MATERIAL = Material(poisson_ratio=0.29)
-PARAMETERS = Parameters()
+PARAMETERS = PAPER_RUN
 AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
 
 
@@ -123,14 +122,14 @@ def test_periodic_tangent_is_the_matrix_of_apply():
 
 def theory(parameters, ratio):
     """k (1/m) of a ratio to the critical one, and both rates by Eq. (5)."""
-    own = systems_of([(parameters, linearised.interface_state(parameters))])
+    own = single_system(parameters.fault)
     k = ratio * float(unstable_modes(own).wavenumber[0])
     return k, own.growth_rates(np.array([k]))[:, 0]
 
 
 SETTINGS = {
-    "slip law": PARAMETERS.replaced({"evolution": "slip", "height": 0.1}),
-    "antiplane": PARAMETERS.replaced({"plane": "antiplane", "height": 0.1}),
+    "slip law": PARAMETERS.replaced(evolution="slip", height=0.1),
+    "antiplane": PARAMETERS.replaced(plane="antiplane", height=0.1),
 }
 
 
@@ -145,7 +144,7 @@ SETTINGS = {
 def test_modes_grow_as_the_theory_says(setting, ratio):
     parameters = SETTINGS[setting]
     k, expected = theory(parameters, ratio)
-    found = sliding_modes.measured_rates(parameters, parameters.geometry.height, k)
+    found = sliding_modes.measured_rates(parameters, parameters.fault.height, k)
     found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
     assert (found.real.max() > 0.0) == (ratio < 1.0)
@@ -170,7 +169,7 @@ def test_modes_bracket_the_critical_wavenumber(ratios):
 def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
     dataset = dispersion.dispersion_dataset(PARAMETERS, heights=[height], modes=[ratio])
     assert dict(dataset.sizes) == {"height": 1, "mode": 1, "branch": 2}
-    k, expected = theory(PARAMETERS.replaced({"height": height}), ratio)
+    k, expected = theory(PARAMETERS.replaced(height=height), ratio)
     now = pd.read_csv(io.StringIO(dispersion.dispersion_csv(dataset)))
     np.testing.assert_allclose(now["mode_wavenumber"], k, rtol=1e-6)
     # the wave along +x, of the larger frequency, comes first
@@ -192,7 +191,7 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
     for name, value in (fine | {"INTERVAL": 30}).items():
         monkeypatch.setattr(sliding_modes, name, value)
     height, errors, sizes = 0.5, [], (17, 33, 65)
-    k, expected = theory(PARAMETERS.replaced({"height": height}), 0.9)
+    k, expected = theory(PARAMETERS.replaced(height=height), 0.9)
     for nodes in sizes:
         found = sliding_modes.measured_rates(PARAMETERS, height, k, nodes)
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
@@ -226,7 +225,7 @@ def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
 
 SLIDING = {
     "one": PARAMETERS,
-    "pair": LAYERS["stiff above, free"].parameters(PARAMETERS, 0.2, 0.12),
+    "pair": LAYERS["stiff above, free"].run(PARAMETERS, 0.2, 0.12),
 }
 
 
@@ -262,7 +261,7 @@ def test_the_step_has_a_line_for_each_mode_and_direction(monkeypatch):
     """With its wavenumber over the critical one, and by how much both rates disagree."""
     one = functools.partial(pair_modes.pair_modes, pairs=pair_modes.HALF_SPACES[:1], ratios=(0.8,))
     monkeypatch.setattr(pair_modes, "pair_modes", one)
-    found = pair_modes.files(PARAMETERS.material, PARAMETERS.friction, PARAMETERS.loading)
+    found = pair_modes.files(PARAMETERS)
     lines, modes = pd.read_csv(io.StringIO(found[".csv"])), found[".nc"]
     np.testing.assert_allclose(lines["wavenumber_over_critical"], [0.8, 0.8])
     rates = [modes[f"{kind}_growth"] + 1j * modes[f"{kind}_frequency"] for kind in KINDS]

@@ -20,10 +20,9 @@ import pytest
 from verification.test_page import PAGE
 
 from benchmarks.assembled import assemble, unknown
-from nucleation.model.heterogeneity import Heterogeneity
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
-from nucleation.model.perturbation import KINDS, Perturbation
-from nucleation.simulation.run import composed, run
+from nucleation.model.perturbation import KINDS
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.run import composed, instants
 from nucleation.simulation.stepping import BDF, Formula
 
 pytestmark = pytest.mark.slow
@@ -94,12 +93,12 @@ class Accountant:
             self.dynamics.interface = interface
         both = (False, True)[: 1 if parameters.below is None else 2]
         self.bodies = [Body(parameters, self.dynamics, below) for below in both]
-        self.steady = self.dynamics.body.far_load(parameters.loading.normal_stress)
+        self.steady = self.dynamics.body.far_load(parameters.fault.normal_stress)
 
     def books(self, over):
         """The ledger until the event is `over`, by its largest slip rate and the present one."""
         ledger, past, start = Ledger(), [], None
-        for instant in run(self.parameters, None, self.dynamics):
+        for instant in instants(self.parameters, None, self.dynamics):
             now = self.moment(instant, past)
             if past:
                 self.add(ledger, past[0], now)
@@ -119,17 +118,17 @@ class Accountant:
         return sum(0.5 * q @ getattr(body, name) @ q for body, q in pairs)
 
     def moment(self, instant, past):
-        state, drive, loading = instant.state, self.dynamics.drive, self.parameters.loading
+        state, drive, run = instant.state, self.dynamics.drive, self.parameters
         imposed = drive.at(state.time)
         u = [body.vector(state.displacement, imposed.displacement) for body in self.bodies]
         v = [body.vector(state.velocity, imposed.velocity) for body in self.bodies]
         relative = [body.vector(state.velocity, 0.0) for body in self.bodies]
         a = self.acceleration(state.last_step, relative, past)
         a[0][self.bodies[0].x] += imposed.acceleration
-        stress = loading.normal_stress
-        if loading.kind == "edge" and self.parameters.below is None:
+        stress = run.fault.normal_stress
+        if run.fault.loading == "edge" and run.below is None:
             stress *= drive.load(state.time).edge[-1] / self.steady.edge[-1]
-        shear = loading.initial_shear_stress + loading.stress_rate * state.time
+        shear = run.start.initial_shear_stress + run.start.stress_rate * state.time
         return Moment(
             u, v, relative, a, instant.report, stress, shear, imposed.displacement, state.last_step
         )
@@ -156,7 +155,7 @@ class Accountant:
         ledger.friction -= 0.5 * sum(tangential) @ slip[own]
         powers = [p @ v for p, v in zip(tangential, rates, strict=True)]
         ledger.friction_by_rates -= 0.5 * new.step * sum(powers)
-        if self.parameters.loading.kind == "remote":
+        if self.parameters.fault.loading == "remote":
             top = self.bodies[0]
             ledger.work += 0.5 * (old.shear + new.shear) * top.top @ du[0][top.x[-1]]
         else:
@@ -173,10 +172,8 @@ def creeps_again(fastest, rate):
     return rate < 1e-4
 
 
-EDGE = Parameters(
-    geometry=Geometry(height=0.005, length=0.6),
-    mesh=Mesh(n_x=40, n_y=4, grading=2.0),
-    stepping=Stepping(longest_step=0.2),
+EDGE = PAPER_RUN.replaced(
+    height=0.005, block_length=0.6, n_x=40, n_y=4, grading=2.0, longest_step=0.2
 )
 
 
@@ -193,7 +190,7 @@ TOLERANCES = (1e-1, 1e-2, 1e-3)
 
 @pytest.mark.parametrize("law", ["aging", "slip"])
 def test_energy_balance_through_an_event(law):
-    runs = [EDGE.replaced({"evolution": law, "tolerance": tolerance}) for tolerance in TOLERANCES]
+    runs = [EDGE.replaced(evolution=law, tolerance=tolerance) for tolerance in TOLERANCES]
     ledgers = [Accountant(run).books(creeps_again) for run in runs]
     page = " ".join(PAGE.split())
     numbers = r"([\d.e-]+), ([\d.e-]+) and ([\d.e-]+)"
@@ -213,19 +210,23 @@ def test_energy_balance_through_an_event(law):
 def pair(bottom, thick):
     """Ten times as thin, blocks that nothing holds bend by a thousand times the slip: 3e-9."""
     return EDGE.replaced(
-        {"height": 0.005 * thick, "second_body": "deformable", "second_far_side": bottom,
-         "second_shear_modulus": 6.2e9, "second_density": 2400.0,
-         "second_height": 0.008 * thick, "second_n_y": 5}
-    )  # fmt: skip
+        height=0.005 * thick,
+        second_body="deformable",
+        second_far_side=bottom,
+        second_shear_modulus=6.2e9,
+        second_density=2400.0,
+        second_height=0.008 * thick,
+        second_n_y=5,
+    )
 
 
 OTHERS = {
     "pair, free": pair("free", 10.0),
     "pair, clamped": pair("clamped", 1.0),
-    "antiplane": EDGE.replaced({"plane": "antiplane"}),
-    "antiplane pair": pair("clamped", 1.0).replaced({"plane": "antiplane"}),
+    "antiplane": EDGE.replaced(plane="antiplane"),
+    "antiplane pair": pair("clamped", 1.0).replaced(plane="antiplane"),
 } | {
-    kind: dataclasses.replace(EDGE, perturbation=Perturbation(kind, 0.01, 0.5, seed=1))
+    kind: EDGE.replaced(perturbation=kind, strength=0.01, correlation_time=0.5, seed=1)
     for kind in KINDS[1:]
 }
 
@@ -237,13 +238,20 @@ def test_energy_balance_of_two_blocks_and_of_perturbed_loads(parameters):
     assert abs(books.friction_by_rates / books.friction - 1) < 2e-3
 
 
-STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
-REMOTE = Parameters(
-    loading=Loading(kind="remote", stress_rate=2e5),
-    geometry=Geometry(0.5, 3.0),
-    mesh=Mesh(61, 6, 4.0),
-    stepping=STEPPING,
-    heterogeneity=Heterogeneity(varies="normal_stress", change=-0.1, width=0.3),
+REMOTE = PAPER_RUN.replaced(
+    loading="remote",
+    stress_rate=2e5,
+    height=0.5,
+    block_length=3.0,
+    n_x=61,
+    n_y=6,
+    grading=4.0,
+    end_time=10.0,
+    time_after_event=0.0,
+    longest_step=0.2,
+    heterogeneity="normal_stress",
+    change=-0.1,
+    width=0.3,
 )
 
 
@@ -254,8 +262,8 @@ REMOTE = Parameters(
     ("parameters", "missing"),
     [
         (REMOTE, 1e-9),
-        (REMOTE.replaced({"plane": "antiplane"}), 1e-9),
-        (REMOTE.replaced({"second_body": "deformable", "second_far_side": "clamped"}), 5e-9),
+        (REMOTE.replaced(plane="antiplane"), 1e-9),
+        (REMOTE.replaced(second_body="deformable", second_far_side="clamped"), 5e-9),
     ],
     ids=["remote", "antiplane", "pair"],
 )

@@ -12,8 +12,7 @@ from fem.assembled_problem import AssembledBlock
 from benchmarks.manufactured.orders import MATERIAL
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
-from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import composed
 from nucleation.simulation.start import at_rest
 
@@ -24,11 +23,15 @@ ROUND_OFF = 2e-12  # of forces, over the largest: accelerations are differences 
 
 
 def sliding_block(law, grading):
-    return Parameters(
-        geometry=Geometry(height=0.02, length=0.4),
-        mesh=Mesh(n_x=16, n_y=4, grading=grading),
-        friction=Friction(evolution=law),
-        loading=Loading(normal_stress=2e5, velocity=VELOCITY),
+    return PAPER_RUN.replaced(
+        height=0.02,
+        block_length=0.4,
+        n_x=16,
+        n_y=4,
+        grading=grading,
+        evolution=law,
+        normal_stress=2e5,
+        velocity=VELOCITY,
     )
 
 
@@ -50,9 +53,9 @@ def test_every_step_obeys_the_assembled_equation_of_motion(law, grading):
     """
     parameters = sliding_block(law, grading)
     dynamics = composed(parameters)
-    block = AssembledBlock(dynamics.grid, parameters.material)
-    top = block.top_load(parameters.loading.normal_stress)
-    state, report = at_rest(dynamics, parameters.loading)
+    block = AssembledBlock(dynamics.grid, parameters.upper.material)
+    top = block.top_load(parameters.fault.normal_stress)
+    state, report = at_rest(dynamics, parameters)
 
     def assembled(field):
         out = np.empty_like(top)

@@ -8,10 +8,9 @@ import pytest
 from benchmarks.manufactured.dynamics import Manufactured, block_field
 from benchmarks.manufactured.fields import Displacement, Loads, Term, power, sine
 from benchmarks.manufactured.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
-from nucleation.fem.body import body_of
 from nucleation.fem.grid import Motion
-from nucleation.model.friction.law import Friction
-from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.bodies import body_of
 
 pytestmark = pytest.mark.slow
 
@@ -78,15 +77,23 @@ class ManufacturedPair(Manufactured):
 
 def problem(name, law, rows):
     fields = FIELDS[name]
-    parameters = Parameters(
-        friction=Friction(slip_distance=2e-6, evolution=law),
-        loading=Loading(velocity=fields.velocity),
-        geometry=Geometry(height=0.3, length=1.0),
-        mesh=Mesh(n_x=2 * rows, n_y=rows, grading=3.0),
+    parameters = PAPER_RUN.replaced(
+        slip_distance=2e-6,
+        evolution=law,
+        velocity=fields.velocity,
+        height=0.3,
+        block_length=1.0,
+        n_x=2 * rows,
+        n_y=rows,
+        grading=3.0,
     ).replaced(
-        {"second_body": "deformable", "second_shear_modulus": 7e9, "second_density": 2500.0,
-         "second_poisson_ratio": 0.2, "second_height": 0.2, "second_grading": 1.0}
-    )  # fmt: skip
+        second_body="deformable",
+        second_shear_modulus=7e9,
+        second_density=2500.0,
+        second_poisson_ratio=0.2,
+        second_height=0.2,
+        second_grading=1.0,
+    )
     (w_x, u_y), material = fields.displacement.terms, fields.displacement.material
     lift = LIFT[name]
     above = Displacement((w_x, (*u_y, lift)), material)

@@ -77,7 +77,7 @@ def test_batches_are_mixed_whatever_the_grid():
     ]
     batches = {}
     for run in configure(values).runs:
-        batches.setdefault(run.batch, []).append(run.parameters.geometry.height)
+        batches.setdefault(run.batch, []).append(run.run.fault.height)
     assert {len(heights) for heights in batches.values()} == {24} and len(batches) == 12
     means = [sum(heights) / 24 for heights in batches.values()]
     assert max(means) - min(means) < 0.5 * 0.055  # of the mean height; in order it is 1.6 of it

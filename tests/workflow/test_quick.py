@@ -9,7 +9,7 @@ import pytest
 
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import Run
 from replication.configuration.load import load, read_yaml
 from replication.pipeline.recipes import key_in
 from replication.tables import lengths
@@ -42,7 +42,7 @@ def test_simulations_carry_their_origin_and_units(quick, results):
     for run in shared_runs(load(quick.config)):
         path = quick.dataset("simulations", run.id)
         dataset = netcdf.read(path)
-        assert Parameters.from_dict(json.loads(dataset.attrs["parameters"])) == run.parameters
+        assert Run.from_dict(json.loads(dataset.attrs["parameters"])) == run.run
         assert set(json.loads(dataset.attrs["versions"])) >= {"numpy", "scipy", "nucleation"}
         assert dataset.attrs["key"] == key_in(path)
         assert dataset["slip_rate"].attrs["units"] == "m/s"
@@ -67,8 +67,8 @@ def test_table_of_lengths(quick, results):
         simulation = netcdf.read(quick.dataset("simulations", run.id))
         again = extract(simulation, config.extraction)
         assert again["length"] == float(table["length"][index])
-        assert float(table["height"][index]) == run.parameters.geometry.height
-        assert int(table["n_x"][index]) == run.parameters.mesh.n_x
+        assert float(table["height"][index]) == run.run.fault.height
+        assert int(table["n_x"][index]) == run.run.block.n_x
         assert float(table["critical_length"][index]) == run.critical_length
 
 

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from nucleation.strict_yaml import read_yaml
+from nucleation.fault.strict_yaml import read_yaml
 
 SIMULATIONS = 6  # of the quick configuration
 
@@ -30,7 +30,7 @@ def test_without_notes_changed_parameters_and_code_are_seen(plain):
     assert plain.planned() == {}
     values = read_yaml(plain.config)
     values["friction"] = {"aging_coefficient": 0.085}
-    assert plain.configured(values, "friction.yaml").planned("lengths")["simulate"] == SIMULATIONS
+    assert plain.configured(values, "yaml").planned("lengths")["simulate"] == SIMULATIONS
     edit(plain, "src/nucleation/simulation/control.py", "SAFETY = 0.85", "SAFETY = 0.86")
     planned = plain.planned()
     assert planned["simulate"] == SIMULATIONS and planned["extract"] == 2

@@ -26,19 +26,16 @@ rule claims:
         f"{RESULTS}/logs/tables/claims.log",
     params:
         call="replication.claims.table:of_paper",
-        loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
+        loads=sorted({*plugins(settings.base.law), *EVOLUTIONS}),
         reads=lambda wildcards: {
             "longer": simulations(longer()),
             "patches": patches(*in_role(JUDGED)),
         },
         statements=lambda wildcards: {k: v for k, v in statements().items() if k != PAIRED},
-        interface=asdict(settings.main_text_interface),
         settings=asdict(settings.extraction),
         longer_runs=lambda wildcards: [{**run, "role": LONGER} for run in as_dicts(longer())],
         patch_ids=lambda wildcards: [run.id for run in patched_runs(*in_role(JUDGED))],
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
+        base=settings.base.to_dict(),
     shell:
         JOB
 

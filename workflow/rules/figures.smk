@@ -307,7 +307,7 @@ def declarations(names):
     """Declarations of parameters, for the axes of a figure."""
     found = {}
     for name in names:
-        entry = asdict(study_parameters()[name])
+        entry = asdict(parameters()[name])
         found[name] = entry | {"choices": list(entry["choices"])}
     return found
 

@@ -29,7 +29,7 @@ rule patch:
     localrule: True
     params:
         call="nucleation.extraction.growth:follow_patch",
-        loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
+        loads=lambda wildcards: plugins(run_of(wildcards.name).run.law),
         reads=lambda wildcards: {"simulation": simulations([run_of(wildcards.name)])[0]},
         settings=asdict(settings.extraction),
     shell:

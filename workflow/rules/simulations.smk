@@ -5,7 +5,7 @@
 # If no other rule reads the simulations one by one, the job also extracts their lengths.
 def memory(runs, threads, attempt):
     """Memory (MB) of a cluster job that makes simulations; Snakemake itself needs 300 MB."""
-    largest = max(estimated_megabytes(run.parameters) for run in runs)
+    largest = max(estimated_megabytes(run.run) for run in runs)
     return attempt * ceil(300 + min(threads, len(runs)) * (largest + 150))
 
 
@@ -74,8 +74,8 @@ rule simulation:
     localrule: True
     params:
         call=f"{SIMULATION}:simulate",
-        loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
-        parameters=lambda wildcards: run_of(wildcards.name).parameters.to_dict(),
+        loads=lambda wildcards: plugins(run_of(wildcards.name).run.law),
+        parameters=lambda wildcards: run_of(wildcards.name).run.to_dict(),
     shell:
         JOB
 

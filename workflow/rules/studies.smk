@@ -135,7 +135,7 @@ def as_dicts(runs):
 
 def laws_of(runs):
     """Modules that some runs load by name."""
-    return sorted({law for run in runs for law in plugins(run.parameters)})
+    return sorted({law for run in runs for law in plugins(run.run.law)})
 
 
 def simulations(runs):
@@ -186,7 +186,7 @@ def patch_tables():
 
 def one_of_each_fault(runs):
     """The first run of each fault, in the order of their last runs."""
-    found = {fault(run.parameters): run for run in reversed(runs)}
+    found = {fault(run.run): run for run in reversed(runs)}
     return list(found.values())[::-1]
 
 
@@ -202,8 +202,8 @@ def space_time_run():
 
 def element(run):
     """All parameters of a run, but with the length of an element (m) for that of the block."""
-    size = run.parameters.geometry.length / run.parameters.mesh.n_x
-    return identity(run.parameters, "geometry.length", "mesh.n_x"), round(size, 9)
+    size = run.run.block.length / run.run.block.n_x
+    return identity(run.run, "block_length", "n_x"), round(size, 9)
 
 
 @functools.cache

@@ -9,11 +9,9 @@ rule theory:
         f"{RESULTS}/logs/theory.log",
     priority: 1
     params:
-        call="nucleation.theory.curves:theory_dataset",
-        loads=plugins(settings.base),
-        interface=asdict(settings.main_text_interface),
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
+        call="replication.tables.curves:theory_dataset",
+        loads=plugins(settings.base.law),
+        base=settings.base.to_dict(),
         curves=lambda wildcards: asdict(settings.drawn_curves()),
     shell:
         JOB
@@ -31,10 +29,8 @@ rule dispersion:
     priority: 3  # the verdicts wait for it
     params:
         call="replication.tables.dispersion:files",
-        loads=plugins(settings.base),
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
+        loads=plugins(settings.base.law),
+        base=settings.base.to_dict(),
     shell:
         JOB
 
@@ -50,10 +46,8 @@ rule pair_modes:
         f"{RESULTS}/logs/pair_modes.log",
     params:
         call="replication.tables.pair_modes:files",
-        loads=plugins(settings.base),
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
+        loads=plugins(settings.base.law),
+        base=settings.base.to_dict(),
     shell:
         JOB
 
@@ -69,7 +63,7 @@ rule table_s1:
     localrule: True
     params:
         call="replication.figures.supplement:table_s1",
-        loads=plugins(settings.base),
-        friction=asdict(settings.base.friction),
+        loads=plugins(settings.base.law),
+        friction=asdict(settings.base.law),
     shell:
         JOB

@@ -43,13 +43,9 @@ _LATER = {
     "nucleation.fault.samples": ("read_samples",),
     "nucleation.datasets.netcdf": ("read", "write"),
     "nucleation.fault.paper": ("PAPER",),
-    "nucleation.simulation.run": ("run",),
-    "nucleation.model.heterogeneity": ("Heterogeneity",),
     "nucleation.model.material": ("Material",),
-    "nucleation.model.parameters": ("Geometry", "Loading", "Mesh", "Parameters", "Stepping"),
+    "nucleation.run.run": ("Run",),
     "nucleation.model.perturbation": ("Perturbation",),
-    "nucleation.model.recording": ("Recording",),
-    "nucleation.model.second_body": ("SecondBody",),
     "nucleation.lengths.answer": ("Lengths",),
     "nucleation.lengths.draws": ("draw", "quantiles"),
 }
@@ -61,25 +57,17 @@ __all__ = [
     "ExtractionSettings",
     "Fault",
     "Friction",
-    "Geometry",
-    "Heterogeneity",
     "Lengths",
-    "Loading",
     "Material",
-    "Mesh",
     "NoLength",
     "ParameterError",
-    "Parameters",
     "Perturbation",
-    "Recording",
-    "SecondBody",
-    "Stepping",
+    "Run",
     "draw",
     "extract",
     "quantiles",
     "read",
     "read_samples",
-    "run",
     "simulate",
     "write",
 ]
@@ -87,7 +75,7 @@ __all__ = [
 require_own()
 
 _EXTRAS = {
-    **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
+    **dict.fromkeys(("extract", "read", "simulate", "write"), ("solver",)),
 }
 """The extras of functions that need one."""
 

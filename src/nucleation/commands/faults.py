@@ -14,7 +14,7 @@ from ..model.quantities import ParameterError
 from ..theory.reading import required
 from .options import Decorator, option, second_body_option, source_options, together
 
-_NOTES = {
+NOTES = {
     "b": "this, --zeta or --zeta-over-a",
     "zeta": "zeta = b - a",
     "friction": "needed where the bodies differ, and for the length at the drop",
@@ -30,7 +30,7 @@ _NOTES = {
 }
 """Additions to the help of options."""
 
-_SOURCES = ("file", "run_id", "config", "paper")
+_SOURCES = ("file", "paper")
 _PER_DECADE = ("a", "b", "zeta")
 
 
@@ -40,7 +40,7 @@ def _options() -> list[Decorator]:
     for key, entry in declarations_of_flat().items():
         read = None if entry.worded else parse_range
         called = f"--{key.replace('_', '-')}"
-        options.append(option(called, key=key, entry=entry, note=_NOTES.get(key, ""), read=read))
+        options.append(option(called, key=key, entry=entry, note=NOTES.get(key, ""), read=read))
     return options
 
 
@@ -112,16 +112,15 @@ def given_fault(
             _require(given, file)
     known = keywords(given)
     fault = base.replace(**known) if base else Fault(**known)
-    papers = _papers_line(names) if paper else []
+    papers = papers_line(names) if paper else []
     return GivenFault(fault, names, drawn, papers)
 
 
 def _names_of_runs() -> set[str]:
     """Names of parameters that only simulations have: one file serves all commands."""
-    from ..model.parameters import names
+    from ..run.names import parameters
 
-    known = names()
-    return {known.short(full) for full in known} - {*declarations_of_flat(), SECOND_BODY}
+    return parameters().keys() - {*declarations_of_flat(), SECOND_BODY}
 
 
 def _natural(value: Any) -> Any:
@@ -141,12 +140,8 @@ def _base(options: Mapping[str, Any]) -> Fault | None:
     """The fault of a run or a dataset, if one is given."""
     from .sources import base_of
 
-    parameters = base_of(options)
-    if parameters is None:
-        return None
-    from ..theory.of_runs import fault_of_run
-
-    return Fault(**fault_of_run(parameters))
+    run = base_of(options)
+    return None if run is None else run.fault
 
 
 def _require(given: Mapping[str, Any], file: Path | None) -> None:
@@ -161,7 +156,7 @@ def _require(given: Mapping[str, Any], file: Path | None) -> None:
             )
 
 
-def _papers_line(names: frozenset[str]) -> list[str]:
+def papers_line(names: frozenset[str]) -> list[str]:
     """The main parameters that are not given and therefore the paper's, in one line or none."""
     given_by = {
         "shear_modulus": {"shear_modulus"},

@@ -1,24 +1,15 @@
 """Options of the command line for parameters, with units, ranges and help from declarations."""
 
-import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
-from replication.configuration.parameter_files import means_half_space
-from replication.configuration.single_run import flat
-from replication.configuration.study_names import study_parameters
-
 from ..lengths.draws import DRAWS
-from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS
-from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from .unit_text import with_unit
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -61,8 +52,6 @@ def option(
     """
 
     def value_of(text: str) -> Any:
-        if means_half_space(key, text):
-            return math.inf
         try:
             return (read or parse)(key, text, entry)
         except ParameterError as error:
@@ -115,12 +104,6 @@ def together(*options: Decorator) -> Decorator:
     return with_options
 
 
-def words(name: str) -> list[str]:
-    """The option for a parameter of a run."""
-    known = names()
-    return [f"--{known.short(known.full(name)).replace('_', '-')}"]
-
-
 second_body_option = click.option(
     "--second-body",
     metavar="BODY",
@@ -159,65 +142,9 @@ source_options = together(
         "the dataset of an earlier simulation",
     ),
     click.option(
-        "--run",
-        "run_id",
-        metavar="ID",
-        help="a run of the configuration, by its id",
-    ),
-    click.option(
-        "--config",
-        type=click.Path(dir_okay=False),
-        help="the configuration with the run; default: that of the checkout",
-    ),
-    click.option(
         "--paper",
         is_flag=True,
         help="take other parameters from the paper: PMMA on a rigid base, with its friction law",
     ),
 )
 """Options for the source of parameters that are not given as options."""
-
-
-def parameter_options(
-    chosen: Collection[str],
-    changed: Mapping[str, Any] = {},
-) -> Decorator:
-    """Options for parameters of simulations.
-
-    Parameters
-    ----------
-    chosen : collection of str
-        Names in studies.
-    changed : mapping
-        Defaults of the command that differ from those of studies.
-
-    Returns
-    -------
-    callable
-        A decorator.
-    """
-    notes = _notes_on_defaults(changed)
-    options: list[Decorator] = []
-    for name, entry in study_parameters().items():
-        if name not in chosen:
-            continue
-        if name == "second_body":
-            options.append(second_body_option)
-            continue
-        note = notes.get(name, "")
-        options.append(option(*words(name), key=name, entry=entry, note=note))
-    return together(*options)
-
-
-def _notes_on_defaults(changed: Mapping[str, Any]) -> dict[str, str]:
-    """The default of each parameter, by its name in studies, for the help."""
-    usual: dict[str, Any] = {}
-    for law in (*LAWS, Friction().law):
-        usual |= flat(Parameters(friction=Friction(law=law)))
-    usual |= changed
-    known = names()
-    notes = {}
-    for name, value in usual.items():
-        notes[name] = f"default {with_unit(value, known[known.full(name)])}"
-    notes["block_length"] = "6 critical lengths if left out"
-    return notes

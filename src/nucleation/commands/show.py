@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,15 +13,14 @@ import click
 import numpy as np
 import xarray as xr
 
-from replication.tables.rows import rows_of
-
 from ..datasets import netcdf
+from ..datasets.variables import DatasetError
 from ..extraction.extraction import extract
 from ..extraction.record import parameters_of
 from ..installed import require
-from ..model.linearised import linearised
 from ..model.quantities import ParameterError
-from ..theory.critical import run_length
+from ..theory.critical import critical_length_of
+from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
 from .options import json_option
@@ -51,17 +51,29 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     kind = _kind_of(dataset)
     if plot:
         _require_picture(plot, kind, force)
-    if as_json:
-        click.echo(text.to_json({"file": str(file), **_described(dataset, kind)}))
-    else:
-        lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
-        click.echo("\n".join(text.wrapped(*lines)))
+    with _refusing(file, kind):
+        if as_json:
+            shown = [text.to_json({"file": str(file), **_described(dataset, kind)})]
+        else:
+            lines = [*kind.summary(dataset), *_origin_lines(dataset, kind)]
+            shown = text.wrapped(f"{file}: {kind.name}", *map(text.printable, lines))
+    click.echo("\n".join(shown))
     if plot:
         from ..pictures import run, style
 
         style.write(run.draw(dataset, xr.Dataset(extract(dataset))), plot)
         click.echo(f"plot: {plot}", err=as_json)
     return DONE
+
+
+@contextlib.contextmanager
+def _refusing(file: Path, kind: _Kind) -> Iterator[None]:
+    """Refuse a file whose attributes or variables are not those of its kind."""
+    try:
+        yield
+    except (KeyError, ValueError, TypeError, AttributeError) as error:
+        reason = f"{error} is missing" if isinstance(error, KeyError) else error
+        raise DatasetError(f"{file} is no {kind.name} of this version: {reason}") from error
 
 
 def _described(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
@@ -124,31 +136,38 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     """Parameters, outcome, record, theory and event of a simulation."""
     attributes = dataset.attrs
     sizes = dataset.sizes
-    parameters = parameters_of(dataset)
-    interface = linearised(parameters.friction, parameters.loading)
+    run = parameters_of(dataset)
     try:
-        theory = run_length(parameters, interface)
+        theory = critical_length_of(single_system(run.fault))
         theory_text = f"{theory:.4g} m, of the friction law expanded at V"
     except NoLength as error:
         theory = math.nan
         theory_text = f"no critical length: {error}"
     duration = float(dataset["step_time"][-1])
+    seconds, megabytes = (float(attributes[key]) for key in ("wall_seconds", "peak_megabytes"))
     return [
-        *text.parameter_lines(parameters),
+        *text.parameter_lines(run),
         f"status: {attributes['status']}",
         f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, "
-        f"{attributes['wall_seconds']:.4g} s of wall time, {attributes['peak_megabytes']:.0f} MB",
+        f"{seconds:.4g} s of wall time, {megabytes:.0f} MB",
         f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points",
         f"theory: {theory_text}",
         *text.event_lines(extract(dataset), theory),
     ]
 
 
+def rows_of(table: xr.Dataset, number: int | None = None) -> list[dict[str, Any]]:
+    """The first rows of a table, by default all, as dictionaries of plain values."""
+    columns = {str(name): table[name].values[:number].tolist() for name in table.data_vars}
+    rows = zip(*columns.values(), strict=True)
+    return [dict(zip(columns, values, strict=True)) for values in rows]
+
+
 def _length_rows(dataset: xr.Dataset) -> list[str]:
     """The table of lengths, one line for each run."""
     rows = [("id", "H (m)", "onset (s)", "L_c (m)", "theory", "/theory")]
     number = dataset.sizes["run"]
-    for row in rows_of(dataset, range(min(number, _SHOWN_ROWS))):
+    for row in rows_of(dataset, _SHOWN_ROWS):
         length = row["length"]
         theory = row["critical_length"]
         numbers = [f"{value:.4g}" for value in (row["height"], row["onset_time"], length, theory)]

@@ -1,7 +1,8 @@
-"""``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
+"""``nucleation simulate``: one simulation, from options, a file, a dataset or the paper."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import shlex
 import sys
@@ -10,37 +11,60 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from replication.configuration.advice import advise
-from replication.configuration.half_spaces import without_half_spaces
-from replication.configuration.runs import Run
-from replication.configuration.settings import Limits, StudySettings, estimated_megabytes
-from replication.configuration.single_run import STUDY, flat, merged, single_run
-from replication.configuration.study_names import study_parameters
-
 from ..installed import require
-from ..model.parameters import Parameters
-from ..model.perturbation import KINDS
-from ..model.quantities import ParameterError, declarations
+from ..model.quantities import ParameterError, declared
+from ..run.advice import advice
+from ..run.checks import contradictions, estimated_megabytes, memory_problem
+from ..run.names import GROUPS, parameters
+from ..run.run import PAPER_RUN, Run
 from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .options import force_option, option, parameter_options, source_options
-from .sources import given_of, sourced
-from .system_text import system_of_run
+from .faults import NOTES
+from .options import (
+    Decorator,
+    force_option,
+    option,
+    second_body_option,
+    source_options,
+    together,
+)
+from .sources import given_run
+from .system_text import printed_warnings, system_of_fault
 from .text import event_lines, outcome, parameter_lines, require_writable, show, warn, wrapped
-from .unit_text import in_unit
+from .unit_text import in_unit, with_unit
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_RATIO = declarations(StudySettings)["length_over_critical"]
-_MEMORY = declarations(Limits)["memory"]
+_MEMORY = declared("memory of one simulation", "(100.0, 1e7) MB")
+_LIMIT = 2000.0  # MB
+
+
+def _run_options() -> Decorator:
+    """One option for each parameter of a run, with its default."""
+    notes = dict(NOTES)
+    for cls in GROUPS.values():
+        for field in dataclasses.fields(cls):
+            name = cls.called.get(field.name, field.name)
+            if field.default is not None:
+                notes[name] = f"default {with_unit(field.default, parameters()[name])}"
+    notes["block_length"] = "6 critical lengths if left out"
+    notes["correlation_length"] = "a fifth of L_b if left out"
+    notes["end_time"] = notes["time_after_event"] = "by the theory if left out"
+    options = []
+    for name, entry in parameters().items():
+        if name == "second_body":
+            options.append(second_body_option)
+            continue
+        called = f"--{name.replace('_', '-')}"
+        options.append(option(called, key=name, entry=entry, note=notes.get(name, "")))
+    return together(*options)
 
 
 @click.command("simulate", epilog=EXIT_CODES)
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @source_options
-@parameter_options(study_parameters())
-@option("--length-over-critical", key="length_over_critical", entry=_RATIO)
+@_run_options()
 @option(
     "--memory",
     key="memory",
@@ -55,19 +79,17 @@ def command(
     force: bool,
     dry_run: bool,
     as_json: bool,
-    length_over_critical: float | None,
     memory: float | None,
     **options: Any,
 ) -> int:
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 
-    Parameters without an option are taken from --parameters or --run; else they are the paper's. A
-    fault with its own a and b has the regularised Dieterich-Ruina law, with scales that follow from
-    V and D/V, and two identical bodies. With --paper all other parameters are the paper's. Without
-    an end time the run continues until its event, or until the event is long overdue by the theory.
-    The terminal shows a progress bar, a log file a line from time to time. Ctrl-C and SIGTERM leave
-    a checkpoint from which the same command resumes. The record of a simulation that fails
-    numerically is kept in a file that ends in .failed.nc.
+    A fault with its own f, a and b at V has the regularised Dieterich-Ruina law, with scales that
+    follow from V and D/V, and two identical bodies. With --paper all other parameters are the
+    paper's. Without an end time the run continues until its event, or until the event is long
+    overdue by the theory. The terminal shows a progress bar, a log file a line from time to time.
+    Ctrl-C and SIGTERM leave a checkpoint from which the same command resumes. The record of a
+    simulation that fails numerically is kept in a file that ends in .failed.nc.
 
     \b
     Example:
@@ -76,29 +98,24 @@ def command(
     if output.suffix != ".nc":
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
     require_writable(output, force)
-    base, given = sourced(options)
-    fixed, blocks = without_half_spaces(base, given)
-    values = merged(base, fixed)
-    if "seed" in given and values["perturbation"] == "none":
-        raise ParameterError(
-            f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
-            f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
+    with printed_warnings():
+        run, names, papers = given_run(options)
+    problems = [*contradictions(run), *memory_problem(run, "--memory", memory or _LIMIT)]
+    if problems:
+        raise ParameterError("; ".join(problems))
+    lines = system_of_fault(run.fault, names, papers)
+    if math.isinf(options["height"] or 0.0) or (
+        not {"height", "block_length"} & names and not papers
+    ):
+        lines.append(
+            f"Half-spaces: computed as blocks {run.fault.height:.4g} m high and "
+            f"{run.block.length:.4g} m long, whose L_s is within 2 %."
         )
-    run = single_run(
-        values,
-        study=given_of({"length_over_critical": length_over_critical}),
-        limits=given_of({"memory": memory}),
-        results=str(output.absolute().parent),
-    )
-    lines = system_of_run(run.parameters, base, given)
-    if blocks:
-        lines.append(blocks.in_words())
-    for warning in advise([run]):
-        text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
-        warn(text)
+    for topic, _, text in advice(run, run.critical_length):
+        warn(f"{topic}: {text}")
     lines += _plan_lines(run)
     if dry_run:
-        show(as_json, _described(run), [*parameter_lines(run.parameters), *wrapped(*lines)])
+        show(as_json, _described(run), [*parameter_lines(run), *wrapped(*lines)])
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
@@ -107,32 +124,36 @@ def command(
 
 def _plan_lines(run: Run) -> list[str]:
     """Theory, duration and memory of a run."""
-    mesh = run.parameters.mesh
     critical = run.critical_length
-    element = run.parameters.geometry.length / mesh.n_x
+    element = run.block.length / run.block.n_x
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
-        uniform = run.parameters.heterogeneity.varies == "none"
+        uniform = run.heterogeneity.varies == "none"
         whose = "sliding" if uniform else "sliding outside the step or bump"
-        theory = f"{whose} is stable at every wavelength, no critical length; {mesh.n_x}"
+        theory = f"{whose} is stable at every wavelength, no critical length; {run.block.n_x}"
     lines = [f"theory: {theory} elements of {in_unit(element, 'm')}"]
-    patch = stability_length_of(run.parameters, critical)
+    patch = _stability_length(run)
     if not math.isnan(patch):
         lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
-    stepping = run.parameters.stepping
+    stepping = run.stepping
     until = f"time: until {stepping.end_time:g} s"
     if stepping.time_after_event < stepping.end_time:
         until += f", or {stepping.time_after_event:g} s after the event's onset"
-    memory = estimated_megabytes(run.parameters)
-    return [*lines, until, f"memory: about {memory:.0f} MB"]
+    return [*lines, until, f"memory: about {estimated_megabytes(run):.0f} MB"]
+
+
+def _stability_length(run: Run) -> float:
+    """L_s (m) of the run's fault, NaN if there is none."""
+    return stability_length_of(run.patches, run.critical_length)
 
 
 def _command(output: Path, run: Run) -> str:
-    """A command line that makes the dataset again, with all parameters that are not defaults."""
-    usual = flat(Parameters())
+    """A command line that makes the dataset again, with all parameters that are not the paper's."""
+    usual = PAPER_RUN.to_dict()
+    follow = ("block_length", "end_time", "time_after_event", "correlation_length")
     words = []
-    for name, value in flat(run.parameters).items():
-        if name == "block_length" or value != usual.get(name):
+    for name, value in run.to_dict().items():
+        if name in follow or value != usual.get(name):
             words.append(f"--{name.replace('_', '-')}={value}")
     return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 
@@ -142,9 +163,9 @@ def _described(run: Run) -> dict[str, Any]:
     return {
         "theory": {
             "critical_length": run.critical_length,
-            "stability_length": stability_length_of(run.parameters, run.critical_length),
+            "stability_length": _stability_length(run),
         },
-        "parameters": run.parameters.to_dict(),
+        "parameters": run.to_dict(),
     }
 
 
@@ -156,18 +177,17 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     from ..simulation.progress import Progress
     from ..simulation.to_file import checkpoint_of, run_to_file, simulation_code
 
-    parameters = run.parameters
-    digest = simulation_code(parameters)
-    attributes = provenance.attributes(parameters.to_dict(), digest, _command(output, run))
-    checkpoint = checkpoint_of(parameters, output, digest)
-    progress = Progress(parameters, sys.stderr)
+    digest = simulation_code(run)
+    attributes = provenance.attributes(run.to_dict(), digest, _command(output, run))
+    checkpoint = checkpoint_of(run, output, digest)
+    progress = Progress(run, sys.stderr)
 
     def write(dataset: xr.Dataset, path: Path) -> None:
         netcdf.write(dataset, path, **attributes)
 
     try:
         with checkpoint.listening():
-            dataset, path = run_to_file(parameters, output, write, checkpoint, progress)
+            dataset, path = run_to_file(run, output, write, checkpoint, progress)
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
@@ -176,10 +196,9 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     if path != output:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
-    attributes = dataset.attrs
     lines = [
-        attributes["status"],
-        f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s",
+        dataset.attrs["status"],
+        f"{dataset.attrs['steps']} steps in {dataset.attrs['wall_seconds']:.3g} s",
         *event_lines(extract(dataset), run.critical_length),
         f"written to {output}",
     ]

@@ -3,16 +3,14 @@
 import contextlib
 import math
 import warnings
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from ..fault import Fault
 from ..lengths.length import number
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
-from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
-from ..theory.of_runs import fault_of_run
 from ..theory.values import QUANTITIES
 from .text import warn
 from .unit_text import in_unit
@@ -131,32 +129,6 @@ def scales_text(law: Friction) -> str:
     return ", ".join(
         f"{name} = {in_unit(rate, 'm/s')}" for name, rate in rates.items() if rate is not None
     )
-
-
-def system_of_run(
-    parameters: Parameters,
-    base: Parameters | None,
-    given: Mapping[str, Any],
-) -> list[str]:
-    """The system of a run, its friction and the assumptions, one line each.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        The run.
-    base : Parameters or None
-        The run or the dataset from which parameters are taken, if any.
-    given : mapping
-        The given values by their names in studies.
-
-    Returns
-    -------
-    list of str
-    """
-    fault = Fault(**fault_of_run(parameters))
-    if base is not None:
-        return system_of_fault(fault, parameters_of(fault))
-    return system_of_fault(fault, given)
 
 
 def _assumed(fault: Fault, given: Collection[str]) -> list[str]:

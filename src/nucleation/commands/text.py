@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..model.parameters import GROUPS, Parameters
-from ..model.quantities import ParameterError, declarations
+from ..model.quantities import ParameterError
 from .pages import with_addresses
 from .unit_text import with_unit
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from ..run.run import Run
 
 Row = Sequence[str] | str
 """The cells of a row of a table, or a line between the rows."""
@@ -87,6 +88,11 @@ def warn(text: str) -> None:
     click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
 
 
+def printable(text: str) -> str:
+    """A text of a file without control characters, which a terminal would obey."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
 def table(
     rows: Sequence[Row],
     right: Collection[int] = (),
@@ -148,18 +154,19 @@ def _table_line(parts: Iterable[str], widths: Sequence[int], right: Collection[i
     return line.rstrip()
 
 
-def parameter_lines(parameters: Parameters) -> list[str]:
-    """The parameters of a simulation, one in a line, with unit and meaning."""
+def parameter_lines(run: "Run") -> list[str]:
+    """The parameters of a run, one in a line, with unit and meaning."""
+    from ..run.names import parameters, sections
+
+    values = run.to_dict()
     rows: list[Row] = []
-    for group in GROUPS:
-        own = getattr(parameters, group)
-        rows.append(f"{group}:")
-        for name, entry in declarations(type(own)).items():
-            if getattr(own, name) is None:
-                continue  # a rigid base lacks it, or a second block has that of the first
-            value = with_unit(getattr(own, name), entry)
-            meaning = re.split("[;:,]", entry.description)[0]
-            rows.append((name, value, meaning))
+    for section, names in sections().items():
+        rows.append(f"{section}:")
+        for name in names:
+            if name in values:
+                entry = parameters()[name]
+                meaning = re.split("[;:,]", entry.description)[0]
+                rows.append((name, with_unit(values[name], entry), meaning))
     return table(rows)
 
 

@@ -48,13 +48,9 @@ def extract(
 
     Examples
     --------
-    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping, simulate
-    >>> parameters = Parameters(
-    ...     geometry=Geometry(height=0.005, length=0.9),
-    ...     mesh=Mesh(n_x=16, n_y=2),
-    ...     stepping=Stepping(end_time=0.02),
-    ... )
-    >>> extract(simulate(parameters))["length"]  # the run ends before its event
+    >>> from nucleation.api import PAPER, Run, simulate
+    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> extract(simulate(run))["length"]  # the run ends before its event
     nan
     """
     record = Record(simulation, settings)
@@ -75,7 +71,7 @@ def extract(
 
 def _warn_of_early_end(record: Record) -> None:
     """Warn if the run ended after an event by a smaller drop than that of the settings."""
-    recorded = record.parameters.stepping.event_drop
+    recorded = record.run.stepping.event_drop
     drop = record.settings.drop
     status = str(record.simulation.attrs.get("status"))
     if drop > recorded and status.startswith(Outcome.AFTER_EVENT.value):

@@ -18,10 +18,10 @@ import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fem.body import body_of
 from ..fem.operator import Operator
 from ..model.friction.law import Friction
-from ..model.parameters import Parameters
+from ..run.run import Run
+from ..simulation.bodies import body_of
 from ..simulation.event import NEAR
 from ..simulation.run import interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
@@ -92,24 +92,23 @@ class Freezer:
 
     def __init__(
         self,
-        parameters: Parameters,
+        run: Run,
         threshold: float,
     ) -> None:
         """Prepare the run's static operator and its law.
 
         Parameters
         ----------
-        parameters : Parameters
-            Of the run.
+        run : Run
         threshold : float
             Slip rate (m/s) below which nodes count as stuck.
         """
-        body = body_of(parameters)
-        self.parameters = parameters
+        body = body_of(run)
+        self.run = run
         self.grid = body.grid
         self.threshold = threshold
         self.operator = body.operator(0.0)
-        self._law = interface_of(parameters, body.grid).friction
+        self._law = interface_of(run, body.grid).friction
 
     def frozen(
         self,
@@ -159,8 +158,8 @@ class Freezer:
         complex
             Lambda (1/s), or NaN without such a mode.
         """
-        loading = self.parameters.loading
+        fault = self.run.fault
         rate_over_v = 1.0
-        if loading.kind != "edge":
-            rate_over_v = float(slip_rate.max()) / loading.velocity
-        return patch.oscillating(rate_over_v * OSCILLATING / self.parameters.memory_time)
+        if fault.loading != "edge":
+            rate_over_v = float(slip_rate.max()) / fault.velocity
+        return patch.oscillating(rate_over_v * OSCILLATING / self.run.memory_time)

@@ -96,7 +96,7 @@ class _Spectra(Freezer):
     """The frozen patches of a recorded run up to its onset, their eigenvalues computed once."""
 
     def __init__(self, record: Record) -> None:
-        super().__init__(record.parameters, record.threshold)
+        super().__init__(record.run, record.threshold)
         names = ("slip_rate", "state", "sigma_yy")
         self._fields = [record.simulation[name].values[record.creep] for name in names]
         self.time = record.time[record.creep]
@@ -158,7 +158,7 @@ class _Spectra(Freezer):
                 "mode_imaginary": ("x", mode.imag),
             },
             coords={"x": self.grid.x},
-            attrs={"parameters": self.parameters.to_json()},
+            attrs={"parameters": self.run.to_json()},
         )
         return annotate(found, FOLLOWED)
 

@@ -67,8 +67,8 @@ def measure(record: Record) -> dict[str, float]:
     Without an event all but :data:`ALWAYS` are NaN. The result is empty if the run is not loaded at
     its edge, or if its interface is not recorded.
     """
-    given = record.parameters
-    if given.loading.kind != "edge" or given.recording.record == "lengths":
+    given = record.run
+    if given.fault.loading != "edge" or given.recording.record == "lengths":
         return {}
     sizes = record.simulation["step_size"].values[1:]
     normal = record.simulation["sigma_yy"].values
@@ -105,7 +105,7 @@ def _acceleration_time(record: Record, start: int) -> float:
 
 def _patch(record: Record) -> dict[str, float]:
     """The creeping patch; its lengths alone, if fewer than two frames show the developed patch."""
-    friction = record.parameters.friction
+    friction = record.run.law
     instants, times = record.drop_times, record.time
     x, length = record.x, record.lengths
     at = int(record.frames_at(instants)[0])

@@ -11,16 +11,16 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import DatasetError
-from ..model.parameters import Parameters
+from ..run.run import Run
 from ..simulation.event import WINDOW, PatchBursts, long_after
 from ..simulation.patch import patch_lengths
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
 
-def parameters_of(dataset: xr.Dataset) -> Parameters:
+def parameters_of(dataset: xr.Dataset) -> Run:
     """The parameters of the run that made a dataset, or from which it was derived."""
-    return Parameters.from_json(dataset.attrs["parameters"])
+    return Run.from_json(dataset.attrs["parameters"])
 
 
 class Record:
@@ -41,7 +41,7 @@ class Record:
     ) -> None:
         self.simulation = simulation
         self.settings = settings
-        self.parameters = parameters_of(simulation)
+        self.run = parameters_of(simulation)
 
     def require(self, *names: str) -> None:
         """Make sure of variables that not every level of recording has.
@@ -55,13 +55,13 @@ class Record:
         if missing:
             raise DatasetError(
                 f"{', '.join(missing)}: not recorded, as the run's recording.record is "
-                f"{self.parameters.recording.record}; simulate with interface"
+                f"{self.run.recording.record}; simulate with interface"
             )
 
     @property
     def velocity(self) -> float:
         """The imposed velocity V (m/s)."""
-        return self.parameters.loading.velocity
+        return self.run.fault.velocity
 
     @cached_property
     def x(self) -> Array:
@@ -84,7 +84,7 @@ class Record:
         return find_onset(
             self.step_time,
             np.abs(self.simulation["driving_force"].values),
-            WINDOW * self.parameters.memory_time,
+            WINDOW * self.run.memory_time,
             self.settings.drop,
             self._fast,
             self._long_enough,
@@ -99,7 +99,7 @@ class Record:
     @property
     def _fast(self) -> NDArray[np.bool_]:
         """Whether the patch slips fast at each step; another solver records no position."""
-        bursts = PatchBursts(self.parameters)
+        bursts = PatchBursts(self.run)
         places = np.zeros(self.step_time.size)
         if "fastest_position" in self.simulation:
             places = self.simulation["fastest_position"].values
@@ -109,7 +109,7 @@ class Record:
     @property
     def _ruptures(self) -> NDArray[np.bool_] | None:
         """Whether the interface ruptures at each step, where an edge is pushed."""
-        if self.parameters.loading.kind != "edge":
+        if self.run.fault.loading != "edge":
             return None
         return self.fastest > RUPTURE * self.velocity
 
@@ -117,7 +117,7 @@ class Record:
     def _long_enough(self) -> NDArray[np.bool_]:
         """Whether the patch has been longer than a few elements by each step."""
         rates = self.simulation["slip_rate"].values
-        return self.step_time > long_after(self.parameters, self.x, self.time, rates)
+        return self.step_time > long_after(self.run, self.x, self.time, rates)
 
     @property
     def drop_times(self) -> Array:
@@ -162,7 +162,7 @@ class Record:
     def _lengths(self, share: float) -> Array:
         """Largest length (m) so far, for an edge at this share of V."""
         lengths = patch_lengths(
-            self.parameters.loading.kind,
+            self.run.fault.loading,
             self.x,
             self.simulation["slip_rate"].values,
             share * self.velocity,

@@ -17,8 +17,8 @@ from ..model.own_fault import LAW, own_law
 from ..model.quantities import ParameterError, Quantity, check, plain
 from ..model.synonyms import hint
 from ..model.units import bounds, parse
-from ..strict_yaml import read_yaml
 from ..theory.values import QUANTITIES, FaultLike
+from .strict_yaml import read_yaml
 
 _OF_FAULT = ("law", "evolution", "slip_distance")
 LAW_NAMES = tuple(name for name in law_declarations() if name not in _OF_FAULT)
@@ -44,7 +44,7 @@ def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
     """
     found = dict(values)
     if SECOND_BODY in found:
-        found |= _second_body(found.pop(SECOND_BODY))
+        found |= second_body(found.pop(SECOND_BODY))
     ratio = found.pop("zeta_over_a", None)
     if ratio is not None:
         if "zeta" in found or "b" in found:
@@ -59,7 +59,7 @@ def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _second_body(text: str) -> dict[str, Any]:
+def second_body(text: str) -> dict[str, Any]:
     """The parameters of the second body from its text."""
     if text in ("same", "deformable"):
         return dict.fromkeys(_SECOND[:2])
@@ -134,15 +134,20 @@ def flat(fault: FaultLike) -> dict[str, Any]:
     return found
 
 
-def read_parameters(path: Path | str, ignored: Collection[str] = ()) -> dict[str, Any]:
+def read_parameters(
+    path: Path | str,
+    ignored: Collection[str] = (),
+    further: Mapping[str, Quantity] = {},
+) -> dict[str, Any]:
     """The flat values in a YAML or JSON file, in SI units; texts may have units and ranges.
 
-    Keys that are `ignored` are those of other questions about the fault.
+    Keys that are `ignored` are those of other questions about the fault. Beside its parameters
+    there may be `further` ones, by name.
     """
     content = read_yaml(Path(path))
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
-    known = declarations_of_flat()
+    known = {**declarations_of_flat(), **further}
     try:
         own = {str(key): value for key, value in content.items() if key not in ignored}
         return {key: _value(key, value, known) for key, value in own.items()}

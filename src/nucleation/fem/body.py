@@ -19,33 +19,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ..model.parameters import Parameters
-from .grid import Components, Field, Grid, Motion, Motions, Terms
+from .grid import Components, Field, Motion, Motions, Terms
 from .layer import Layers
 from .modes import BlockModes
 from .operator import Operator
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
-
-
-def body_of(parameters: Parameters) -> Body:
-    """The body of a run: pushed at its left edge, or periodic under a remote load."""
-    parameters.require_consistent()
-    return _of(parameters, periodic=parameters.loading.kind == "remote")
-
-
-def period_of(parameters: Parameters) -> Body:
-    """One period, as long as the block, of a run's body or bodies; ``mesh.n_x`` is odd."""
-    return _of(parameters, periodic=True)
-
-
-def _of(parameters: Parameters, periodic: bool) -> Body:
-    grid = Grid.of(parameters.geometry, parameters.mesh, periodic)
-    below = parameters.below
-    if below is None:
-        return Body((grid, parameters.material))
-    second = Grid.of(below.geometry, below.mesh, periodic)
-    return Body((grid, parameters.material), (second, below.material), below.far_side)
 
 
 class Body(Layers):

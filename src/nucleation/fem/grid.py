@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from ..model.parameters import Geometry, Mesh
 from ..types import Array, Arrays
 
 Components = tuple[Array, Array]
@@ -29,12 +28,6 @@ class Grid:
     n_y: int
     grading: float = 1.0
     periodic: bool = False  # whether node 0 is node n_x
-
-    @classmethod
-    def of(cls, geometry: Geometry, mesh: Mesh, periodic: bool = False) -> Grid:
-        """The grid of a simulation's block."""
-        length, height = geometry.length, geometry.height
-        return cls(length, height, mesh.n_x, mesh.n_y, mesh.grading, periodic)
 
     @property
     def dx(self) -> float:

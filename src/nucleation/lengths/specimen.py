@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from ..model.block import Geometry
+from ..model.block import Block
 from ..model.plausible import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
 from ..theory.status import BEYOND, VALUE
@@ -27,7 +27,7 @@ CRITERIA = {"critical": "critical_length", "stability": "stability_length"}
 NAMES = {"critical": "L_c", "stability": "L_s"}
 
 SPECIMEN = dataclasses.replace(
-    declarations(Geometry)["length"],
+    declarations(Block)["length"],
     description="length of the specimen along the fault",
 )
 

@@ -12,6 +12,7 @@ elsewhere: a weakening patch in surroundings that strengthen.
 
 import copy
 import dataclasses
+from typing import ClassVar
 
 import numpy as np
 
@@ -37,6 +38,8 @@ class Heterogeneity(Checked):
     >>> asperity.shape, asperity.change
     ('bump', 0.5)
     """
+
+    called: ClassVar = {"varies": "heterogeneity"}
 
     varies: str = quantity(
         "property of the interface that varies along x; a changes at fixed b, and b at fixed a",
@@ -69,13 +72,13 @@ class Heterogeneity(Checked):
         if uniform != (self.change == 0.0):
             rule = "0" if uniform else "different from 0"
             raise ParameterError(
-                f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
-                f"= {self.varies}: it must be {rule}"
+                f"change = {self.change:g} is not allowed with heterogeneity = {self.varies}: it "
+                f"must be {rule}"
             )
         if self.change <= -1.0 and self.varies != "zeta":
             raise ParameterError(
-                f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
-                f"= {self.varies}, which is positive everywhere: it must lie in (-1, 1000)"
+                f"change = {self.change:g} is not allowed with heterogeneity = {self.varies}, "
+                "which is positive everywhere: it must lie in (-1, 1000)"
             )
 
     def factor(self, x: Array, length: float, periodic: bool) -> Array:
@@ -153,6 +156,6 @@ class Heterogeneity(Checked):
             return law.with_expansion(velocity, own["friction"], own["a"], own["zeta"])
         except ParameterError as error:
             raise ParameterError(
-                f"heterogeneity.change = {self.change:g} is not allowed: {self.varies} = "
+                f"change = {self.change:g} is not allowed: {self.varies} = "
                 f"{own[self.varies]:.4g} somewhere, and {error}"
             ) from None

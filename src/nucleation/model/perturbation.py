@@ -14,6 +14,7 @@ variance (:mod:`nucleation.simulation.realisation`).
 
 import dataclasses
 import math
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -54,6 +55,8 @@ class Perturbation(Checked):
     >>> Perturbation(kind="normal_load", strength=1e-4).strength
     0.0001
     """
+
+    called: ClassVar = {"kind": "perturbation"}
 
     kind: str = quantity("perturbed quantity", choices=KINDS, default="none")
     strength: float = quantity(

@@ -22,7 +22,7 @@ RANGES = {
     "b": (-0.3, 0.3),
     "zeta": (-0.3, 0.3),
     "friction": (0.0, 5.0),
-    "density": (1.0, 3e4),
+    "density": (0.0, 3e4),
     "critical_length": (0.0, 3e4),  # the largest faults have some 20 km of crust
 }
 """Known magnitudes (SI units) by parameter."""

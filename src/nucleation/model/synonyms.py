@@ -16,7 +16,11 @@ _ELSEWHERE = {
     "velocity": "v vp vpl v0 platerate loadingrate sliprate",
     "height": "h thickness width depth",
     "density": "rho",
-    "block_length": "length",
+    "block_length": "length l",
+    "friction_law": "law",
+    "heterogeneity": "varies",
+    "perturbation": "kind",
+    "second_far_side": "secondbottom bottom",
 }
 """Names and symbols of the same quantity in the literature, in plain form."""
 

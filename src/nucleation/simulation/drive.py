@@ -13,7 +13,7 @@ import numpy as np
 
 from ..fem.body import Body
 from ..fem.grid import Field
-from ..model.parameters import Parameters
+from ..run.run import Run
 from ..types import Array
 from .realisation import Series, Sheet, profile
 
@@ -162,13 +162,12 @@ class _ForcedState(Steady):
         return ("time", "x"), self.strength * values
 
 
-def drive_of(parameters: Parameters, body: Body) -> Drive:
+def drive_of(run: Run, body: Body) -> Drive:
     """The drive of a run: a moving edge, or a far load that rises.
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run, with its loading and its perturbation.
+    run : Run
     body : Body
         The elastic body on which the loads act.
 
@@ -176,25 +175,24 @@ def drive_of(parameters: Parameters, body: Body) -> Drive:
     -------
     Drive
     """
-    loading = parameters.loading
-    near = _near_drive(parameters, body)
-    if loading.kind != "remote":
+    near = _near_drive(run, body)
+    if run.fault.loading != "remote":
         return near
     shear = body.far_load(0.0, 1.0)
-    start = shear.times(loading.initial_shear_stress)
-    per_displacement = loading.stress_rate / loading.velocity
+    start = shear.times(run.start.initial_shear_stress)
+    per_displacement = run.start.stress_rate / run.fault.velocity
     return _Remote(near.velocity, near, start, shear.times(per_displacement))
 
 
-def _near_drive(parameters: Parameters, body: Body) -> Steady:
+def _near_drive(run: Run, body: Body) -> Steady:
     """The moving edge and the normal load, with their declared perturbation."""
-    declared = parameters.perturbation
-    velocity = parameters.loading.velocity
-    load = body.far_load(parameters.loading.normal_stress)
+    declared = run.perturbation
+    velocity = run.fault.velocity
+    load = body.far_load(run.fault.normal_stress)
     if not declared.acts:
         return Steady(velocity, load)
     strength, seed = declared.strength, declared.seed
-    time = declared.correlation_time * parameters.memory_time
+    time = declared.correlation_time * run.memory_time
     length = declared.correlation_length
     if declared.kind == "drive_velocity":
         return _FluctuatingVelocity(velocity, load, strength, Series(seed, time))
@@ -203,6 +201,6 @@ def _near_drive(parameters: Parameters, body: Body) -> Steady:
     if declared.kind == "strength":
         uneven = profile(seed, length, body.grid.x)
         return _UnevenStrength(velocity, load, strength, uneven)
-    rate = 1.0 / parameters.memory_time
+    rate = 1.0 / run.memory_time
     sheet = Sheet(seed, time, length, body.grid.x)
     return _ForcedState(velocity, load, strength, rate, sheet)

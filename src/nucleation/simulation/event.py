@@ -16,8 +16,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.parameters import Parameters
 from ..model.stepping import EVENT_DROP
+from ..run.run import Run
 from ..types import Array
 
 
@@ -45,13 +45,12 @@ SLIPPING = 0.01  # slip rate over V at the edge of the patch
 FEW = 4  # elements: a patch has more of them when its event begins
 
 
-def where_patch_is_sought(parameters: Parameters, x: Array) -> NDArray[np.bool_]:
+def where_patch_is_sought(run: Run, x: Array) -> NDArray[np.bool_]:
     """Select the nodes at which the patch may be: those near the edge, if an edge is pushed.
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     x : ndarray, shape (n,)
         Positions (m) of the nodes.
 
@@ -59,13 +58,13 @@ def where_patch_is_sought(parameters: Parameters, x: Array) -> NDArray[np.bool_]
     -------
     ndarray of bool, shape (n,)
     """
-    if parameters.loading.kind != "edge":
+    if run.fault.loading != "edge":
         return np.ones(x.size, dtype=bool)
-    return x <= NEAR * parameters.geometry.length
+    return x <= NEAR * run.block.length
 
 
 def long_after(
-    parameters: Parameters,
+    run: Run,
     x: Array,
     times: Array,
     slip_rates: Array,
@@ -76,8 +75,7 @@ def long_after(
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     x : ndarray, shape (n,)
         Positions (m) of the nodes.
     times : ndarray, shape (frames,)
@@ -90,8 +88,8 @@ def long_after(
     float
         Minus infinity if the patch always was longer, infinity if it never was.
     """
-    near = np.abs(slip_rates[:, where_patch_is_sought(parameters, x)])
-    nodes = np.count_nonzero(near > SLIPPING * parameters.loading.velocity, axis=1)
+    near = np.abs(slip_rates[:, where_patch_is_sought(run, x)])
+    nodes = np.count_nonzero(near > SLIPPING * run.fault.velocity, axis=1)
     (long,) = np.nonzero(nodes > FEW + 1)
     if not long.size:
         return np.inf
@@ -114,15 +112,14 @@ class PatchBursts:
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     """
 
-    def __init__(self, parameters: Parameters) -> None:
-        pushed = parameters.loading.kind == "edge"
-        self._fast = FAST * parameters.loading.velocity
-        self._from = parameters.memory_time if pushed else -np.inf
-        self._end = NEAR * parameters.geometry.length if pushed else np.inf
+    def __init__(self, run: Run) -> None:
+        pushed = run.fault.loading == "edge"
+        self._fast = FAST * run.fault.velocity
+        self._from = run.memory_time if pushed else -np.inf
+        self._end = NEAR * run.block.length if pushed else np.inf
         self.own = False  # whether the present burst belongs to the patch
 
     def at(

@@ -1,6 +1,5 @@
 """Progress of a simulation on a terminal or in a log, and how the user interrupts it."""
 
-import contextlib
 import math
 import signal
 import sys
@@ -13,13 +12,10 @@ import numpy as np
 import xarray as xr
 from tqdm import tqdm
 
-from ..fem.grid import Grid
-from ..model.linearised import linearised
-from ..model.parameters import Parameters
-from ..theory.critical import run_length
-from ..theory.status import NoLength
+from ..run.run import Run
 from ..types import Array
-from . import run
+from . import run as single
+from .bodies import grid_of
 from .control import Instant, SimulationFailure
 from .event import SLIPPING, Outcome
 from .patch import patch_lengths
@@ -39,8 +35,7 @@ class Progress:
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     stream : file
         A terminal shows a bar, any other file gets lines.
     terminal : bool
@@ -51,20 +46,17 @@ class Progress:
 
     def __init__(
         self,
-        parameters: Parameters,
+        run: Run,
         stream: TextIO,
         terminal: bool = False,
         name: str = "",
     ) -> None:
-        loading = parameters.loading
-        self._loading = loading
-        self._x = Grid.of(parameters.geometry, parameters.mesh).x
+        self._fault = run.fault
+        self._x = grid_of(run.upper).x
         self._length = 0.0  # m, of the patch
-        self._end = parameters.stepping.end_time
-        self._critical_length = math.inf  # if sliding is stable by the theory
-        with contextlib.suppress(NoLength):
-            interface = linearised(parameters.friction, loading)
-            self._critical_length = run_length(parameters, interface)
+        self._end = run.stepping.end_time
+        critical = run.critical_length
+        self._critical_length = math.inf if math.isnan(critical) else critical
         self._stream = stream
         self._start_of_line = f"{name}: " if name else ""
         self._bar = None
@@ -131,8 +123,8 @@ class Progress:
 
     def _reached(self, slip_rate: Array) -> float:
         """Largest length (m) of the patch so far, with the slip rates (m/s) of this step."""
-        edge = SLIPPING * self._loading.velocity
-        (now,) = patch_lengths(self._loading.kind, self._x, slip_rate[None], edge)
+        edge = SLIPPING * self._fault.velocity
+        (now,) = patch_lengths(self._fault.loading, self._x, slip_rate[None], edge)
         self._length = max(self._length, float(now))
         return self._length
 
@@ -157,7 +149,7 @@ class Progress:
 
 
 def simulate(
-    parameters: Parameters,
+    run: Run,
     *,
     progress: bool | Callable[[Instant], object] = False,
     **more: Any,
@@ -166,8 +158,7 @@ def simulate(
 
     Parameters
     ----------
-    parameters : Parameters
-        Everything the result depends on.
+    run : Run
     progress : bool or callable
         True shows a bar on a terminal or in a notebook; a callable is called with every step.
     **more
@@ -181,20 +172,16 @@ def simulate(
 
     Examples
     --------
-    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping
-    >>> parameters = Parameters(
-    ...     geometry=Geometry(height=0.005, length=0.9),
-    ...     mesh=Mesh(n_x=16, n_y=2),
-    ...     stepping=Stepping(end_time=0.02),
-    ... )
-    >>> record = simulate(parameters)
+    >>> from nucleation.api import PAPER, Run
+    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> record = simulate(run)
     >>> record.sizes["x"], round(float(record["step_time"][-1]), 6)
     (17, 0.021013)
     """
     bar = None
     watch = progress if callable(progress) else None
     if progress is True:
-        bar = watch = Progress(parameters, sys.stderr, terminal="ipykernel" in sys.modules)
+        bar = watch = Progress(run, sys.stderr, terminal="ipykernel" in sys.modules)
     interrupts: list[int] = []
 
     def after_step(instant: Instant) -> None:
@@ -208,7 +195,7 @@ def simulate(
     if main:
         before = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
     try:
-        return run.simulate(parameters, progress=after_step, **more)
+        return single.simulate(run, progress=after_step, **more)
     finally:
         if main:
             signal.signal(signal.SIGINT, before)

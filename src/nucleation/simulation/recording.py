@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from ..datasets.variables import annotate
-from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
+from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes, remarks
 from .event import WINDOW, DropWatch, PatchBursts, long_after
@@ -37,33 +37,32 @@ class Recorder:
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     dynamics : Dynamics
         Body and drive of the run.
     """
 
     def __init__(
         self,
-        parameters: Parameters,
+        run: Run,
         dynamics: Dynamics,
     ) -> None:
-        self.parameters = parameters
+        self.run = run
         self.grid = dynamics.grid
         self._body = dynamics.body
         self._drive = dynamics.drive
-        self._whole = parameters.recording.record == "interface"
-        self._velocity = parameters.loading.velocity
-        self._longest_pause = LONGEST_PAUSE * parameters.memory_time
+        self._whole = run.recording.record == "interface"
+        self._velocity = run.fault.velocity
+        self._longest_pause = LONGEST_PAUSE * run.memory_time
         self._fields = INTERFACE if self._whole else FOR_LENGTHS
         self._rows: list[tuple[float, ...]] = []  # of PER_STEP
         self._frame_times: list[float] = []
         self._frames: list[Array] = []  # of the fields
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        window = WINDOW * parameters.memory_time
-        self._watch = DropWatch(window, parameters.stepping.event_drop)
-        self._bursts = PatchBursts(parameters)
+        window = WINDOW * run.memory_time
+        self._watch = DropWatch(window, run.stepping.event_drop)
+        self._bursts = PatchBursts(run)
         self._event_time = np.inf
         self._onset_time = np.inf
         self._short_drop_time = np.inf  # of the first drop with too short a patch
@@ -77,7 +76,7 @@ class Recorder:
     @property
     def covers_event(self) -> bool:
         """Whether the event has begun, and ``stepping.time_after_event`` has passed since then."""
-        return self._time >= self._event_time + self.parameters.stepping.time_after_event
+        return self._time >= self._event_time + self.run.stepping.time_after_event
 
     def record(
         self,
@@ -118,7 +117,7 @@ class Recorder:
         onset = self._watch.since
         times = np.array(self._frame_times)
         rates = np.array([fields[0] for fields in self._frames])
-        long_enough = long_after(self.parameters, self.grid.x, times, rates)
+        long_enough = long_after(self.run, self.grid.x, times, rates)
         if onset > long_enough:
             self._event_time = self._time
             self._onset_time = onset
@@ -128,9 +127,7 @@ class Recorder:
     def remarks(self) -> list[str]:
         """Reasons to doubt the event, or that there is none."""
         times, _, rates, positions = np.array([row[:4] for row in self._rows]).T
-        elsewhere = remarks.fastest_elsewhere(
-            self.parameters, times, rates, positions, self._onset_time
-        )
+        elsewhere = remarks.fastest_elsewhere(self.run, times, rates, positions, self._onset_time)
         return [
             *remarks.of_front(self._front_width()),
             *remarks.of_slip_elsewhere(elsewhere),
@@ -143,7 +140,7 @@ class Recorder:
             return np.inf
         distances = np.abs(np.array(self._frame_times) - self._onset_time)
         state = self._frames[int(distances.argmin())][1]
-        return remarks.front_width(self.parameters, self.grid.x, state)
+        return remarks.front_width(self.run, self.grid.x, state)
 
     def _frame_is_due(
         self,
@@ -225,7 +222,7 @@ class Recorder:
         for i, name in enumerate(self._fields):
             data[name] = ("time", "x"), frames[:, i]
         dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
-        dataset.attrs["parameters"] = self.parameters.to_json()
+        dataset.attrs["parameters"] = self.run.to_json()
         if not self._whole:
             return self._for_lengths(dataset)
         times = {

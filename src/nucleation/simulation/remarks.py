@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..model.parameters import Parameters
+from ..run.run import Run
 from ..types import Array
 from .event import FAST, FEW, Burst, PatchBursts, where_patch_is_sought
 
@@ -18,7 +18,7 @@ FRONT = 1.0
 
 
 def front_width(
-    parameters: Parameters,
+    run: Run,
     x: Array,
     state: Array,
 ) -> float:
@@ -26,8 +26,7 @@ def front_width(
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run; its loading determines where the patch is sought.
+    run : Run
     x : ndarray, shape (n,)
         Positions (m) of the nodes.
     state : ndarray, shape (n,)
@@ -39,7 +38,7 @@ def front_width(
         Infinite if there is no front: the state changes by less than a factor e.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        log_state = np.log(state[where_patch_is_sought(parameters, x)])
+        log_state = np.log(state[where_patch_is_sought(run, x)])
         changes = np.abs(np.diff(log_state))
     known = log_state[np.isfinite(log_state)]
     if not known.size or np.ptp(known) < FRONT:
@@ -49,7 +48,7 @@ def front_width(
 
 
 def fastest_elsewhere(
-    parameters: Parameters,
+    run: Run,
     times: Array,
     rates: Array,
     positions: Array,
@@ -59,8 +58,7 @@ def fastest_elsewhere(
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     times, rates, positions : ndarray, shape (steps,)
         Time (s), largest slip rate (m/s) and its position (m) at every step.
     until : float
@@ -71,10 +69,10 @@ def fastest_elsewhere(
     Burst or None
         None if only the patch slips fast.
     """
-    bursts = PatchBursts(parameters)
+    bursts = PatchBursts(run)
     steps = list(zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True))
     own = np.array([bursts.at(*step) for step in steps], dtype=bool)
-    fast = rates > FAST * parameters.loading.velocity
+    fast = rates > FAST * run.fault.velocity
     counts = fast & ~own & (times < until)
     if not counts.any():
         return None

@@ -1,7 +1,8 @@
 """The simulation: physics, finite elements and stepping put together.
 
-:func:`run` yields one state after another; :func:`simulate` records them into a dataset. Both can
-resume from stored arrays, and give the same result to the last bit as if they had never stopped.
+:func:`instants` yields one state after another; :func:`simulate` records them into a dataset. Both
+can resume from stored arrays, and give the same result to the last bit as if they had never
+stopped.
 """
 
 import resource
@@ -13,11 +14,11 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from ..fem.body import body_of
 from ..fem.grid import Grid
-from ..model.parameters import Parameters
 from ..model.stepping import FIRST_STEP
+from ..run.run import Run
 from ..types import Array, Arrays
+from .bodies import body_of
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .drive import drive_of
 from .event import Outcome
@@ -31,21 +32,20 @@ NEWTON = 1e-3
 """Largest tolerance of Newton's method over that of the step, if the run is perturbed."""
 
 
-def composed(parameters: Parameters) -> Dynamics:
+def composed(run: Run) -> Dynamics:
     """The dynamics of a run: a further drive or scheme is chosen here."""
-    body = body_of(parameters)
-    interface = interface_of(parameters, body.grid)
-    drive = drive_of(parameters, body)
+    body = body_of(run)
+    interface = interface_of(run, body.grid)
+    drive = drive_of(run, body)
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
-def interface_of(parameters: Parameters, grid: Grid) -> Interface:
+def interface_of(run: Run, grid: Grid) -> Interface:
     """The frictional interface of a run, with its heterogeneity.
 
     Parameters
     ----------
-    parameters : Parameters
-        Parameters of the run.
+    run : Run
     grid : Grid
         The mesh of its body.
 
@@ -53,25 +53,24 @@ def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     -------
     Interface
     """
-    varied = parameters.heterogeneity
-    loading = parameters.loading
-    friction = parameters.friction
+    varied = run.heterogeneity
+    friction = run.law
     tolerance = Interface.tolerance  # an unperturbed run is perturbed by round-off alone
-    if parameters.perturbation.acts:
-        coarse = NEWTON * parameters.stepping.tolerance
-        tolerance = max(tolerance, min(coarse, parameters.perturbation.strength))
+    if run.perturbation.acts:
+        coarse = NEWTON * run.stepping.tolerance
+        tolerance = max(tolerance, min(coarse, run.perturbation.strength))
     if varied.varies == "none":
         return Interface(friction, tolerance)
     factor = varied.factor(grid.x, grid.length, grid.periodic)
-    friction = varied.friction(friction, loading.velocity, factor)
+    friction = varied.friction(friction, run.fault.velocity, factor)
     extra: Array | float = 0.0
     if varied.varies == "normal_stress":
-        extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
+        extra = run.fault.normal_stress * (factor - 1.0) * grid.nodal_lengths
     return Interface(friction, tolerance, extra_normal=extra)
 
 
-def run(
-    parameters: Parameters,
+def instants(
+    run: Run,
     start: tuple[State, Control] | None = None,
     dynamics: Dynamics | None = None,
 ) -> Iterator[Instant]:
@@ -79,8 +78,7 @@ def run(
 
     Parameters
     ----------
-    parameters : Parameters
-        Everything the result depends on.
+    run : Run
     start : tuple of State and Control, optional
         State and control of an instant of an earlier run with the same parameters. The steps that
         followed it there are yielded, the same to the last bit.
@@ -99,35 +97,31 @@ def run(
 
     Examples
     --------
-    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping
-    >>> parameters = Parameters(
-    ...     geometry=Geometry(height=0.005, length=0.9),
-    ...     mesh=Mesh(n_x=16, n_y=2),
-    ...     stepping=Stepping(end_time=0.02),
-    ... )
-    >>> instants = run(parameters)
-    >>> first, second = next(instants), next(instants)
+    >>> from nucleation.api import PAPER, Run
+    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> steps = instants(run)
+    >>> first, second = next(steps), next(steps)
     >>> float(first.state.past_times[0]), bool(second.state.past_times[0] > 0.0)
     (0.0, True)
     """
-    dynamics = composed(parameters) if dynamics is None else dynamics
-    longest_step = parameters.longest_step
+    dynamics = composed(run) if dynamics is None else dynamics
+    longest_step = run.longest_step
     longest = dynamics.scheme.coefficient(longest_step, longest_step)
     if start is None:
-        state, report = at_rest(dynamics, parameters.loading)
-        control = Control(min(FIRST_STEP * parameters.memory_time, longest))
+        state, report = at_rest(dynamics, run)
+        control = Control(min(FIRST_STEP * run.memory_time, longest))
         yield Instant(state, report, control)
     else:
         state, control = start
     while True:
-        instant = accepted_step(dynamics, parameters.stepping, state, control, longest)
+        instant = accepted_step(dynamics, run.stepping, state, control, longest)
         state = instant.state
         control = instant.control
         yield instant
 
 
 def simulate(
-    parameters: Parameters,
+    run: Run,
     *,
     progress: Callable[[Instant], None] | None = None,
     start: Arrays | None = None,
@@ -137,8 +131,7 @@ def simulate(
 
     Parameters
     ----------
-    parameters : Parameters
-        Everything the result depends on.
+    run : Run
     progress : callable, optional
         Called with every accepted step.
     start : dict of ndarray, optional
@@ -158,8 +151,8 @@ def simulate(
     """
     began = time.perf_counter()
     earlier = 0.0
-    dynamics = composed(parameters)
-    recorder = Recorder(parameters, dynamics)
+    dynamics = composed(run)
+    recorder = Recorder(run, dynamics)
     control = Control(0.0)
     position = None
     if start is not None:
@@ -169,7 +162,7 @@ def simulate(
         earlier = float(start["wall_seconds"])
     outcome = Outcome.END_TIME
     try:
-        for instant in run(parameters, position, dynamics):
+        for instant in instants(run, position, dynamics):
             control = instant.control
             recorder.record(instant.state, instant.report)
             if progress is not None:
@@ -177,7 +170,7 @@ def simulate(
             if recorder.covers_event:
                 outcome = Outcome.AFTER_EVENT
                 break
-            if instant.state.time >= parameters.stepping.end_time:
+            if instant.state.time >= run.stepping.end_time:
                 break
             if keep is not None:
                 seconds = earlier + time.perf_counter() - began

@@ -9,20 +9,20 @@ import numpy as np
 
 from ..fem.grid import Field
 from ..fem.operator import Operator, Response
-from ..model.parameters import Loading
+from ..run.run import Run
 from ..types import Array
 from .interface import InterfaceSolution
 from .step import Dynamics, State, StepReport
 
 
-def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
+def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest.
 
     Parameters
     ----------
     dynamics : Dynamics
         Body, interface and drive of the run.
-    loading : Loading
+    run : Run
         With ``initial_stress`` the interface starts in uniform shear. Otherwise it starts without
         slip, except where it cannot carry the shear stress.
 
@@ -35,13 +35,13 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     load = dynamics.load(imposed)
     operator = body.operator(0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
-    if loading.initial_stress == "uniform_shear" and loading.kind != "remote":
-        response = _in_uniform_shear(dynamics, loading, operator, load, response)
+    if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
+        response = _in_uniform_shear(dynamics, run, operator, load, response)
     else:
-        response = _relaxed(dynamics, loading, operator, load, response)
+        response = _relaxed(dynamics, run, operator, load, response)
     displacement = operator.balance(response, response.w).displacement
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
-    log_state = np.full_like(slip_rate, np.log(loading.initial_state))
+    log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
     state = State.beginning(
         body.at_rest(displacement, imposed.velocity),
         slip_rate,
@@ -64,7 +64,7 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
 
 def _in_uniform_shear(
     dynamics: Dynamics,
-    loading: Loading,
+    run: Run,
     operator: Operator,
     load: Field,
     response: Response,
@@ -73,14 +73,14 @@ def _in_uniform_shear(
     n = dynamics.grid.n_x
     nodes = np.arange(1, n + 1)
     stiffness, _ = operator.tangent(nodes)
-    forces = -loading.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
+    forces = -run.start.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
     slip = np.linalg.solve(stiffness, forces - response.tangential)
     return operator.respond(load, slip)
 
 
 def _relaxed(
     dynamics: Dynamics,
-    loading: Loading,
+    run: Run,
     operator: Operator,
     load: Field,
     response: Response,
@@ -91,7 +91,7 @@ def _relaxed(
     """
     n = dynamics.grid.n_x
     friction = dynamics.interface.friction
-    of_law = friction.coefficient(loading.velocity, loading.initial_state)
+    of_law = friction.coefficient(run.fault.velocity, run.fault.initial_state)
     on_all_nodes = np.broadcast_to(of_law, dynamics.grid.n_x + 1)
     coefficient = on_all_nodes[-n:]
 

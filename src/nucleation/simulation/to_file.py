@@ -7,14 +7,14 @@ import xarray as xr
 
 from ..datasets import code, provenance
 from ..model.friction.registry import plugins
-from ..model.parameters import Parameters
+from ..run.run import Run
 from .checkpoints import Checkpoint
 from .control import Instant
 from .run import simulate
 
 
 def run_to_file(
-    parameters: Parameters,
+    run: Run,
     output: Path,
     write: Callable[[xr.Dataset, Path], None],
     checkpoint: Checkpoint,
@@ -25,7 +25,7 @@ def run_to_file(
     The record of a failed run is in `output` with the suffix ``.failed.nc``. A signal raises
     Stopped and leaves the checkpoint.
     """
-    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    dataset = simulate(run, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
     failed = output.with_suffix(".failed.nc")
     path = output if dataset.attrs["completed"] else failed
     write(dataset, path)
@@ -35,12 +35,12 @@ def run_to_file(
     return dataset, path
 
 
-def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
+def checkpoint_of(run: Run, output: Path, code_digest: str) -> Checkpoint:
     """The checkpoint of a run, beside its output; one of other code or parameters is refused."""
-    fingerprint = provenance.fingerprint(parameters.to_dict(), code_digest)
+    fingerprint = provenance.fingerprint(run.to_dict(), code_digest)
     return Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
 
 
-def simulation_code(parameters: Parameters) -> str:
+def simulation_code(run: Run) -> str:
     """Digest of the code of a simulation, as in the workflow."""
-    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(parameters))
+    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(run.law))

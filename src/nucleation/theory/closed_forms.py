@@ -5,11 +5,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model.linearised import InterfaceState
-from ..model.material import Material
+from ..model.material import Material, in_plane_ratio
 from .marginal import marginal_stiffness
 from .status import STABLE, NoLength
 from .stiffness import Array
+from .values import FaultLike
 
 
 def bimaterial_contrast(
@@ -77,37 +77,19 @@ def bimaterial_length_ratio(
 
 def thin_limit_length(
     height: ArrayLike,
-    material: Material,
-    interface: InterfaceState,
+    fault: FaultLike,
 ) -> Array:
-    """L_c of a block on a rigid base as ``Hk -> 0`` (Eq. 11).
+    """L_c (m) of blocks of heights H (m) on a rigid base as ``Hk -> 0`` (Eq. 11).
 
-    Parameters
-    ----------
-    height : array_like
-        Height H (m) of the block.
-    material : Material
-        Of the block.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    ndarray
-        L_c (m), shape of the height.
-
-    Raises
-    ------
-    NoLength
-        Unless ``zeta > 0``.
+    Only the first body and the friction of the fault matter; NoLength unless ``zeta > 0``.
     """
-    if interface.zeta <= 0.0:
+    if fault.zeta <= 0.0:
         raise NoLength(
-            f"zeta = {interface.zeta:g} is not positive: "
+            f"zeta = {fault.zeta:g} is not positive: "
             "without velocity weakening a thin layer slides stably",
             STABLE,
         )
-    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
-    weakening_length = interface.slip_length / (interface.zeta * interface.normal_stress)
+    modulus = fault.shear_modulus / (1.0 - in_plane_ratio(fault.poisson_ratio, fault.plane))
+    weakening_length = fault.slip_distance / (fault.zeta * fault.normal_stress)
     height = np.asarray(height, dtype=float)
     return 2.0 * math.pi * np.sqrt(2.0 * height * modulus * weakening_length)

@@ -4,25 +4,15 @@ The critical wavenumber k_c is the largest one with ``Re Lambda = 0``. The modul
 finds it, for one system or for thousands.
 """
 
-from collections.abc import Iterable
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ..model.linearised import InterfaceState
-from ..model.material import Material
-from ..model.parameters import Parameters
 from .crossings import largest_crossings
 from .marginal import marginal_frequencies
-from .of_runs import Case, blocks_on_rigid_base, far_sides, systems_of
 from .spectrum import Systems
 from .status import STABLE, NoLength
 from .stiffness import Array
-
-_Distinct = tuple[Any, ...]
-"""All parameters on which the system of a run depends."""
 
 
 class CriticalMode(NamedTuple):
@@ -70,31 +60,9 @@ def unstable_modes(systems: Systems) -> CriticalMode:
     return found
 
 
-def critical_lengths(cases: Iterable[Case]) -> Array:
-    """The linear theory's critical lengths (m) of many runs, in few vectorised calls.
-
-    The runs may differ in far sides and planes; equal ones are computed once. NaN where sliding is
-    stable (:func:`run_length` gives the reason).
-    """
-    cases = list(cases)
-    groups: dict[tuple[str, ...], dict[_Distinct, Case]] = {}
-    for run, interface in cases:
-        kind = (*far_sides(run), run.material.plane)
-        groups.setdefault(kind, {}).setdefault(_distinct(run, interface), (run, interface))
-    lengths: dict[_Distinct, float] = {}
-    for group in groups.values():
-        found = critical_modes(systems_of(list(group.values()))).length
-        lengths |= zip(group, found.tolist(), strict=True)
-    return np.array([lengths[_distinct(*case)] for case in cases], dtype=float)
-
-
-def _distinct(
-    run: Parameters,
-    interface: InterfaceState,
-) -> _Distinct:
-    below = run.below
-    second = None if below is None else (below.material, below.geometry.height)
-    return far_sides(run), run.material, run.geometry.height, second, interface
+def critical_length_of(one: Systems) -> float:
+    """L_c (m) of a single system; a NoLength has the reason where there is none."""
+    return float(unstable_modes(one).length[0])
 
 
 def stability_reason(one: Systems) -> str:
@@ -121,60 +89,3 @@ def stability_reason(one: Systems) -> str:
 def _number(value: Array) -> float:
     """The number in an array of one entry."""
     return float(np.ravel(value)[0])
-
-
-def modes_on_rigid_base(
-    height: ArrayLike,
-    material: Material,
-    interface: InterfaceState,
-) -> CriticalMode:
-    """The critical modes of blocks on a rigid base (Fig. 3), Eq. (5) with Eq. (10).
-
-    Parameters
-    ----------
-    height : array_like
-        Heights H (m) of the blocks, inf for a half-space.
-    material : Material
-        Of the blocks.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    CriticalMode
-        Fields have the shape of the height.
-
-    Raises
-    ------
-    NoLength
-        If sliding is stable at one of the heights.
-    """
-    found = unstable_modes(blocks_on_rigid_base(material, np.ravel(height), interface))
-    return CriticalMode(*(values.reshape(np.shape(height)) for values in found))
-
-
-@cache
-def run_length(
-    parameters: Parameters,
-    interface: InterfaceState,
-) -> float:
-    """L_c of a run with its own bodies and far sides.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the run.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    float
-        L_c (m).
-
-    Raises
-    ------
-    NoLength
-        If sliding is stable at every wavenumber.
-    """
-    return float(unstable_modes(systems_of([(parameters, interface)])).length[0])

@@ -11,8 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.law import Friction
-from ..model.linearised import InterfaceState
-from ..model.loading import Loading
 from ..model.material import Material
 from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, declared, refusal
@@ -42,7 +40,6 @@ def _declared() -> dict[str, Quantity]:
     Positive parameters begin at a value far below any known one, so that all is computable.
     """
     material = declarations(Material)
-    interface = declarations(InterfaceState)
     friction = declarations(Friction)
     replace = dataclasses.replace
     modulus = replace(material["shear_modulus"], low=1e-9, closed="low")
@@ -58,15 +55,15 @@ def _declared() -> dict[str, Quantity]:
         "shear_modulus": modulus,
         "poisson_ratio": ratio,
         "height": height,
-        "normal_stress": replace(interface["normal_stress"], low=1e-6, closed="low"),
-        "a": replace(interface["a"], low=1e-12, closed="low"),
-        "zeta": interface["zeta"],
-        "friction": interface["friction"],
-        "velocity": replace(interface["velocity"], low=1e-30, closed="low"),
-        "b": replace(
-            interface["a"],
-            symbol="b",
-            description="coefficient b = a + zeta of the log of the state",
+        "normal_stress": declared("compressive normal stress", "[1e-6, 1e13) Pa", symbol="sigma0"),
+        "a": declared("direct-effect coefficient a", "[1e-12, 10.0)", symbol="a"),
+        "zeta": declared(
+            "velocity weakening zeta (negative: strengthening)", "(-10.0, 10.0)", symbol="zeta"
+        ),
+        "friction": declared("friction coefficient of steady sliding", "[0.0, 10.0)", symbol="f"),
+        "velocity": declared("sliding velocity", "[1e-30, 1e3) m/s", symbol="V"),
+        "b": declared(
+            "coefficient b = a + zeta of the log of the state", "(0.0, 10.0)", symbol="b"
         ),
         "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="low"),
         "second_shear_modulus": replace(
@@ -91,8 +88,8 @@ def _declared() -> dict[str, Quantity]:
             ratio, symbol="nu_z", description="Poisson's ratio of the zone beside the fault"
         ),
         "plane": material["plane"],
-        "loading": replace(
-            declarations(Loading)["kind"],
+        "loading": Quantity(
+            choices=("edge", "remote"),
             description="start of the creeping patch: an edge that is pushed, or the interior "
             "under a remote load",
         ),
@@ -101,7 +98,9 @@ def _declared() -> dict[str, Quantity]:
         "second_density": replace(
             material["density"], description="mass density of the second body"
         ),
-        "initial_state": declarations(Loading)["initial_state"],
+        "initial_state": declared(
+            "initial state variable (age) of the interface", "(0.0, 1e12) s", symbol="phi0"
+        ),
     }
 
 

@@ -8,14 +8,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from nucleation.fault import Fault
 from nucleation.model.friction.law import Friction
-from nucleation.model.identity import fault
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Loading, Parameters
+from nucleation.run.identity import fault
+from nucleation.run.run import Run
 
 from ..configuration.roles import JUDGED, PAPERS
 from ..tables.lengths import over_realisations, realisations
+from ..tables.main_text import main_text
 from ..tables.rows import rows_of
 from . import phrases
 from .expected import Found, Missing, Result
@@ -28,20 +29,37 @@ Row = dict[str, Any]
 class Evidence:
     """Datasets and settings of one configuration.
 
-    `interface` has the main text's rounded friction, `theory` the theory's curves, `dispersion`
+    `base` has the configuration's own values, `theory` the theory's curves, `dispersion`
     single modes integrated in time. `lengths` are tables of lengths, one for each study with a role
     of the paper's or :data:`~replication.configuration.roles.LONGER`. `patches` are the stability
     of the patches with the role JUDGED, by the id of each fault's first realisation.
     """
 
-    material: Material
-    friction: Friction
-    loading: Loading
-    interface: InterfaceState
+    base: Run
     theory: xr.Dataset
     dispersion: xr.Dataset
     lengths: tuple[xr.Dataset, ...]
     patches: dict[str, xr.Dataset]
+
+    @property
+    def fault(self) -> Fault:
+        """The configuration's fault."""
+        return self.base.fault
+
+    @property
+    def friction(self) -> Friction:
+        """The configuration's friction law."""
+        return self.base.law
+
+    @property
+    def interface(self) -> Fault:
+        """The fault with the main text's rounded friction."""
+        return main_text(self.base.fault)
+
+    @property
+    def material(self) -> Material:
+        """The material of the configuration's block."""
+        return self.base.upper.material
 
     @property
     def nu(self) -> float:
@@ -95,12 +113,9 @@ class Evidence:
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
-        own = Parameters(
-            material=self.material,
-            friction=self.friction.changed({"evolution": row["evolution"]}),
-            loading=dataclasses.replace(self.loading, initial_state=float(row["initial_state"])),
-            geometry=Geometry(height=float(row["height"])),
-        )
+        names = ("initial_state", "height")
+        labels = {name: float(row[name]) for name in names}
+        own = self.base.replaced(evolution=row["evolution"], **labels)
         return bool(row["fault"] == fault(own))
 
 

@@ -15,7 +15,7 @@ _SLIP_RATES = np.geomspace(1e-11, 10.0, 4801)  # m/s
 
 def at_v(name: str) -> Callable[[Evidence], float]:
     """Friction ``f0``, ``a`` or ``zeta`` at V."""
-    return lambda e: float(getattr(e.friction.expansion(e.loading.velocity), name))
+    return lambda e: float(getattr(e.friction.expansion(e.fault.velocity), name))
 
 
 def _vanishing(evidence: Evidence) -> float:
@@ -26,7 +26,7 @@ def _vanishing(evidence: Evidence) -> float:
 
 def _logarithmic(evidence: Evidence) -> Array:
     """Logarithmic over full law around V and D/V."""
-    law, velocity = evidence.friction, evidence.loading.velocity
+    law, velocity = evidence.friction, evidence.fault.velocity
     factors = np.geomspace(0.1, 10.0, 41)
     v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
     return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
@@ -34,7 +34,7 @@ def _logarithmic(evidence: Evidence) -> Array:
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
     """Slip rates (m/s) of the maximum and the minimum of steady-state friction around V."""
-    velocity = evidence.loading.velocity
+    velocity = evidence.fault.velocity
     friction = evidence.friction.steady_coefficient(_SLIP_RATES)
     turns = np.diff(np.sign(np.diff(friction)))
     rates = _SLIP_RATES[1:-1]
@@ -47,7 +47,7 @@ def steady_extremes(evidence: Evidence) -> tuple[float, float]:
 
 def _decades_of_agreement(evidence: Evidence) -> float:
     """Decades of slip rate around V, within the branch, with a difference of less than 2 %."""
-    law, velocity = evidence.friction, evidence.loading.velocity
+    law, velocity = evidence.friction, evidence.fault.velocity
     first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
     v = _SLIP_RATES[first:after]
     logarithmic = law.logarithmic(v, law.slip_distance / v, velocity)
@@ -67,15 +67,13 @@ NUMBERS: dict[str, Computation] = {
     "zeta-main": at_v("zeta"),
     "weakening-at-v": at_v("zeta"),
     "slip-rate-over-v0": lambda e: math.log10(
-        e.loading.velocity / e.friction.regularisation_slip_rate
+        e.fault.velocity / e.friction.regularisation_slip_rate
     ),
     "friction-vanishes": _vanishing,
     "logarithmic-law": _logarithmic,
     "steady-agreement": _decades_of_agreement,
-    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.loading.velocity,
-    "weakening-branch": lambda e: e.loading.velocity / steady_extremes(e)[0],
-    "state-rate-at-v": lambda e: float(
-        e.friction.slip_speed(e.loading.velocity) / e.loading.velocity
-    ),
+    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.fault.velocity,
+    "weakening-branch": lambda e: e.fault.velocity / steady_extremes(e)[0],
+    "state-rate-at-v": lambda e: float(e.friction.slip_speed(e.fault.velocity) / e.fault.velocity),
 }
 """The function of each claim, by its id."""

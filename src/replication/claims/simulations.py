@@ -152,7 +152,7 @@ def _healed_state(evidence: Evidence, run: Row) -> float:
 @on_both
 def _strengthened(evidence: Evidence, role: str) -> list[float]:
     """Relative change of the strength by the healing that v0 alone causes without slip."""
-    velocity = evidence.loading.velocity
+    velocity = evidence.fault.velocity
     changes = []
     for run in evidence.each(role, evolution="slip"):
         states = np.array([run["initial_state"], _healed_state(evidence, run)])
@@ -180,7 +180,7 @@ def _approximation_ahead(evidence: Evidence) -> Result:
 @on_both
 def _blow_up(evidence: Evidence, role: str) -> float:
     row = evidence.row(role, "aging", _INSET)
-    return row["largest_rate"] / evidence.loading.velocity
+    return row["largest_rate"] / evidence.fault.velocity
 
 
 @on_both
@@ -196,7 +196,7 @@ def _abrupt_drop(evidence: Evidence, role: str) -> list[float]:
 
 @on_both
 def _characteristic_rate(evidence: Evidence, role: str) -> list[Estimate]:
-    velocity = evidence.loading.velocity
+    velocity = evidence.fault.velocity
     return [_with_range(row, "patch_rate", velocity) for row in evidence.series(role)]
 
 
@@ -212,7 +212,7 @@ def _damped_rate(evidence: Evidence) -> float:
 
 
 def _contact_kept(evidence: Evidence) -> Result:
-    unit = evidence.loading.normal_stress
+    unit = evidence.fault.normal_stress
     runs = evidence.each(PAPERS)
     creep = max(run["largest_normal_stress"] / unit for run in runs)
     note = f"Up to the onset it is {creep:.3g}."
@@ -239,7 +239,7 @@ def _longer_blocks(evidence: Evidence) -> Result:
     ]
     if not changes:
         raise Missing(f"The role {LONGER} has no run with a longer block")
-    strength = evidence.interface.friction * evidence.loading.normal_stress
+    strength = evidence.interface.friction * evidence.fault.normal_stress
     runs = evidence.each(JUDGED) + evidence.each(PAPERS)
     largest = max(run["middle_stress"] for run in runs) / strength
     note = (

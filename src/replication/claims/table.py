@@ -14,10 +14,7 @@ import xarray as xr
 import yaml
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import InterfaceState
-from nucleation.model.material import Material
-from nucleation.model.parameters import Loading
+from nucleation.run.run import Run
 
 from ..tables import lengths as table_of_lengths
 from . import friction as of_friction
@@ -177,10 +174,7 @@ def escaped(text: str) -> str:
 
 def of_paper(
     statements: Statements,
-    material: Material,
-    friction: Friction,
-    loading: Loading,
-    interface: InterfaceState,
+    base: Run,
     settings: ExtractionSettings,
     theory: xr.Dataset,
     dispersion: xr.Dataset,
@@ -199,10 +193,7 @@ def of_paper(
     if len(longer):
         tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
     evidence = Evidence(
-        material=material,
-        friction=friction,
-        loading=loading,
-        interface=interface,
+        base=base,
         theory=theory,
         dispersion=dispersion,
         lengths=tuple(tables),

@@ -49,7 +49,7 @@ def main_text(evidence: Evidence, **changes: Any) -> Fault:
         friction=at.friction,
         a=at.a,
         zeta=at.zeta,
-        slip_distance=at.slip_length,
+        slip_distance=at.slip_distance,
         velocity=at.velocity,
     )
     return found.replace(**changes) if changes else found
@@ -77,7 +77,7 @@ def _slopes(evidence: Evidence) -> Any:
 
 def _spring_stiffness(evidence: Evidence) -> float:
     """Marginal stiffness over the normal force of a body without coupling, over K_c."""
-    _, a, zeta = evidence.friction.expansion(evidence.loading.velocity)
+    _, a, zeta = evidence.friction.expansion(evidence.fault.velocity)
     return float(marginal_stiffness(0.0, a, zeta)[1] / zeta)
 
 
@@ -90,7 +90,7 @@ def _mirrored(evidence: Evidence) -> Any:
 def _softness(evidence: Evidence) -> float:
     """``mu ell/(zeta sigma0)`` (m)."""
     at = evidence.interface
-    return evidence.material.shear_modulus * at.slip_length / at.zeta / at.normal_stress
+    return evidence.material.shear_modulus * at.slip_distance / at.zeta / at.normal_stress
 
 
 def _wavenumber(evidence: Evidence) -> Result:
@@ -115,13 +115,13 @@ def _eta_over_largest(evidence: Evidence) -> Result:
 
 def _uncoupled_frequency(evidence: Evidence) -> Result:
     at = evidence.interface
-    expected = math.sqrt(at.zeta / at.a) * at.velocity / at.slip_length
+    expected = math.sqrt(at.zeta / at.a) * at.velocity / at.slip_distance
     return Result(main_text(evidence).critical_mode().angular_frequency, formula(expected))
 
 
 def _friction_perturbation(evidence: Evidence) -> Any:
     """``|ratio - 1|`` of the linearised law and state over the printed formula, ell/V = 1."""
-    _, a, zeta = evidence.friction.expansion(evidence.loading.velocity)
+    _, a, zeta = evidence.friction.expansion(evidence.fault.velocity)
     rate = np.array([0.3 + 1j, 0.1 + 2j, 1j])
     state = -rate / (rate + 1.0)  # relative change of phi for a change of slip rate
     ours = a * rate + (a + zeta) * state

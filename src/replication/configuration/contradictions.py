@@ -1,19 +1,19 @@
-"""Contradictions among the parameters of one run, and directories that can't hold results."""
+"""Contradictions among the settings of a configuration, and directories that can't hold results."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.parameters import Parameters
-from nucleation.model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
-from nucleation.model.recording import STUCK_BELOW
-from nucleation.model.stepping import FIRST_STEP
+import numpy as np
 
-from .roles import LITERATURE
-from .runs import Run
-from .settings import Limits, estimated_megabytes
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.model.recording import STUCK_BELOW
+from nucleation.run.checks import contradictions, memory_problem
+
+from .roles import LITERATURE, OWN, ROLES
+from .runs import StudyRun
+from .settings import Limits, Settings
 
 _LONGEST_ID = 200
 """Most characters of an identifier; a file's name adds suffixes, and has at most 255 bytes."""
@@ -24,65 +24,23 @@ _CODE = ("src", "workflow", "profiles", "config", "docs", "tests")
 
 def run_problems(
     key: str,
-    run: Run,
+    run: StudyRun,
     limits: Limits,
     extraction: ExtractionSettings,
 ) -> Iterator[str]:
-    """Parameters of a run that are each allowed but contradict each other.
-
-    Parameters
-    ----------
-    key : str
-        Place of the run in the configuration, for messages.
-    run : Run
-        The run.
-    limits : Limits
-        Limits of one simulation.
-    extraction : ExtractionSettings
-        Settings of the measurement.
-
-    Yields
-    ------
-    str
-        One line for each problem.
-    """
-    parameters = run.parameters
+    """Parameters of a run, at a place `key`, that are each allowed but contradict each other."""
     problems = [
-        *_step_problems(parameters),
-        *_start_problems(parameters),
+        *contradictions(run.run),
         *_measurement_problems(run, extraction),
-        *_perturbation_problems(parameters),
         *_name_problems(run.id),
+        *memory_problem(run.run, "limits.memory", limits.memory),
     ]
     for problem in problems:
         yield f"{key}: {problem}"
-    yield from memory_problems(key, parameters, limits)
 
 
-def _step_problems(parameters: Parameters) -> Iterator[str]:
-    shortest = parameters.stepping.shortest_step
-    longest = parameters.longest_step
-    memory = parameters.memory_time
-    first = FIRST_STEP * memory
-    if shortest >= min(longest, first):
-        yield (
-            f"shortest_step = {shortest:g} s is not allowed: it must be less "
-            f"than the first step, {first:.3g} s, and the longest one, {longest / memory:.3g} D/V "
-            f"= {longest:.3g} s"
-        )
-
-
-def _start_problems(parameters: Parameters) -> Iterator[str]:
-    loading = parameters.loading
-    if loading.initial_shear_stress and loading.initial_stress == "no_slip":
-        yield (
-            f"initial_shear_stress = {loading.initial_shear_stress:g} Pa is not allowed "
-            "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
-        )
-
-
-def _measurement_problems(run: Run, extraction: ExtractionSettings) -> Iterator[str]:
-    event_drop = run.parameters.stepping.event_drop
+def _measurement_problems(run: StudyRun, extraction: ExtractionSettings) -> Iterator[str]:
+    event_drop = run.run.stepping.event_drop
     measures_drop = run.role != LITERATURE
     if measures_drop and event_drop < extraction.drop:
         yield (
@@ -90,29 +48,13 @@ def _measurement_problems(run: Run, extraction: ExtractionSettings) -> Iterator[
             f"{extraction.drop:g}: the run may end before the force has fallen so far; it must lie "
             f"in [{extraction.drop:g}, 1), or be left out"
         )
-    recording = run.parameters.recording
+    recording = run.run.recording
     low = extraction.edge_threshold_low
     if recording.record == "lengths" and low < STUCK_BELOW:
         yield (
             f"record = {recording.record} is not allowed with extraction.edge_threshold_low "
             f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must "
             f"be interface, or the threshold in [{STUCK_BELOW:g}, 1]"
-        )
-
-
-def _perturbation_problems(parameters: Parameters) -> Iterator[str]:
-    declared = parameters.perturbation
-    if declared.kind == "none" and declared.strength > 0.0:
-        yield (
-            f"strength = {declared.strength:g} is not allowed with perturbation = none, "
-            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
-        )
-    length = declared.correlation_length
-    element = parameters.geometry.length / parameters.mesh.n_x
-    if declared.acts and declared.kind in ALONG_X and length < element:
-        yield (
-            f"correlation_length = {length:g} m is not allowed: it "
-            f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"
         )
 
 
@@ -125,33 +67,38 @@ def _name_problems(identifier: str) -> Iterator[str]:
         )
 
 
-def memory_problems(key: str, parameters: Parameters, limits: Limits) -> Iterator[str]:
-    """A mesh whose simulation would need more memory than allowed.
+def role_problems(name: str, settings: Settings, runs: Sequence[StudyRun]) -> Iterator[str]:
+    """Runs of a study that contradict its role, and missing ones, a line for each."""
+    role = settings.studies[name].role
+    for need in ROLES[role].runs:
+        for run in runs:
+            value = run.value(need.name)
+            if not need.allowed(value):
+                yield need.refusal(f"studies.{name}: {run.id}: {need.name}", value, role)
+                break  # the first run shows the problem
 
-    Parameters
-    ----------
-    key : str
-        Place of the simulation in the configuration, for the message.
-    parameters : Parameters
-        All parameters of the simulation.
-    limits : Limits
-        Limits of one simulation.
 
-    Yields
-    ------
-    str
-        The problem, if there is one.
-    """
-    need = estimated_megabytes(parameters)
-    if need <= limits.memory:
-        return
-    mesh = parameters.mesh
-    below = parameters.below
-    second = f", second_n_y = {below.mesh.n_y}" if below else ""
-    yield (
-        f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y}{second} is not allowed: the simulation "
-        f"would need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
-    )
+def setting_problems(settings: Settings) -> Iterator[str]:
+    """Settings that no study changes and that contradict each other, a line for each."""
+    low = settings.extraction.edge_threshold_low
+    edge = settings.extraction.edge_threshold
+    high = settings.extraction.edge_threshold_high
+    if not low <= edge <= high:
+        yield (
+            f"extraction: edge_threshold_low = {low:g}, edge_threshold = {edge:g}, "
+            f"edge_threshold_high = {high:g} is not allowed: they must ascend, each in (0, 1]"
+        )
+    roles = {study.role for study in settings.studies.values()}
+    if roles == {OWN}:
+        return  # no figure of the paper needs the theory's curve
+    fault = settings.main_text
+    for height in (min(settings.curves.heights), max(settings.curves.heights)):
+        if np.isnan(fault.replace(height=height).critical_length()):
+            yield (
+                f"zeta = {fault.zeta:g} with a = {fault.a:g} is not allowed: the theory's curve in "
+                f"Figure 3 needs an instability at H = {height:g} m, and there is none"
+            )
+            return
 
 
 def results_directory(values: Mapping[str, Any]) -> str:

@@ -1,29 +1,37 @@
 """The configuration of the workflow: read, checked as a whole, converted to settings and runs.
 
-All problems of a configuration are reported together, each with key, value, unit and range.
+All problems of a configuration are reported together, each with key, value, unit and range. A
+study is expanded into runs when one of them is first used.
 """
 
 import dataclasses
+import difflib
 import functools
 import os
-from collections.abc import Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
-from nucleation.model.linearised import InterfaceState, linearised, loaded, not_rounded_from
-from nucleation.model.parameters import Parameters
+import numpy as np
+
+from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from nucleation.model.units import parse
-from nucleation.strict_yaml import read_yaml
+from nucleation.run.names import read
+from nucleation.run.run import PAPER_RUN
 
-from . import schema
-from .configuration import Configuration
-from .contradictions import results_directory, results_problems
-from .refusals import range_problems, stop_on, value_problems
-from .role_problems import problems_of_studies
-from .setting_problems import rounding_problems, setting_problems
-from .settings import StudySettings
-from .study_names import in_type
+from .checks import entries_of, range_problems, stop_on, value_problems, with_numbers
+from .contradictions import (
+    results_directory,
+    results_problems,
+    role_problems,
+    run_problems,
+    setting_problems,
+)
+from .names import SECTIONS, typed
+from .roles import PAPERS, problems_of_studies
+from .runs import StudyRun, shown
+from .settings import GROUPS, Curves, Settings, StudySettings
+from .studies import study_runs
 
 CHECKOUT = Path(__file__).parents[3]
 DEFAULTS = (
@@ -32,29 +40,158 @@ DEFAULTS = (
 )
 """The default configuration: the paper's, and the studies beyond it."""
 
+_Named = TypeVar("_Named")
 
-def load(
-    *paths: str | os.PathLike[str],
-    lazy: bool = False,
-) -> Configuration:
-    """The configuration in YAML files, or the default one.
 
-    Parameters
-    ----------
-    *paths : path
-        Values of a file replace those of the files before it. Without a file it is the default
-        configuration of the checkout.
-    lazy : bool
-        See :func:`configure`.
+class _Expanded(NamedTuple):
+    """The runs of a study."""
 
-    Returns
-    -------
-    Configuration
+    runs: dict[str, StudyRun]  # by their ids
+    batches: dict[str, list[StudyRun]]  # by their names
+    problems: list[str]
 
-    Raises
-    ------
-    ParameterError
-        With one line for each problem found.
+
+@dataclasses.dataclass(frozen=True)
+class Configuration(Settings):
+    """Everything the workflow does.
+
+    Methods that return runs raise a ParameterError with all problems of the study if it has any.
+    """
+
+    _kept: dict[str, _Expanded] = dataclasses.field(
+        default_factory=dict,
+        init=False,
+        repr=False,
+        compare=False,
+    )
+
+    @property
+    def runs(self) -> tuple[StudyRun, ...]:
+        """The runs of all studies, in the configuration's order."""
+        return tuple(self._runs_of_all(self.studies))
+
+    def runs_of(self, study: str) -> list[StudyRun]:
+        """The runs of one study, none if there is no such study."""
+        if study not in self.studies:
+            return []
+        return list(self._checked(study).runs.values())
+
+    def studies_for(self, *roles: str) -> list[str]:
+        """The names of the studies with some roles, in the configuration's order."""
+        return [name for name, study in self.studies.items() if study.role in roles]
+
+    def runs_for(self, *roles: str) -> list[StudyRun]:
+        """The runs of the studies with some roles."""
+        return self._runs_of_all(self.studies_for(*roles))
+
+    def _runs_of_all(self, studies: Iterable[str]) -> list[StudyRun]:
+        return [run for study in studies for run in self.runs_of(study)]
+
+    def run(self, identifier: str) -> StudyRun:
+        """The run with an identifier such as ``paper-aging-H0.005-phi1``.
+
+        A ParameterError names similar identifiers if there is none.
+        """
+        study = self._study_in(identifier, "run")
+        return _found("run", identifier, self._checked(study).runs, study)
+
+    def batch(self, name: str) -> list[StudyRun]:
+        """The runs of the batch with a name such as ``paper-0``; one job makes them."""
+        study = self._study_in(name, "batch")
+        return list(_found("batch", name, self._checked(study).batches, study))
+
+    def shown(self, height: float) -> StudyRun:
+        """The run with the role ``paper`` nearest to a height (m), which figures show."""
+        run = shown(self.runs_for(PAPERS), height, self.base)
+        if run is None:
+            age = self.base.fault.initial_state
+            raise ParameterError(
+                "no study with role: paper has a run with evolution = "
+                f"{self.base.law.evolution} and initial_state = {age:g} s"
+            )
+        return run
+
+    def drawn_curves(self) -> Curves:
+        """The theory's curves, with heights beyond either end of the runs in Figure 3."""
+        heights = list(self.curves.heights)
+        simulated = [run.run.fault.height for run in self.runs_for(PAPERS)]
+        low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
+        if low < min(heights):
+            heights[:0] = np.geomspace(low, min(heights), 20, endpoint=False).tolist()
+        if high > max(heights):
+            heights += np.geomspace(max(heights), high, 21)[1:].tolist()
+        return dataclasses.replace(self.curves, heights=tuple(heights))
+
+    def problems_of(self, study: str) -> list[str]:
+        """The problems with the runs of a study, one line for each."""
+        return self._expanded(study).problems
+
+    def _checked(self, study: str) -> _Expanded:
+        expanded = self._expanded(study)
+        stop_on(expanded.problems)
+        return expanded
+
+    def _expanded(self, study: str) -> _Expanded:
+        if study not in self._kept:
+            self._kept[study] = self._expand(study)
+        return self._kept[study]
+
+    def _expand(self, study: str) -> _Expanded:
+        found = list(study_runs(study, self))
+        runs = [run for _, run in found if isinstance(run, StudyRun)]
+        problems = list(self._run_problems(found))
+        if not problems:
+            problems += role_problems(study, self, runs)
+        batches: dict[str, list[StudyRun]] = {}
+        for run in runs:
+            if run.batch:
+                batches.setdefault(run.batch, []).append(run)
+        by_id = {run.id: run for run in runs}
+        return _Expanded(by_id, batches, problems)
+
+    def _run_problems(self, found: Iterable[tuple[str, StudyRun | str]]) -> Iterator[str]:
+        """Runs that are invalid, repeated or contradictory."""
+        seen: dict[Hashable, str] = {}
+        for key, run in found:
+            if isinstance(run, str):
+                yield f"{key}: {run}"
+                continue
+            for mark in (run.id, run.run):
+                if mark in seen:
+                    yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+                seen[mark] = key
+            yield from run_problems(key, run, self.limits, self.extraction)
+
+    def _study_in(self, name: str, kind: str) -> str:
+        """The study at the start of the name of a run or of a batch."""
+        study = name.partition("-")[0]
+        if study in self.studies:
+            return study
+        close = difflib.get_close_matches(study, self.studies, n=1)
+        listed = ", ".join(self.studies)
+        hint = f"did you mean {close[0]}?" if close else f"studies: {listed}"
+        raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
+
+
+def _found(kind: str, name: str, known: Mapping[str, _Named], study: str) -> _Named:
+    """The run or the batch of a study with a name."""
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, n=3)
+    if not known:
+        hint = f"the study {study} has none"
+    elif close:
+        hint = f"did you mean {' or '.join(close)}?"
+    else:
+        example = next(iter(known))
+        hint = f"those of the study {study} have names like {example}"
+    raise ParameterError(f"there is no {kind} {name}; {hint}")
+
+
+def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
+    """The configuration in YAML files, or the default one of the checkout without a file.
+
+    Values of a file replace those of the files before it; `lazy` is that of :func:`configure`.
     """
     layers = map(read_yaml, paths)
     values = functools.reduce(_merged, layers) if paths else {}
@@ -74,10 +211,7 @@ def _merged(first: Any, later: Any) -> Any:
 def completed(values: Any) -> Any:
     """A configuration with studies: those of the default one if it has none itself.
 
-    Raises
-    ------
-    ParameterError
-        If there is no default configuration, because the library is not in a checkout.
+    A ParameterError if there is no default one, because the library is not in a checkout.
     """
     if not isinstance(values, dict):
         return values
@@ -89,10 +223,7 @@ def completed(values: Any) -> Any:
             "the configuration lacks the key studies: only a checkout of the project has the "
             "paper's, in config/config.yaml"
         )
-    default = functools.reduce(_merged, map(read_yaml, DEFAULTS))
-    if "friction" in values or "loading" in values:
-        del default["main_text_interface"]  # the rounded values of the paper's own friction law
-    return _merged(default, values)
+    return _merged(functools.reduce(_merged, map(read_yaml, DEFAULTS)), values)
 
 
 def _with_paper(studies: Any) -> Any:
@@ -109,38 +240,20 @@ def _with_paper(studies: Any) -> Any:
     return studies | {name: papers[name] | studies[name] for name in unnamed if name in papers}
 
 
-def configure(
-    values: Any,
-    *,
-    lazy: bool = False,
-) -> Configuration:
-    """Check a configuration and convert it to settings and runs.
+def configure(values: Any, *, lazy: bool = False) -> Configuration:
+    """Check a configuration in plain dictionaries and convert it to settings and runs.
 
-    Parameters
-    ----------
-    values : dict
-        The configuration in plain dictionaries, as read from YAML. A missing key, also
-        ``studies``, has the value of the default configuration.
-    lazy : bool
-        Whether the runs of a study are checked only when they are first used.
-
-    Returns
-    -------
-    Configuration
-
-    Raises
-    ------
-    ParameterError
-        With one line for each problem found.
+    A missing key has the paper's value; without ``studies`` the configuration is the default one
+    with other values. With `lazy` the runs of a study are checked when they are first used. A
+    ParameterError has one line for each problem.
     """
     values = completed(values)
-    values = _with_numbers(values)
+    values = with_numbers(values)
     stop_on(value_problems(values))
     problems = list(range_problems(values))
     problems += results_problems(results_directory(values))
     stop_on(problems)
     settings = _settings(values)
-    stop_on(rounding_problems(settings))
     problems = []
     if not lazy:
         for study in settings.studies:
@@ -154,79 +267,25 @@ def configure(
 def _settings(values: Mapping[str, Any]) -> Configuration:
     """The settings in a configuration with allowed values."""
     groups = {}
-    for name in schema.GROUPS:
+    for name, cls in GROUPS.items():
+        entries = entries_of(name)
         section = values.get(name, {})
-        try:
-            groups[name] = _group(name, section)
-        except ParameterError as error:  # a parameter that the chosen friction law does not have
-            stop_on([str(error)])
-    own = {}
-    for field in dataclasses.fields(Parameters):
-        if field.name in groups:
-            own[field.name] = groups.pop(field.name)
-    drop = groups["extraction"].drop
-    base = _recording_the_drop(Parameters(**own), drop)
-    main_text = groups.pop("main_text_interface")
-    main_text = loaded(main_text, base.loading)
-    if not values.get("main_text_interface"):
-        main_text = _own_unless_rounded(main_text, base)
-    studies = {}
-    for name, section in values["studies"].items():
-        studies[name] = StudySettings.of(section)
+        groups[name] = cls(**{key: typed(entries[key], own) for key, own in section.items()})
+    given: dict[str, Any] = {}
+    for section in SECTIONS:
+        given |= values.get(section, {})
+    try:
+        base = PAPER_RUN.replaced(**read(given))
+    except ParameterError as error:  # a parameter that the chosen friction law does not have
+        stop_on([str(error)])
+    drop = max(base.stepping.event_drop, groups["extraction"].drop)
+    base = base.replaced(event_drop=drop)  # runs do not end before the force has dropped so far
+    studies = {name: StudySettings.of(section) for name, section in values["studies"].items()}
     return Configuration(
         results=results_directory(values),
         base=base,
-        main_text_interface=main_text,
         studies=studies,
         sections=values["studies"],
         stepping=tuple(values.get("stepping", ())),
         **groups,
     )
-
-
-def _recording_the_drop(base: Parameters, drop: float) -> Parameters:
-    """Parameters of runs that do not end before the force has dropped by a fraction."""
-    event_drop = max(base.stepping.event_drop, drop)
-    stepping = dataclasses.replace(base.stepping, event_drop=event_drop)
-    return dataclasses.replace(base, stepping=stepping)
-
-
-def _own_unless_rounded(rounded: InterfaceState, base: Parameters) -> InterfaceState:
-    """The default friction of the theory's curves.
-
-    The paper's rounded values if they are roundings of the friction law; for any other law its own
-    values.
-    """
-    exact = linearised(base.friction, base.loading)
-    return exact if not_rounded_from(rounded, exact) else rounded
-
-
-def _group(name: str, values: Mapping[str, Any]) -> Any:
-    """The dataclass of a section, with numbers in their declared type."""
-    cls = schema.GROUPS[name]
-    entries = schema.group_entries(name)
-    typed = {}
-    for key, value in values.items():
-        typed[key] = in_type(entries[key], value)
-    return cls(**typed)
-
-
-def _with_numbers(value: Any, path: tuple[object, ...] = ()) -> Any:
-    """A copy of a configuration as read from YAML, with texts such as ``30 GPa`` as numbers.
-
-    YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text. A text that is not an allowed number is
-    kept; a later check refuses it.
-    """
-    if isinstance(value, dict):
-        return {key: _with_numbers(own, (*path, key)) for key, own in value.items()}
-    if isinstance(value, list):
-        return [_with_numbers(own, (*path, number)) for number, own in enumerate(value)]
-    if not isinstance(value, str):
-        return value
-    entry = schema.entry_at(path)
-    if entry is None:
-        return value
-    try:
-        return parse("", value, entry)
-    except ParameterError:
-        return value

@@ -4,7 +4,7 @@ A study has its role in its section of the configuration. The names of studies a
 have no meaning.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 OWN = "own"
@@ -45,7 +45,7 @@ _INTERFACE = _Need("record", "interface".__eq__, "interface")
 _UNPERTURBED = _Need("perturbation", "none".__eq__, "none")
 _PAIR = _Need("second_body", "deformable".__eq__, "deformable")
 _REMOTE = _Need("loading", "remote".__eq__, "remote")
-_ZETA_VARIES = _Need("varies", "zeta".__eq__, "zeta")
+_ZETA_VARIES = _Need("heterogeneity", "zeta".__eq__, "zeta")
 
 
 class _Role(NamedTuple):
@@ -157,3 +157,20 @@ PAIRS = ("pairs", "pairs_identical", "figure_2_simulated")
 
 REFINEMENTS = ("convergence", "convergence_quiet")
 """Roles of studies in the table of refinement."""
+
+
+def problems_of_studies(studies: Mapping[str, Any]) -> Iterator[str]:
+    """Settings of studies that contradict their roles, a line for each."""
+    first_with: dict[str, str] = {}
+    for name, settings in studies.items():
+        role = settings.role
+        first = first_with.setdefault(role, name)
+        if first != name and not ROLES[role].several:
+            yield (
+                f"studies.{name}.role = {role} is not allowed: studies.{first} has it, "
+                "and it must be one study's alone"
+            )
+        for need in ROLES[role].study:
+            value = getattr(settings, need.name)
+            if not need.allowed(value):
+                yield need.refusal(f"studies.{name}.{need.name}", value, role)

@@ -1,16 +1,18 @@
-"""Settings beside the simulations' parameters: of studies, of figures, and limits."""
+"""Settings beside the parameters of simulations: of studies, curves, figures, and limits."""
 
 import dataclasses
 from collections.abc import Collection, Mapping
 from typing import Any, Self
 
-from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.checked import Checked
-from nucleation.model.linearised import InterfaceState
-from nucleation.model.parameters import Parameters
-from nucleation.model.quantities import quantity
-from nucleation.theory.settings import Curves
+import numpy as np
 
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.fault import Fault
+from nucleation.model.checked import Checked
+from nucleation.model.quantities import quantity
+from nucleation.run.run import Run
+
+from ..tables.main_text import main_text
 from .roles import OWN, ROLES
 
 
@@ -34,8 +36,8 @@ class StudySettings(Checked):
         default=6.0,
     )
     interface: str = quantity(
-        "linearised friction of the theory: the rounded values of the group main_text_interface, "
-        "which must be those of the run's friction law, or that law expanded at the run's velocity",
+        "f, a and zeta of the theory: main_text rounds those of the run's friction law at V to two "
+        "digits, as the paper's main text does; friction_law does not round them",
         choices=("main_text", "friction_law"),
         default="friction_law",
     )
@@ -62,6 +64,40 @@ class StudySettings(Checked):
         """The settings in a study's section of the configuration."""
         others = ("defaults", "runs")
         return cls(**{key: value for key, value in section.items() if key not in others})
+
+
+def _spaced(values: np.ndarray) -> tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") for x in values)
+
+
+@dataclasses.dataclass(frozen=True)
+class Curves(Checked):
+    """Where the theory's curves are computed."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the theory's curve in Figure 3",
+        "(0.0, 1e6) m",
+        symbol="H",
+        default=_spaced(np.geomspace(0.003, 0.15, 80)),
+    )
+    f_beta: tuple[float, ...] = quantity(
+        "friction coefficient times bimaterial contrast in Figure 2",
+        "(-10.0, 10.0)",
+        symbol="f beta",
+        default=_spaced(np.linspace(0.0, 0.5, 101)),
+    )
+    zeta_over_a: tuple[float, ...] = quantity(
+        "velocity weakening over direct effect in Figure 2",
+        "(0.0, 1e6)",
+        symbol="zeta/a",
+        default=(0.1, 0.3, 1.0, 3.0, 10.0),
+    )
+    slip_rates: tuple[float, ...] = quantity(
+        "slip rates of steady sliding in Figure S1",
+        "(0.0, 1e4) m/s",
+        symbol="v",
+        default=_spaced(np.geomspace(1e-11, 1e1, 241)),
+    )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,13 +128,22 @@ class Limits(Checked):
     )
 
 
+GROUPS: dict[str, type] = {
+    "curves": Curves,
+    "extraction": ExtractionSettings,
+    "figures": FigureSettings,
+    "limits": Limits,
+}
+"""The sections of a configuration beside those of the parameters of runs and the studies."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Settings:
     """All settings of the workflow, and the sections of its studies."""
 
     results: str
-    base: Parameters
-    main_text_interface: InterfaceState
+    base: Run
+    """Values of the parameters that no study sets."""
     curves: Curves
     extraction: ExtractionSettings
     figures: FigureSettings
@@ -110,16 +155,7 @@ class Settings:
     stepping: Collection[str] = ()
     """The keys in the section ``stepping``."""
 
-
-def estimated_megabytes(parameters: Parameters) -> float:
-    """Memory (MB) that a simulation needs, rounded up from measured runs.
-
-    The memory consists of the libraries, some hundred vectors of the bodies (mostly the stored
-    factors for step sizes in use) and some dense matrices of the interface.
-    """
-    mesh = parameters.mesh
-    below = parameters.below
-    rows = mesh.n_y + (below.mesh.n_y if below else 0)
-    vector = 8e-6 * 2 * mesh.n_x * rows
-    matrix = 8e-6 * mesh.n_x**2
-    return 250.0 + 400.0 * vector + 8.0 * matrix
+    @property
+    def main_text(self) -> Fault:
+        """The fault of the theory's curves in the paper's figures, with rounded friction."""
+        return main_text(self.base.fault)

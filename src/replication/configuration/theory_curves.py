@@ -4,12 +4,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from nucleation.theory.critical import critical_lengths
+from nucleation.run.names import parameters
 
-from .runs import Run, varied
+from .runs import StudyRun, varied
 from .settings import Settings
-from .studies import fault_of
-from .study_names import study_parameters
+from .studies import critical_lengths, fault_of
 
 _CURVE_POINTS = 81
 """Values of the varied number."""
@@ -18,14 +17,14 @@ _Curve = dict[str, list[float]]
 
 
 def theory_curves(
-    runs: list[Run],
+    runs: list[StudyRun],
     configuration: Settings,
 ) -> dict[str, _Curve]:
     """The theory's length over the one number that a study varies, closely spaced.
 
     Parameters
     ----------
-    runs : list of Run
+    runs : list of StudyRun
         Runs of one study.
     configuration : Settings
         With the study.
@@ -38,7 +37,7 @@ def theory_curves(
         study varies several numbers or none, or an integer.
     """
     found = varied(runs)
-    declared = study_parameters()
+    declared = parameters()
     words = [name for name in found if declared[name].choices]
     numbers = [name for name in found if name not in words]
     if len(numbers) != 1:
@@ -48,7 +47,7 @@ def theory_curves(
         return {}
 
     values: dict[str, list[float]] = {}
-    first_runs: dict[str, Run] = {}
+    first_runs: dict[str, StudyRun] = {}
     for i, run in enumerate(runs):
         own_words = [str(found[word][i]) for word in words]
         kind = ", ".join(own_words)
@@ -64,8 +63,9 @@ def theory_curves(
         faults = []
         for value in x:
             given = {**run.given, name: value}
-            faults.append(fault_of(run.study, given, configuration))
-        lengths = critical_lengths(faults).tolist()
+            _, theory = fault_of(run.study, given, configuration)
+            faults.append(theory)
+        lengths = critical_lengths(faults)
         curves[kind] = {
             "x": _rounded(x),
             "length": _rounded(lengths),

@@ -107,13 +107,13 @@ class _Maker:
 
     def _simulated(self, recipe: Recipe) -> xr.Dataset:
         """The record of a run, from its checkpoint; a signal leaves a new one."""
-        from nucleation.model.parameters import Parameters
+        from nucleation.run.run import Run
         from nucleation.simulation.checkpoints import Stopped
         from nucleation.simulation.progress import Progress
         from nucleation.simulation.to_file import checkpoint_of, run_to_file
 
         name = recipe.name.rpartition("/")[2]
-        parameters = Parameters.from_dict(recipe.values["parameters"])
+        parameters = Run.from_dict(recipe.values["parameters"])
         place = Path(recipe.results, UNFINISHED, f"{name}.nc")
         checkpoint = checkpoint_of(parameters, place, recipe.code)
 

@@ -12,15 +12,13 @@ from numpy.typing import ArrayLike
 
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate
-from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import interface_state
-from nucleation.model.material import Material
-from nucleation.model.parameters import Loading, Parameters
-from nucleation.theory.critical import modes_on_rigid_base, unstable_modes
-from nucleation.theory.curves import CURVES
-from nucleation.theory.of_runs import blocks_on_rigid_base
+from nucleation.run.run import PAPER_RUN, Run
+from nucleation.theory.critical import unstable_modes
+from nucleation.theory.evaluation import single_system
 from nucleation.types import ComplexArray
 
+from .curves import CURVES
+from .main_text import on_rigid_base
 from .sliding_modes import measured_rates
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
@@ -47,18 +45,15 @@ def by_direction(rates: ArrayLike) -> ComplexArray:
     return np.take_along_axis(values, order, axis=-1)
 
 
-def _heights_for(parameters: Parameters) -> list[float]:
+def _heights_for(run: Run) -> list[float]:
     """Heights (m) that have the ratios of :data:`HEIGHTS` to the L_c of a high block."""
-    own, papers = (
-        modes_on_rigid_base(math.inf, fault.material, interface_state(fault)).length
-        for fault in (parameters, Parameters())
-    )
+    own, papers = (on_rigid_base(one.fault, math.inf).critical_length() for one in (run, PAPER_RUN))
     ratio = float(own / papers)
     return [float(f"{height * ratio:.3g}") for height in HEIGHTS]
 
 
 def dispersion_dataset(
-    parameters: Parameters, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
+    run: Run, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
 ) -> xr.Dataset:
     """Rates by Eq. (5) and by the time integration on (height, mode, branch).
 
@@ -67,16 +62,15 @@ def dispersion_dataset(
     """
     heights = np.asarray(heights, dtype=float)
     modes = np.asarray(modes, dtype=float)
-    interface = interface_state(parameters)
     critical = []
     measured = []
     theory = []
     for height in heights:
-        block = blocks_on_rigid_base(parameters.material, np.array([height]), interface)
+        block = single_system(on_rigid_base(run.fault, height))
         k_c = float(unstable_modes(block).wavenumber[0])
         seeded = k_c * modes
         critical.append(k_c)
-        measured.append([measured_rates(parameters, height, k) for k in seeded])
+        measured.append([measured_rates(run, height, k) for k in seeded])
         theory.append(block.growth_rates(seeded).T)
     on = ("height", "mode", "branch")
     columns: dict[str, object] = {
@@ -120,8 +114,7 @@ def dispersion_csv(dataset: xr.Dataset) -> str:
     return frame[order].to_csv(index=False, float_format="%.8g")
 
 
-def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
+def files(base: Run) -> dict[str, xr.Dataset | str]:
     """The files of the step ``dispersion``."""
-    parameters = Parameters(material=material, friction=friction, loading=loading)
-    found = dispersion_dataset(parameters, _heights_for(parameters))
+    found = dispersion_dataset(base, _heights_for(base))
     return {".nc": found, ".csv": dispersion_csv(found)}

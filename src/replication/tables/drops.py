@@ -17,11 +17,10 @@ import xarray as xr
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
-from nucleation.model.identity import fault
-from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
+from nucleation.run.identity import fault
+from nucleation.run.run import Run
 from nucleation.theory.creep.lengths import stability_length_of
-from nucleation.theory.creep.patches import Patches
 from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS
@@ -166,14 +165,14 @@ def _laws(runs: Iterable[Row]) -> dict[str, _Law]:
     """The law by fault, without faults that have no patches the theory can follow."""
     laws = {}
     for run in runs:
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         with contextlib.suppress(NoLength):
             critical = run["critical_length"]
-            loading = parameters.loading
-            stress = loading.initial_shear_stress / loading.normal_stress
-            patches = Patches.of(parameters)
-            history = mode_history(patches, critical, loading.initial_state, stress)
-            laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))
+            own = parameters.fault
+            stress = parameters.start.initial_shear_stress / own.normal_stress
+            patches = parameters.patches
+            history = mode_history(patches, critical, own.initial_state, stress)
+            laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
     return laws
 
 

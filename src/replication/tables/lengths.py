@@ -13,8 +13,8 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import MEASURED, extract
 from nucleation.extraction.measures import MEASURES, measure
 from nucleation.extraction.record import Record
-from nucleation.model.identity import ensemble, fault
-from nucleation.model.parameters import Parameters
+from nucleation.run.identity import ensemble, fault
+from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 from nucleation.types import Array
 
@@ -81,32 +81,32 @@ COLUMNS = {
 """Name of the simulation, its measured lengths, its cost, and its parameters."""
 
 GIVEN = {
-    "evolution": "friction.evolution",
-    "height": "geometry.height",
-    "n_x": "mesh.n_x",
-    "n_y": "mesh.n_y",
-    "grading": "mesh.grading",
-    "tolerance": "stepping.tolerance",
-    "longest_step": "stepping.longest_step",
-    "density": "material.density",
-    "shear_modulus": "material.shear_modulus",
-    "poisson_ratio": "material.poisson_ratio",
-    "plane": "material.plane",
-    "velocity": "loading.velocity",
-    "initial_stress": "loading.initial_stress",
-    "initial_shear_stress": "loading.initial_shear_stress",
-    "kind": "perturbation.kind",
-    "seed": "perturbation.seed",
-    "correlation_length": "perturbation.correlation_length",
-    "initial_state": "loading.initial_state",
-    "loading": "loading.kind",
-    "normal_stress": "loading.normal_stress",
-    "block_length": "geometry.length",
-    "slip_distance": "friction.slip_distance",
-    "friction_law": "friction.law",
-    "below": "second_body.kind",
+    "evolution": "evolution",
+    "height": "height",
+    "n_x": "n_x",
+    "n_y": "n_y",
+    "grading": "grading",
+    "tolerance": "tolerance",
+    "longest_step": "longest_step",
+    "density": "density",
+    "shear_modulus": "shear_modulus",
+    "poisson_ratio": "poisson_ratio",
+    "plane": "plane",
+    "velocity": "velocity",
+    "initial_stress": "initial_stress",
+    "initial_shear_stress": "initial_shear_stress",
+    "kind": "perturbation",
+    "seed": "seed",
+    "correlation_length": "correlation_length",
+    "initial_state": "initial_state",
+    "loading": "loading",
+    "normal_stress": "normal_stress",
+    "block_length": "block_length",
+    "slip_distance": "slip_distance",
+    "friction_law": "friction_law",
+    "below": "second_body",
 }
-"""Columns that are a parameter, by its full name."""
+"""Columns that are a parameter, and its name."""
 
 
 COMPARED = (
@@ -146,14 +146,14 @@ def _stability(run: Row) -> Row:
 
     Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
     """
-    from nucleation.theory.creep.lengths import Patches, stability_point
+    from nucleation.theory.creep.lengths import stability_point
 
-    parameters = Parameters.from_dict(run["parameters"])
+    parameters = Run.from_dict(run["parameters"])
     length, status = float("nan"), UNKNOWN
     is_uniform = parameters.heterogeneity.varies in ("none", "friction")
-    if parameters.loading.kind == "edge" or is_uniform:
+    if parameters.fault.loading == "edge" or is_uniform:
         try:
-            length = stability_point(Patches.of(parameters), run["critical_length"]).length
+            length = stability_point(parameters.patches, run["critical_length"]).length
             status = VALUE
         except NoLength as none:
             status = none.status
@@ -200,27 +200,27 @@ def _first(values: Array) -> Any:
 
 def description(run: Row) -> Row:
     """The columns with the run's parameters, and the theory's length for them."""
-    parameters = Parameters.from_dict(run["parameters"])
-    interface = run["interface"]
-    values = parameters.named()
-    quiet = values["perturbation.kind"] == "none"
+    parameters = Run.from_dict(run["parameters"])
+    values = run["parameters"]
+    theory = run["theory"]
+    quiet = values["perturbation"] == "none"
     return {
         **{name: values[parameter] for name, parameter in GIVEN.items()},
         **second_body(parameters),
-        "strength": 0.0 if quiet else values["perturbation.strength"],
+        "strength": 0.0 if quiet else values["strength"],
         "fault": fault(parameters),
         "ensemble": ensemble(parameters),
         "id": run["id"],
         "study": run["study"],
         "role": run["role"],
         "critical_length": run["critical_length"],
-        "friction": interface["friction"],
-        "a": interface["a"],
-        "zeta": interface["zeta"],
+        "friction": theory["friction"],
+        "a": theory["a"],
+        "zeta": theory["zeta"],
     }
 
 
-def second_body(parameters: Parameters) -> Row:
+def second_body(parameters: Run) -> Row:
     """The columns of the second body: a rigid base has no far side and an infinite modulus."""
     below = parameters.below
     if below is None:
@@ -232,7 +232,7 @@ def second_body(parameters: Parameters) -> Row:
         }
     return {
         "far_side": below.far_side,
-        "second_height": below.geometry.height,
+        "second_height": below.height,
         "second_shear_modulus": below.material.shear_modulus,
         "second_poisson_ratio": below.material.poisson_ratio,
     }

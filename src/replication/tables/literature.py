@@ -24,7 +24,7 @@ from nucleation.lengths.formulas import (
 )
 from nucleation.lengths.in_use import LENGTHS, values_of
 from nucleation.lengths.length import TWO_MATERIALS
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import Run
 
 from .rows import Row
 
@@ -78,16 +78,16 @@ COLUMNS = {
 }
 
 
-def length_of(parameters: Parameters) -> str:
+def length_of(parameters: Run) -> str:
     """Key of the literature's length that a run simulates.
 
     Between the limits of the aging law's two lengths it is the fixed one.
     """
-    friction = parameters.friction
-    _, a, zeta = friction.expansion(parameters.loading.velocity)
+    friction = parameters.law
+    _, a, zeta = friction.expansion(parameters.fault.velocity)
     if friction.evolution == "slip":
         return "state_evolution"
-    if parameters.second_body.kind == "rigid":
+    if parameters.below is None:
         return "thin_layer"
     expands = a > CRACK_LIMIT * (a + zeta)
     return "rubin_ampuero_crack" if expands else "rubin_ampuero_localised"
@@ -97,18 +97,28 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
     """Simulated lengths beside their formulas, and the lengths that have no run here."""
     rows: list[Row] = []
     for run, simulation in zip(runs, simulations, strict=True):
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         rows += _rows(run["id"], parameters, simulation)
     simulated = {row["name"] for row in rows}
     return table([*rows, *_not_simulated(simulated)], COLUMNS)
 
 
-def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[Row]:
+def _rows(id: str, parameters: Run, simulation: xr.Dataset) -> Iterator[Row]:
     """A run's rows, one for each slip rate."""
-    friction = parameters.friction
+    friction = parameters.law
     slip_distance = friction.slip_distance
-    fault = _fault_of(parameters)
-    _, a, zeta = friction.expansion(parameters.loading.velocity)
+    own = parameters.fault
+    fault = Fault(  # of the formulas
+        shear_modulus=own.shear_modulus,
+        poisson_ratio=own.poisson_ratio,
+        plane=own.plane,
+        normal_stress=own.normal_stress,
+        a=own.a,
+        zeta=own.zeta,
+        slip_distance=own.slip_distance,
+        height=own.height,
+    )
+    _, a, zeta = friction.expansion(parameters.fault.velocity)
     b = a + zeta
     name = length_of(parameters)
     expands = name == "rubin_ampuero_crack"
@@ -127,10 +137,10 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
         "a_over_b": a / b,
         "definition": definition.words,
         "formula_length": formula,
-        "height": parameters.geometry.height,
-        "n_x": parameters.mesh.n_x,
-        "n_y": parameters.mesh.n_y,
-        "stress_rate": parameters.loading.stress_rate,
+        "height": parameters.fault.height,
+        "n_x": parameters.block.n_x,
+        "n_y": parameters.block.n_y,
+        "stress_rate": parameters.start.stress_rate,
         "change": parameters.heterogeneity.change,
         "width": parameters.heterogeneity.width,
     }
@@ -151,22 +161,6 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
             other = definition._replace(part=1.0, share=share)
             row[column] = zone_length(simulation, slip_rate, other)
         yield row
-
-
-def _fault_of(parameters: Parameters) -> Fault:
-    """The fault of a run for the formulas, with the logarithmic law about steady sliding."""
-    load = parameters.loading
-    _, a, zeta = parameters.friction.expansion(load.velocity)
-    return Fault(
-        shear_modulus=parameters.material.shear_modulus,
-        poisson_ratio=parameters.material.poisson_ratio,
-        plane=parameters.material.plane,
-        normal_stress=load.normal_stress,
-        a=a,
-        zeta=zeta,
-        slip_distance=parameters.friction.slip_distance,
-        height=parameters.geometry.height,
-    )
 
 
 def _not_simulated(simulated: set[str]) -> Iterator[Row]:

@@ -15,13 +15,10 @@ import xarray as xr
 
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import annotate
-from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import interface_state
-from nucleation.model.material import Material
-from nucleation.model.parameters import Loading, Parameters
+from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.critical import unstable_modes
-from nucleation.theory.of_runs import systems_of
+from nucleation.theory.evaluation import single_system
 from nucleation.types import Array
 
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
@@ -60,15 +57,15 @@ class LayerPair(NamedTuple):
             "second_poisson_ratio": self.second_poisson_ratio,
         }
 
-    def parameters(self, base: Parameters, height: float, second_height: float) -> Parameters:
-        """Parameters of layers of these heights (m), with friction and loading of `base`."""
+    def run(self, base: Run, height: float, second_height: float) -> Run:
+        """Run of layers of these heights (m), with friction and loading of `base`."""
         further = {
             "plane": "strain",
             "second_body": "deformable",
             "second_density": SECOND_DENSITY,
             "second_far_side": self.far_side,
         }
-        return base.replaced(self.bodies(height, second_height) | further)
+        return base.replaced(**self.bodies(height, second_height) | further)
 
 
 THIN_LAYERS = (
@@ -90,20 +87,19 @@ HALF_SPACES = (
 """Layers of a height at which their far sides do not matter."""
 
 
-def _sized(layers: LayerPair, base: Parameters, ratio: float) -> tuple[Parameters, float]:
+def _sized(layers: LayerPair, base: Run, ratio: float) -> tuple[Run, float]:
     """The parameters of a pair for a mode of ``ratio`` k_c, and k_c (1/m)."""
     if layers.height is not None:
-        found = layers.parameters(base, layers.height, LOWER_HEIGHT * layers.height)
+        found = layers.run(base, layers.height, LOWER_HEIGHT * layers.height)
         return found, _critical(found)
-    critical = _critical(layers.parameters(base, ENDLESS, ENDLESS))
+    critical = _critical(layers.run(base, ENDLESS, ENDLESS))
     height = DEEP * 2.0 * np.pi / (ratio * critical)
-    return layers.parameters(base, height, height), critical
+    return layers.run(base, height, height), critical
 
 
-def _critical(parameters: Parameters) -> float:
+def _critical(run: Run) -> float:
     """k_c (1/m)."""
-    own = systems_of([(parameters, interface_state(parameters))])
-    return float(unstable_modes(own).wavenumber[0])
+    return float(unstable_modes(single_system(run.fault)).wavenumber[0])
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
@@ -127,28 +123,27 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
     return response.real, -response.imag / f
 
 
-def mode_row(layers: LayerPair, base: Parameters, ratio: float) -> dict[str, Any]:
+def mode_row(layers: LayerPair, base: Run, ratio: float) -> dict[str, Any]:
     """Columns of :func:`pair_modes` of one mode, at a wavenumber over the critical one."""
-    parameters, critical = _sized(layers, base, ratio)
-    interface = interface_state(parameters)
-    below = parameters.below
+    run, critical = _sized(layers, base, ratio)
+    fault, below = run.fault, run.below
     assert below is not None
-    height = parameters.geometry.height
+    height = fault.height
     k = ratio * critical
-    measured = measured_rates(parameters, height, k)
-    theory = systems_of([(parameters, interface)]).growth_rates(np.array([k]))[:, 0]
-    contrast = bimaterial_contrast(parameters.material, below.material)
+    measured = measured_rates(run, height, k)
+    theory = single_system(fault).growth_rates(np.array([k]))[:, 0]
+    contrast = bimaterial_contrast(run.upper.material, below.material)
     return {
         "id": layers.name,
         "far_side": layers.far_side,
-        **layers.bodies(height, below.geometry.height),
-        "friction": interface.friction,
-        "a": interface.a,
-        "zeta": interface.zeta,
-        "slip_distance": interface.slip_length,
-        "velocity": interface.velocity,
-        "normal_stress": interface.normal_stress,
-        "f_beta": interface.friction * contrast,
+        **layers.bodies(height, below.height),
+        "friction": fault.friction,
+        "a": fault.a,
+        "zeta": fault.zeta,
+        "slip_distance": fault.slip_distance,
+        "velocity": fault.velocity,
+        "normal_stress": fault.normal_stress,
+        "f_beta": fault.friction * contrast,
         "mode_wavenumber": k,
         "critical_wavenumber": critical,
         "measured": by_direction(measured),
@@ -157,7 +152,7 @@ def mode_row(layers: LayerPair, base: Parameters, ratio: float) -> dict[str, Any
 
 
 def pair_modes(
-    base: Parameters,
+    base: Run,
     pairs: tuple[LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
     ratios: tuple[float, ...] = RATIOS,
 ) -> xr.Dataset:
@@ -183,8 +178,7 @@ def _csv(dataset: xr.Dataset) -> str:
     return frame.drop(columns="run").to_csv(index=False, float_format="%.8g")
 
 
-def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
-    """The files of the step ``pair_modes``; each pair replaces the moduli of the material."""
-    base = Parameters(material=material, friction=friction, loading=loading)
+def files(base: Run) -> dict[str, xr.Dataset | str]:
+    """The files of the step ``pair_modes``; each pair replaces the moduli of the base."""
     found = pair_modes(base)
     return {".nc": found, ".csv": _csv(found)}

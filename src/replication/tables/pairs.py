@@ -11,8 +11,7 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import MEASURED as EXTRACTED
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.growth import FITTED
-from nucleation.model.linearised import linearised
-from nucleation.model.parameters import Parameters
+from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 
 from . import lengths
@@ -50,19 +49,19 @@ def pair_description(run: Row) -> Row:
 
     Raises ValueError if it has one body only.
     """
-    parameters = Parameters.from_dict(run["parameters"])
+    parameters = Run.from_dict(run["parameters"])
     below = parameters.below
     if below is None:
         raise ValueError("the run has a rigid base: it is no pair")
-    interface = linearised(parameters.friction, parameters.loading)
-    f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
-    zeta_over_a = interface.zeta / interface.a
+    own = parameters.fault
+    f_beta = own.friction * bimaterial_contrast(parameters.upper.material, below.material)
+    zeta_over_a = own.zeta / own.a
     return description(run) | {
-        "friction": interface.friction,
+        "friction": own.friction,
         "f_beta": f_beta,
-        "a": interface.a,
-        "zeta": interface.zeta,
-        "second_n_y": below.mesh.n_y,
+        "a": own.a,
+        "zeta": own.zeta,
+        "second_n_y": below.n_y,
         "half_space_ratio": float(bimaterial_length_ratio(f_beta, zeta_over_a)),
     }
 

@@ -16,8 +16,8 @@ from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
-from nucleation.model.parameters import ALIASES, Parameters, names
 from nucleation.model.quantities import Quantity
+from nucleation.run.names import parameters
 
 from .convergence import LENGTH_OVER_THEORY
 from .lengths import COLUMNS as LENGTHS
@@ -44,12 +44,12 @@ BASE = "base"
 DROP_COMPLETE = "end of the drop"
 
 NOT_PHYSICAL = (
-    "mesh.n_x",
-    "mesh.n_y",
-    "mesh.grading",
-    "stepping.end_time",
-    "stepping.time_after_event",
-    "stepping.longest_step",
+    "n_x",
+    "n_y",
+    "grading",
+    "end_time",
+    "time_after_event",
+    "longest_step",
 )
 """Parameters that only follow another one: a longer block keeps its element length, a run may end
 sooner, a faster front needs shorter steps."""
@@ -70,33 +70,23 @@ def variation(run: Row, base: Row) -> Varied:
     in uniform shear is named by its shear stress. With another friction law, only parameters that
     both laws have are compared.
     """
-    values = Parameters.from_dict(run["parameters"]).named()
-    usual = Parameters.from_dict(base["parameters"]).named()
+    values, usual = run["parameters"], base["parameters"]
     varied = {
         name
         for name, value in values.items()
-        if value != usual.get(name, value) and name not in (*NOT_PHYSICAL, "geometry.length")
+        if value != usual.get(name, value) and name not in (*NOT_PHYSICAL, "block_length")
     }
-    own = run["parameters"]["geometry"]["length"]
-    others = base["parameters"]["geometry"]["length"]
+    own = values["block_length"]
+    others = usual["block_length"]
     ratio = own / run["critical_length"] * base["critical_length"] / others
     if abs(ratio - 1.0) > SAME_LENGTH:
-        varied.add("geometry.length")
-    if "loading.initial_stress" in varied:
-        varied.remove("loading.initial_stress")
-        varied.add("loading.initial_shear_stress")
-    known = names()
-    by_field = dict(sorted((_field(name), name) for name in varied))
-    words = [
-        _words(known[name], field, values[name], usual[name]) for field, name in by_field.items()
-    ]
-    return ", ".join(by_field) or BASE, ", ".join(words) or BASE
-
-
-def _field(name: str) -> str:
-    """The last part of a full name, if it is a short one; ``law`` is the evolution's."""
-    last = name.rpartition(".")[2]
-    return last if ALIASES.get(last, name) == name else name
+        varied.add("block_length")
+    if "initial_stress" in varied:
+        varied.remove("initial_stress")
+        varied.add("initial_shear_stress")
+    known = parameters()
+    words = [_words(known[name], name, values[name], usual.get(name)) for name in sorted(varied)]
+    return ", ".join(sorted(varied)) or BASE, ", ".join(words) or BASE
 
 
 def _words(entry: Quantity, name: str, value: float | str | None, usual: float | str | None) -> str:
@@ -121,7 +111,7 @@ def sensitivity_table(
     heights: dict[float, list[Case]] = defaultdict(list)
     for run, simulation in zip(runs, simulations, strict=True):
         case = run | {"status": simulation.attrs["status"]}, simulation
-        heights[run["parameters"]["geometry"]["height"]].append(case)
+        heights[run["parameters"]["height"]].append(case)
     rows: list[Row] = []
     for cases in heights.values():
         rows += _of_height(cases, settings)
@@ -166,7 +156,7 @@ def _row(
     change = length / usual["length"]
     return {
         "id": run["id"],
-        "height": run["parameters"]["geometry"]["height"],
+        "height": run["parameters"]["height"],
         "varied": varied[0],
         "variation": varied[1],
         "length": length,

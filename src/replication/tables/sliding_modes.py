@@ -6,13 +6,12 @@ The amplitude of ``exp(-i k x)`` in log(v) then follows ``C1 exp(Lambda1 t) + C2
 its samples at equal intervals obey a linear recurrence, which gives both rates without any guess.
 """
 
-import dataclasses
 import math
 
 import numpy as np
 
-from nucleation.fem.body import period_of
-from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.run.run import Run
+from nucleation.simulation.bodies import period_of
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
 from nucleation.simulation.step import Dynamics, State
@@ -31,19 +30,18 @@ SKIPPED = 30  # steps: then they are equal, and the elastic waves of the start h
 INTERVAL = 5  # steps between samples
 
 
-def sliding_period(parameters: Parameters) -> Dynamics:
+def sliding_period(run: Run) -> Dynamics:
     """A period of a long block or pair that slides homogeneously at V.
 
-    It is `geometry.length` long and driven by traction, or by its top; `mesh.n_x` must be odd. The
-    driving force of its reports has no meaning.
+    It is as long as the block and driven by traction; `n_x` must be odd. The driving force of its
+    reports has no meaning.
     """
-    body = period_of(parameters)
-    law = parameters.friction
-    loading = parameters.loading
-    steady = float(law.steady_coefficient(loading.velocity))
-    load = body.far_load(loading.normal_stress, loading.normal_stress * steady)
+    body = period_of(run)
+    fault, law = run.fault, run.law
+    steady = float(law.steady_coefficient(fault.velocity))
+    load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
     interface = Interface(law, NEWTON_TOLERANCE)
-    drive = Steady(loading.velocity, load)
+    drive = Steady(fault.velocity, load)
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
@@ -65,45 +63,44 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     return State.beginning(motion, rates, log_state, response.w)
 
 
-def one_wavelength(
-    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
-) -> Parameters:
+def one_wavelength(run: Run, height: float, wavenumber: float, nodes: int = NODES) -> Run:
     """The block one wavelength ``2 pi / k`` long and H (m) high; elements about as high as long."""
     length = 2.0 * math.pi / wavenumber
-    geometry = Geometry(height, length)
-    mesh = _mesh(geometry, nodes)
-    found = dataclasses.replace(parameters, geometry=geometry, mesh=mesh)
-    if found.below is None:
-        return found
-    below = Geometry(found.below.geometry.height, length)
-    mesh_below = _mesh(below, nodes)
-    changes = {"second_n_y": mesh_below.n_y, "second_grading": mesh_below.grading}
-    return found.replaced(changes)
+    rows, grading = _mesh(height, length, nodes)
+    changes = {
+        "height": height,
+        "block_length": length,
+        "n_x": nodes,
+        "n_y": rows,
+        "grading": grading,
+    }
+    if run.below is not None:
+        second = run.below.height
+        changes["second_height"] = second
+        changes["second_n_y"], changes["second_grading"] = _mesh(second, length, nodes)
+    return run.replaced(**changes)
 
 
-def _mesh(geometry: Geometry, nodes: int) -> Mesh:
-    """A mesh of a layer, one wavelength long."""
+def _mesh(height: float, length: float, nodes: int) -> tuple[int, float]:
+    """Number of elements along y and grading of a layer (m), one wavelength long."""
     fewest, most = ROWS
-    rows = geometry.height * nodes / geometry.length
-    graded = geometry.height > GRADED * geometry.length
-    rows = round(min(max(rows, fewest), most))
-    grading = GRADING if graded else 1.0
-    return Mesh(nodes, rows, grading)
+    rows = round(min(max(height * nodes / length, fewest), most))
+    return rows, GRADING if height > GRADED * length else 1.0
 
 
-def _follow_mode(parameters: Parameters) -> tuple[float, ComplexArray]:
+def _follow_mode(run: Run) -> tuple[float, ComplexArray]:
     """Integrate homogeneous sliding of one period with its first mode seeded in log(phi).
 
     Returns the time between samples (s) and the samples of the complex amplitude of
     ``exp(-i k x)`` in log(v).
     """
-    dynamics = sliding_period(parameters)
-    n = parameters.mesh.n_x
+    dynamics = sliding_period(run)
+    n = run.block.n_x
     phase = 2.0 * np.pi / n * np.arange(n)
     state = sliding_state(dynamics, SEED * np.cos(phase))
-    rung = dynamics.scheme.steady_rung(STEP * parameters.memory_time)
+    rung = dynamics.scheme.steady_rung(STEP * run.memory_time)
     amplitudes = []
-    while state.time < DURATION * parameters.memory_time:
+    while state.time < DURATION * run.memory_time:
         state, report = dynamics.advance(state, rung)
         log_rate = np.log(report.interface.slip_rate[1:])
         first_mode = np.fft.rfft(log_rate)[1]
@@ -127,10 +124,8 @@ def _fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
     return rates[np.argsort(-rates.real)]
 
 
-def measured_rates(
-    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
-) -> ComplexArray:
+def measured_rates(run: Run, height: float, wavenumber: float, nodes: int = NODES) -> ComplexArray:
     """Both growth rates (1/s) of a wavenumber (1/m) at H (m), the faster growing one first."""
-    period = one_wavelength(parameters, height, wavenumber, nodes)
+    period = one_wavelength(run, height, wavenumber, nodes)
     interval, amplitude = _follow_mode(period)
     return _fitted_rates(interval, amplitude)

@@ -12,14 +12,12 @@ from scipy.interpolate import CubicSpline
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.extraction.growth import FITTED
-from nucleation.model.identity import fault
-from nucleation.model.linearised import linearised
-from nucleation.model.parameters import Parameters
+from nucleation.run.identity import fault
+from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.creep.front import advance, oscillating
 from nucleation.theory.creep.front_onset import first_growing
 from nucleation.theory.creep.lengths import stability_point
-from nucleation.theory.creep.patches import Patches
 from nucleation.theory.creep.thin import thin_limit
 from nucleation.theory.status import NoLength
 
@@ -64,7 +62,7 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
     faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:
         if run["id"] in known:
-            key = run["study"], fault(Parameters.from_dict(run["parameters"]))
+            key = run["study"], fault(Run.from_dict(run["parameters"]))
             faults.setdefault(key, []).append(run)
     firsts = {}
     rows = []
@@ -97,22 +95,21 @@ def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
 
 def _row(run: Row, measured: float) -> Row:
     """The columns of one fault, from its first run and its mean simulated L_s (m)."""
-    parameters = Parameters.from_dict(run["parameters"])
-    interface = linearised(parameters.friction, parameters.loading)
+    parameters = Run.from_dict(run["parameters"])
+    own = parameters.fault
     below = parameters.below
     f_beta = 0.0
     if below is not None:
-        f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
+        f_beta = own.friction * bimaterial_contrast(parameters.upper.material, below.material)
     row = description(run) | dict.fromkeys(_PREDICTED, math.nan)
     row |= {
-        "zeta_over_a": interface.zeta / interface.a,
+        "zeta_over_a": own.zeta / own.a,
         "f_beta": f_beta,
         "stability_length": measured,
     }
-    patches = Patches.of(parameters)
+    patches = parameters.patches
     critical = run["critical_length"]
-    loading = parameters.loading
-    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
+    start = own.initial_state, parameters.start.initial_shear_stress / own.normal_stress
     try:
         row["creep_length"] = stability_point(replace(patches, law=None), critical).length
         row["front_length"] = first_growing(patches, critical, *start)
@@ -132,10 +129,9 @@ def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
     shown = _evenly_over_contrast(known)
     contrasts, places, rates, stresses = [], [], [], []
     for row in shown:
-        parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
-        patches = Patches.of(parameters)
-        start = parameters.loading.initial_state
-        made = advance(patches, [row["front_length"]], start, number=_SHOWN_MODES)
+        parameters = Run.from_dict(runs[row["id"]]["parameters"])
+        start = parameters.fault.initial_state
+        made = advance(parameters.patches, [row["front_length"]], start, number=_SHOWN_MODES)
         (creep,) = made.creeps
         contrasts.append(row["f_beta"])
         theta = creep.response.modes.theta

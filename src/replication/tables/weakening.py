@@ -4,7 +4,6 @@ The runs cover faults from weak to strong weakening: where zeta/a is small the p
 in a limit cycle up to L_run, and where it is large the law of the drop holds.
 """
 
-import dataclasses
 from collections.abc import Iterable
 from typing import Any
 
@@ -12,12 +11,9 @@ import numpy as np
 import xarray as xr
 
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
-from nucleation.drop.of_run import drop_of_run
-from nucleation.model.friction.constants import with_constants
-from nucleation.model.identity import ensemble, fault
-from nucleation.model.linearised import interface_state
-from nucleation.model.parameters import Parameters
-from nucleation.theory.critical import run_length
+from nucleation.run.drop import drop_of_run
+from nucleation.run.identity import ensemble, fault
+from nucleation.run.run import Run
 from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS
@@ -66,7 +62,7 @@ AS_HALF_SPACES = 100.0  # factor of a height that makes a block a half-space
 _OVER_CRITICAL = ("stability_length", "runaway_length", "law_length")
 
 
-def expected(parameters: Parameters) -> Row:
+def expected(parameters: Run) -> Row:
     """The columns :data:`EXPECTED` of one fault under its perturbation; NaN without a drop."""
     try:
         known = drop_of_run(parameters)
@@ -89,7 +85,7 @@ def gather_weakening(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> xr.Dat
     """The simulated drops of all runs beside the theory of their faults."""
     by_fault = {}
     for run in runs:
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         by_fault[fault(parameters)] = expected(parameters)
     names = (*MEASURED, "zeta_over_a", "fault")
     rows = []
@@ -116,9 +112,9 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = CURVE) -> xr
     """
     systems: dict[tuple[str, str, float], list[Row]] = {}
     for run in runs:
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         below = "rigid" if parameters.below is None else "deformable"
-        key = run["study"], below, parameters.geometry.height
+        key = run["study"], below, parameters.fault.height
         systems.setdefault(key, []).append(run)
     ratios = list(ratios)
     high = []
@@ -126,7 +122,7 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = CURVE) -> xr
     for (_, below, height), own in systems.items():
         longest = max(run["critical_length"] for run in own)
         is_high = below == "deformable" and height > longest
-        parameters = Parameters.from_dict(own[0]["parameters"])
+        parameters = Run.from_dict(own[0]["parameters"])
         if is_high:
             parameters = _as_half_spaces(parameters)
         high.append(is_high)
@@ -149,23 +145,21 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = CURVE) -> xr
     return annotate(found, CURVES)
 
 
-def _as_half_spaces(parameters: Parameters) -> Parameters:
+def _as_half_spaces(parameters: Run) -> Run:
     """The same pair of blocks, much higher."""
     below = parameters.below
     assert below is not None
     heights = {
-        "height": AS_HALF_SPACES * parameters.geometry.height,
-        "second_height": AS_HALF_SPACES * below.geometry.height,
+        "height": AS_HALF_SPACES * parameters.fault.height,
+        "second_height": AS_HALF_SPACES * below.height,
     }
-    return parameters.replaced(heights)
+    return parameters.replaced(**heights)
 
 
-def _over_critical(parameters: Parameters, ratio: float) -> list[float]:
+def _over_critical(parameters: Run, ratio: float) -> list[float]:
     """L_s, L_run and the law's length over L_c, of the fault with another zeta/a."""
-    velocity = parameters.loading.velocity
-    law = with_constants(parameters.friction, velocity, {"zeta_over_a": ratio})
-    own = dataclasses.replace(parameters, friction=law)
-    critical = run_length(own, interface_state(own))
+    own = parameters.replaced(zeta_over_a=ratio)
+    critical = own.critical_length
     known = expected(own)
     return [known[name] / critical for name in _OVER_CRITICAL]
 
@@ -192,7 +186,7 @@ def gather_other_faults(drops: xr.Dataset, runs: Iterable[Row]) -> xr.Dataset:
     """The simulated drops of each fault beside the theory."""
     rows = []
     for run in runs:
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         own = drops.isel(run=np.flatnonzero(drops["ensemble"].values == ensemble(parameters)))
         rows.append(_of_fault(own, expected(parameters)))
     return table(rows, OF_FAULTS)

@@ -12,14 +12,13 @@ import xarray as xr
 
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
-from nucleation.model.linearised import linearised
-from nucleation.model.parameters import Parameters
 from nucleation.model.quantities import ParameterError
+from nucleation.run.run import Run
 from nucleation.theory.crossings import largest_crossings
-from nucleation.theory.curves import CURVES
-from nucleation.theory.of_runs import systems_of
+from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 
+from .curves import CURVES
 from .rows import Row
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
@@ -50,16 +49,15 @@ COLUMNS = {
 }
 
 
-def patch_of(parameters: Parameters) -> WeakeningPatch:
+def patch_of(parameters: Run) -> WeakeningPatch:
     """The patch of a run, with the friction law expanded at V."""
     own = parameters.heterogeneity
     if (own.varies, own.shape) != ("zeta", "step"):
         raise ParameterError(
-            f"heterogeneity.varies = {own.varies} with heterogeneity.shape = {own.shape} is not "
+            f"heterogeneity = {own.varies} with shape = {own.shape} is not "
             "allowed with role = weakening_patches: it must be zeta with a step"
         )
-    interface = linearised(parameters.friction, parameters.loading)
-    outside = systems_of([(parameters, interface)])
+    outside = single_system(parameters.fault)
     inside = outside._replace(zeta=outside.zeta * (1.0 + own.change))
     return WeakeningPatch(inside, outside)
 
@@ -76,19 +74,18 @@ def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Datase
     rows: list[Row] = []
     patches: dict[float, WeakeningPatch] = {}
     for run, simulation in zip(runs, simulations, strict=True):
-        parameters = Parameters.from_dict(run["parameters"])
+        parameters = Run.from_dict(run["parameters"])
         width = parameters.heterogeneity.width
-        geometry = parameters.geometry
         patch = patch_of(parameters)
         largest_rate = float(np.abs(simulation["slip_rate"]).max())
-        fastest = largest_rate / parameters.loading.velocity
+        fastest = largest_rate / parameters.fault.velocity
         row = {
-            **_of_patch(patch, geometry.height, width),
+            **_of_patch(patch, parameters.fault.height, width),
             "id": run["id"],
             "outcome": outcome(fastest),
             "fastest": fastest,
-            "n_x": parameters.mesh.n_x,
-            "period": geometry.length / width,
+            "n_x": parameters.block.n_x,
+            "period": parameters.block.length / width,
         }
         rows.append(row)
         patches.setdefault(round(row["zeta_over_a"], 6), patch)

@@ -8,17 +8,16 @@ import pytest
 import xarray as xr
 from asked import critical_length, lengths_in_use, stability_length
 from configurations import CONFIG
+from parts import law_values, with_parts
 
 from nucleation.api import Fault, Friction, ParameterError
-from nucleation.model.linearised import interface_state
-from nucleation.model.parameters import Geometry, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.lengths import (
     Patches,
     stability_answers,
     stability_length_of,
     stability_point,
 )
-from nucleation.theory.critical import run_length
 from nucleation.theory.evaluation import evaluate
 from nucleation.theory.status import NoLength
 
@@ -30,7 +29,7 @@ FAULT = {
 
 
 def length_of(run):
-    return run_length(run, interface_state(run))
+    return run.critical_length
 
 
 def test_the_map():
@@ -109,14 +108,13 @@ def test_a_law_without_scales_is_one_of_constants():
 def test_scales_of_friction_near_the_velocity():
     """Ten times v* leaves friction with other a and b at the front: a quarter of L_s."""
     law = Friction().with_expansion(1e-6, 0.65, 0.008, 0.004)
-    run = Parameters(friction=law, geometry=Geometry(height=1.0))
-    run = run.replaced({"loading.velocity": 1e-6, "material.shear_modulus": 3e10})
-    own, constant = (stability_length_of(run, length_of(run), x) for x in (False, True))
+    run = PAPER_RUN.replaced(height=1.0, velocity=1e-6, shear_modulus=3e10, **law_values(law))
+    own, constant = (stability_length_of(run.patches, length_of(run), x) for x in (False, True))
     assert own / constant < 0.85
-    far = dataclasses.replace(run, friction=dataclasses.replace(
+    far = with_parts(run, law=dataclasses.replace(
         law, slip_rate_scale=1e-12, regularisation_slip_rate=1e-14
     ).with_expansion(1e-6, 0.65, 0.008, 0.004))  # fmt: skip
-    own, constant = (stability_length_of(far, length_of(far), x) for x in (False, True))
+    own, constant = (stability_length_of(far.patches, length_of(far), x) for x in (False, True))
     assert own / constant > 0.99
 
 
@@ -125,15 +123,15 @@ def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
     """By as much as docs/creeping_patch.md has for ten times v*."""
     law = Friction(slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
     law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-    run = Parameters(friction=law, geometry=Geometry(height=0.03))
-    own, constant = (stability_length_of(run, length_of(run), x) for x in (False, True))
+    run = PAPER_RUN.replaced(height=0.03, **law_values(law))
+    own, constant = (stability_length_of(run.patches, length_of(run), x) for x in (False, True))
     assert 1.0 - own / constant == pytest.approx(0.01 * percent, abs=5e-3)
 
 
 def test_no_patch():
     assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
     with pytest.raises(NoLength, match="stable"):
-        stability_point(Patches.of(Parameters()), np.nan)
+        stability_point(PAPER_RUN.patches, np.nan)
     with pytest.raises(ParameterError, match=r"loading = 'side' .* one of edge, remote"):
         stability_length(**FAULT, height=0.1, zeta=0.01, loading="side")
     with pytest.raises(ParameterError, match="friction_law is not allowed with loading = remote"):
@@ -150,15 +148,13 @@ def test_a_patch_in_the_interior_of_a_full_space(ratio):
 
 def test_where_a_patch_begins():
     """From the loading; its slip rate from the load's rise."""
-    assert Patches.of(Parameters()).loading == "edge"
-    run = Parameters(geometry=Geometry(height=0.1, length=1.0)).replaced(
-        {"loading.kind": "remote", "loading.stress_rate": 1e5}
+    assert PAPER_RUN.patches.loading == "edge"
+    run = PAPER_RUN.replaced(height=0.1, block_length=1.0).replaced(
+        loading="remote", stress_rate=1e5
     )
-    assert Patches.of(run).loading == "remote"
+    assert run.patches.loading == "remote"
     # a crack of half-spaces has v(0) = L (dtau/dt)/mu*
-    half_spaces = run.replaced({
-        "geometry.height": 100.0, "second_body.kind": "deformable", "mesh.n_x": 101,
-    })  # fmt: skip
-    star = run.material.shear_modulus / (1.0 - run.material.poisson_ratio)
-    fastest = Patches.of(half_spaces).creep(0.4).fastest * run.loading.velocity
+    half_spaces = run.replaced(height=100.0, second_body="deformable", n_x=101)  # fmt: skip
+    star = run.fault.shear_modulus / (1.0 - run.fault.poisson_ratio)
+    fastest = half_spaces.patches.creep(0.4).fastest * run.fault.velocity
     assert fastest == pytest.approx(0.4 * 1e5 / star, rel=3e-3)

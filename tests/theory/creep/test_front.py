@@ -16,9 +16,7 @@ RUNS = {run.id: run for run in papers().runs}
 
 
 def found_of(run):
-    return first_growing(
-        Patches.of(run.parameters), run.critical_length, run.parameters.loading.initial_state
-    )
+    return first_growing(run.run.patches, run.critical_length, run.run.fault.initial_state)
 
 
 @pytest.mark.slow
@@ -78,10 +76,9 @@ def test_a_high_slip_rate_at_the_front_would_matter(monkeypatch):
 def test_slip_at_the_front_is_not_slower_than_the_scale_of_friction():
     """Below v0 contacts are at rest, and the law has no friction."""
     parameters = RUNS["converged-aging-H0.1-phi1-seed1"].parameters
-    faster = parameters.replaced({"regularisation_slip_rate": 0.05 * parameters.loading.velocity})
+    faster = parameters.replaced(regularisation_slip_rate=0.05 * parameters.fault.velocity)
     slowest = [
-        advance(Patches.of(own), [0.3], 1.0).creeps[0].slip_rate.min()
-        for own in (parameters, faster)
+        advance(own.patches, [0.3], 1.0).creeps[0].slip_rate.min() for own in (parameters, faster)
     ]
     assert slowest[0] < 0.03 and slowest[1] == pytest.approx(0.05)
 
@@ -97,4 +94,4 @@ def test_the_older_the_interface_the_later():
 def test_no_patch_grows():
     run = RUNS["converged-aging-H0.1-phi1-seed1"]
     with pytest.raises(NoLength, match="no patch up to"):
-        first_growing(Patches.of(run.parameters), 0.05, 1.0)
+        first_growing(run.run.patches, 0.05, 1.0)

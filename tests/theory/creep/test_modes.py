@@ -2,16 +2,15 @@
 
 import numpy as np
 import pytest
-from two_bodies import RIGID, Body, system, transfer_functions
+from two_bodies import RIGID, Body, Interface, system, transfer_functions
 
-from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.creep import response as module
 from nucleation.theory.creep.response import response
 from nucleation.theory.creep.steady import creep
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=1 / 3)
-FAULT = InterfaceState()
+FAULT = Interface()
 BOX, WAVES = 30.0, 8000  # box over L
 
 

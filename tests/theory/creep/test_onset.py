@@ -10,13 +10,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from nucleation.api import Fault
-from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import interface_state
-from nucleation.model.parameters import Geometry, Parameters
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep import front, front_onset, lengths
 from nucleation.theory.creep.front_onset import first_growing
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import run_length
 from nucleation.theory.crossings import largest_crossings
 from nucleation.theory.evaluation import evaluate
 from nucleation.theory.status import NoLength
@@ -140,22 +137,21 @@ def test_continuous_in_height(bodies, ratio):
 
 def narrow_run(zeta):
     """A run whose friction has the least a that its law allows, and its L_c (m)."""
-    law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
-    run = Parameters(friction=law, geometry=Geometry(height=0.01, length=3.0))
-    return run, run_length(run, interface_state(run))
+    law = {"friction_law": "dieterich_ruina", "friction": 0.41, "a": 0.0014, "zeta": zeta}
+    run = PAPER_RUN.replaced(height=0.01, block_length=3.0, **law)
+    return run, run.critical_length
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("zeta", [0.14, 0.4])
 def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
     run, critical = narrow_run(zeta)
-    usual = first_growing(Patches.of(run), critical, 1.0)
+    usual = first_growing(run.patches, critical, 1.0)
     for tried in (9, 40):
         monkeypatch.setattr(front_onset, "TRIED", tried)
-        assert first_growing(Patches.of(run), critical, 1.0) == pytest.approx(usual, rel=2e-3)
+        assert first_growing(run.patches, critical, 1.0) == pytest.approx(usual, rel=2e-3)
     rates = [
-        front.fastest(front.advance(Patches.of(run), [part * usual], 1.0))[0]
-        for part in (0.99, 1.01)
+        front.fastest(front.advance(run.patches, [part * usual], 1.0))[0] for part in (0.99, 1.01)
     ]
     assert rates[0] < 0.0 < rates[1]
 

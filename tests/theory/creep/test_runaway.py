@@ -6,9 +6,11 @@ import math
 import numpy as np
 import pytest
 from asked import critical_length, runaway_length, stability_length
+from parts import law_values
 from scipy.integrate import solve_ivp
 
-from nucleation.api import Fault, Friction, Geometry, Parameters
+from nucleation.api import Fault, Friction
+from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep import runaway, slow_slip
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.creep.runaway import runaway_answers
@@ -220,8 +222,8 @@ def test_any_pair():
 def test_a_law_with_far_scales_has_constant_a_and_b(evolution):
     law = Friction(law="dieterich_ruina", evolution=evolution, regularisation_slip_rate=1e-14)
     friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0034)
-    parameters = Parameters(friction=friction, geometry=Geometry(height=0.02, length=4.0))
-    own = Patches.of(parameters)
+    parameters = PAPER_RUN.replaced(height=0.02, block_length=4.0, **law_values(friction))
+    own = parameters.patches
     constant = dataclasses.replace(own, law=None)
     found = runaway.runaway_point(own, 1.0)
     expected = runaway.runaway_point(constant, 1.0)

@@ -10,8 +10,8 @@ import pytest
 from commands_of_slurm import output_of, wait_for
 
 from nucleation.datasets import netcdf
+from nucleation.fault.strict_yaml import read_yaml
 from nucleation.simulation.checkpoints import VARIABLE
-from nucleation.strict_yaml import read_yaml
 from replication.configuration.load import configure
 from replication.configuration.settings import estimated_megabytes
 
@@ -118,9 +118,7 @@ def test_a_core_for_each_simulation(disturbed):
     assert len(simulations) == 1 + len(RUNS)  # the cancelled one again
     assert {job["NumCPUs"] for job in simulations} == {"1"}
     assert {job["TimeLimit"] for job in simulations} == {"01:00:00"}
-    smallest, largest = (
-        450 + f(estimated_megabytes(run.parameters) for run in RUNS) for f in (min, max)
-    )
+    smallest, largest = (450 + f(estimated_megabytes(run.run) for run in RUNS) for f in (min, max))
     again = max(simulations, key=lambda job: int(job["JobId"]))
     for job in simulations:
         attempt = 2 if job is again else 1

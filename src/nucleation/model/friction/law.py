@@ -91,6 +91,8 @@ class Friction(Checked):
     (5e-06, 'aging')
     """
 
+    called: ClassVar = {"law": "friction_law"}
+
     law: str = law_name(USUAL_LAW)
     evolution: str = quantity(
         "state evolution law",
@@ -116,10 +118,10 @@ class Friction(Checked):
         if cls is not Friction:
             return super().__new__(cls)
         name = values.get("law", USUAL_LAW)
-        check("friction.law", name, declarations(Friction)["law"])
+        check("friction_law", name, declarations(Friction)["law"])
         chosen = law_class(name)
         own = declarations(chosen)
-        foreign = [f"friction.{key} = {value!r}" for key, value in values.items() if key not in own]
+        foreign = [f"{key} = {value!r}" for key, value in values.items() if key not in own]
         if foreign:
             raise ParameterError(
                 f"{', '.join(foreign)} is not allowed: the friction law {name} has no such "
@@ -133,7 +135,7 @@ class Friction(Checked):
         except ParameterError as error:
             raise ParameterError(f"{error} (friction law {self.law})") from None
         if self.law != type(self).law:
-            raise ParameterError(f"friction.law = {self.law!r} is not that of {type(self).law}")
+            raise ParameterError(f"friction_law = {self.law!r} is not that of {type(self).law}")
 
     def changed(self, values: dict[str, Any]) -> Friction:
         """The law with other parameters; with another `law`, that law with the common parameters.

@@ -89,24 +89,12 @@ def law_class(name: str) -> type[Checked]:
     return module("laws", name).Law
 
 
-def plugins(parameters: Any) -> tuple[str, str]:
-    """The dotted names of the modules that a run loads by name.
+def plugins(friction: Any) -> tuple[str, str]:
+    """The dotted names of the two modules that a friction law loads by name.
 
-    A digest that follows import statements does not find them. A digest of the code for a
-    computation from parameters must therefore start from these modules too, as in
-    ``digest("nucleation.simulation.run", *plugins(run.parameters))``.
-
-    Parameters
-    ----------
-    parameters : Parameters or Friction
-        All parameters of a run, or its friction alone.
-
-    Returns
-    -------
-    tuple of str
-        Module of the friction law, module of its state evolution.
+    A digest that follows import statements does not find them: the digest of a simulation's code
+    starts from these modules too.
     """
-    friction = getattr(parameters, "friction", parameters)
     law = f"{__package__}.laws.{friction.law}"
     evolution = f"{__package__}.evolutions.{friction.evolution}"
     return law, evolution

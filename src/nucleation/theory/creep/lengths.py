@@ -22,7 +22,6 @@ from scipy.optimize import brentq
 
 from ...model.friction.constants import full_law
 from ...model.friction.law import Friction
-from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ...types import Array
 from ..crossings import largest_crossings
@@ -192,29 +191,11 @@ def _with_law(
     return dataclasses.replace(patches, law=own)
 
 
-def stability_length_of(
-    parameters: Parameters,
-    critical: float,
-    constant: bool = False,
-) -> float:
-    """L_s of a run's fault.
+def stability_length_of(patches: Patches, critical: float, constant: bool = False) -> float:
+    """L_s (m) of a fault with L_c (m) `critical`; NaN if there is none.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the run.
-    critical : float
-        L_c (m) of the run.
-    constant : bool
-        Whether a and b are constant, with their values at V. By default the run's own friction law
-        gives a(v) and b(v) along the patch.
-
-    Returns
-    -------
-    float
-        L_s (m), or NaN if there is none.
+    `constant` takes a and b at V along the patch, in place of the law's own a(v) and b(v).
     """
-    patches = Patches.of(parameters)
     if constant:
         patches = dataclasses.replace(patches, law=None)
     try:

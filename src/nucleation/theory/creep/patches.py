@@ -8,9 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ...model.friction.law import Friction
-from ...model.linearised import interface_state
-from ...model.parameters import Parameters
-from ..of_runs import systems_of
 from ..spectrum import Systems
 from ..status import NoLength
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
@@ -33,18 +30,6 @@ class Patches:
     loading: str = "edge"
     load_rate: float = 1.0
     evolution: str = "aging"  # of the state, with constant a and b; a law has its own
-
-    @classmethod
-    def of(cls, parameters: Parameters) -> Patches:
-        """The patches of a run, with its own friction law."""
-        one = systems_of([(parameters, interface_state(parameters))])
-        loading = parameters.loading
-        law = parameters.friction
-        pushed = cls(one, law, loading.velocity, evolution=law.evolution)
-        if loading.kind == "edge":
-            return pushed
-        rate = loading.stress_rate * parameters.memory_time / loading.normal_stress
-        return dataclasses.replace(pushed, loading="remote", load_rate=rate)
 
     @cached_property
     def number(self) -> int:

@@ -55,7 +55,7 @@ class Law(Friction):
         if self.reference_friction > _LARGEST_RATIO * self.log_rate_coefficient:
             least = self.reference_friction / _LARGEST_RATIO
             raise ParameterError(
-                f"friction.log_rate_coefficient = {self.log_rate_coefficient:g} is not allowed: "
+                f"log_rate_coefficient = {self.log_rate_coefficient:g} is not allowed: "
                 f"with reference_friction = {self.reference_friction:g} it must be {least:.3g} or "
                 f"more (friction law {self.law})"
             )

@@ -10,17 +10,10 @@ from nucleation.model.friction.registry import EVOLUTIONS
 from nucleation.model.quantities import ParameterError, Quantity, declarations, refusal
 from nucleation.model.synonyms import hint
 from nucleation.model.units import parse
+from nucleation.run.names import parameters
 
-from .schema import GROUPS, RESULTS, STUDY_NAME, group_entries, has_range
-from .settings import StudySettings
-from .study_names import (
-    LARGEST_GRID,
-    RANGE,
-    grid_size,
-    other_names,
-    range_problem,
-    study_parameters,
-)
+from .names import LARGEST_GRID, RANGE, SECTIONS, grid_size, range_problem
+from .settings import GROUPS, StudySettings
 
 _Place = tuple[object, ...]
 """Keys and numbers of items from the top of the configuration to a value."""
@@ -30,6 +23,11 @@ _Check = Callable[[_Place, object], Iterator[str]]
 
 _Problems = Iterator[str]
 """Messages, one for each problem."""
+
+_RESULTS = Quantity("directory of all results", kind="str")
+
+_STUDY_NAME = "[A-Za-z][A-Za-z0-9_]{0,59}"
+"""Pattern of the names of studies."""
 
 _LONGEST_QUOTE = 80
 """Characters of a value in a message; longer values are cut."""
@@ -44,16 +42,58 @@ def stop_on(problems: Iterable[str]) -> None:
         raise ParameterError(f"the configuration has {count}:{listing}")
 
 
+def entries_of(section: str) -> dict[str, Quantity]:
+    """The keys of a section of a configuration and their declarations."""
+    if section in GROUPS:
+        return declarations(GROUPS[section])
+    return {name: parameters()[name] for name in SECTIONS[section]}
+
+
+def with_numbers(values: Any) -> Any:
+    """A copy of a configuration as read from YAML, with texts such as ``30 GPa`` as numbers.
+
+    YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text. A text that is not an allowed number is
+    kept; a later check refuses it.
+    """
+    if not isinstance(values, dict):
+        return values
+    found = {}
+    for section, content in values.items():
+        if section in GROUPS or section in SECTIONS:
+            content = _read(content, entries_of(section))
+        elif section == "studies":
+            content = _read(content, {**parameters(), **declarations(StudySettings)})
+        found[section] = content
+    return found
+
+
+def _read(value: Any, entries: Mapping[str, Quantity], entry: Quantity | None = None) -> Any:
+    """A value with its texts as numbers; `entry` is the declaration of its key, if it has one."""
+    if isinstance(value, dict):
+        found = {}
+        for key, own in value.items():
+            known = RANGE.get(key) if entry else None
+            found[key] = _read(own, entries, known or entries.get(key) or entry)
+        return found
+    if isinstance(value, list):
+        return [_read(own, entries, entry) for own in value]
+    if not isinstance(value, str) or entry is None:
+        return value
+    try:
+        return parse("", value, entry.element)
+    except ParameterError:
+        return value
+
+
 def value_problems(values: object) -> _Problems:
     """Unknown keys, missing keys and values that are not allowed, in a whole configuration."""
-    checks: dict[str, _Check] = {}
-    checks["results"] = partial(_single, RESULTS)
-    for group in GROUPS:
+    checks: dict[str, _Check] = {"results": partial(_single, _RESULTS)}
+    for section in (*SECTIONS, *GROUPS):
         keys: dict[str, _Check] = {}
-        for key, entry in group_entries(group).items():
+        for key, entry in entries_of(section).items():
             check = _several if entry.many else _single
             keys[key] = partial(check, entry)
-        checks[group] = partial(_mapping, keys)
+        checks[section] = partial(_mapping, keys)
     checks["studies"] = _studies
     yield from _mapping(checks, (), values)
 
@@ -66,7 +106,7 @@ def _studies(place: _Place, given: object) -> _Problems:
     if not given:
         yield _empty(place, given)
     for name, study in given.items():
-        if isinstance(name, str) and re.fullmatch(STUDY_NAME, name):
+        if isinstance(name, str) and re.fullmatch(_STUDY_NAME, name):
             check = _check_of_study()
             yield from check((*place, name), study)
         else:
@@ -81,12 +121,9 @@ def _check_of_study() -> _Check:
     """The check of one study."""
     single: dict[str, _Check] = {}
     varied: dict[str, _Check] = {}
-    for name, entry in study_parameters().items():
+    for name, entry in parameters().items():
         single[name] = partial(_single, entry)
         varied[name] = partial(_several, entry)
-    for other, name in other_names().items():
-        single[other] = single[name]
-        varied[other] = varied[name]
     defaults = partial(_mapping, single)
     varied["defaults"] = defaults
     entry_of_runs = partial(_mapping, varied, filled=True)
@@ -149,8 +186,7 @@ def _single(
     if _allowed(value, entry):
         return
     text = _refusal(_key_text(place), value, entry)
-    in_law = place[0] == "studies" and "law" in place
-    if in_law and value in list(EVOLUTIONS):
+    if place[-1] == "friction_law" and value in list(EVOLUTIONS):
         text += "; the evolution of the state is called evolution"
     yield text
 
@@ -166,7 +202,7 @@ def _several(
         yield from _list(check, place, value)
         if _has_repeats(value):
             yield f"{_key_text(place)} = {_quoted(value)} has a value twice"
-    elif isinstance(value, dict) and has_range(entry):
+    elif isinstance(value, dict) and not entry.choices and entry.kind != "int":
         ends = ("start", "stop")
         keys: dict[str, _Check] = dict.fromkeys(ends, check)
         for name, declared in RANGE.items():
@@ -226,10 +262,7 @@ def _unknown_key(
     key = str(place[-1])
     suggestion = hint(key, known)
     if not suggestion:
-        listed = list(known)
-        if place[0] == "studies":  # without full names, which repeat the short ones
-            listed = [name for name in known if "." not in name]
-        suggestion = f"known keys: {', '.join(listed)}"
+        suggestion = f"known keys: {', '.join(known)}"
     return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {suggestion}"
 
 
@@ -251,8 +284,7 @@ def _quoted(value: object) -> str:
 def range_problems(values: Mapping[str, Any]) -> _Problems:
     """Ranges that can't be expanded, and entries of studies with too many simulations."""
     for group in GROUPS:
-        section = values.get(group, {})
-        yield from _ranges_in((group,), section)
+        yield from _ranges_in((group,), values.get(group, {}))
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
             place = ("studies", name, "runs", number)

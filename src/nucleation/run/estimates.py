@@ -1,16 +1,16 @@
-"""Estimates for a run from its parameters alone: process zone, time until nucleation."""
+"""Estimates for a simulated fault: process zone, time until nucleation, sizes of elements."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
+from ..fault import Fault
 from ..model.friction.law import Friction
-from ..model.linearised import linearised
-from ..model.material import ANTIPLANE
-from ..model.parameters import Parameters
-from .of_runs import pair_of
-from .stiffness import SATURATION
+from ..model.material import ANTIPLANE, in_plane_ratio
+from ..model.start import Start
+from ..theory.evaluation import single_system
+from ..theory.stiffness import SATURATION
 
 THIN = 1e-3  # layer number k H at which a body is thin
 
@@ -32,41 +32,25 @@ class _SlipStiffness(NamedTuple):
     thin: float
 
 
-def stiffness_of(parameters: Parameters) -> _SlipStiffness:
-    """The limits of the stiffness of a run's bodies against slip."""
-    if parameters.below is None:
-        material = parameters.material
-        thick = material.shear_modulus / (1.0 - material.in_plane_ratio)
-        sides = 1.0 if material.plane == ANTIPLANE else 2.0
-        return _SlipStiffness(thick, sides * parameters.geometry.height * thick)
-    pair = pair_of([parameters])
-    heights = parameters.geometry.height, parameters.below.geometry.height
+def stiffness_of(fault: Fault) -> _SlipStiffness:
+    """The limits of the stiffness of a fault's bodies against slip."""
+    if math.isinf(fault.second_shear_modulus):
+        thick = fault.shear_modulus / (1.0 - in_plane_ratio(fault.poisson_ratio, fault.plane))
+        sides = 1.0 if fault.plane == ANTIPLANE else 2.0
+        return _SlipStiffness(thick, sides * fault.height * thick)
+    pair = single_system(fault).pair
+    heights = fault.height, fault.second_height
     short = SATURATION / min(heights)
     long = THIN / max(heights)
     resistance = pair.modulus * pair.stiffness(np.array([short, long])).xx
     return _SlipStiffness(float(resistance[0]), float(resistance[1]) / long)
 
 
-def steepness(
-    friction: Friction,
-    omega: float,
-) -> float:
+def steepness(friction: Friction, omega: float) -> float:
     """How much faster friction weakens with slip at a front than it does by its linearisation.
 
-    Parameters
-    ----------
-    friction : Friction
-        The law; only its state evolution ``g`` matters.
-    omega : float
-        ``phi V/D`` of the interface that the front reaches.
+    `omega` is ``phi V/D`` of the interface that the front reaches; 1 for the aging law.
 
-    Returns
-    -------
-    float
-        At least 1; 1 for the aging law at every `omega`.
-
-    Notes
-    -----
     Slip at a constant rate reduces Omega from its first value to 1, by ``D dOmega/d delta = g``,
     and friction by ``b log(Omega)``. The fracture energy of this drop is ``b D`` times ``E = int u
     exp(u)/(-g(exp(u))) du`` from 0 to ``U = log(Omega)``. Friction weakens on average at ``(b/D)
@@ -83,89 +67,58 @@ def steepness(
     return max(drop**2 / (2.0 * energy), 1.0)
 
 
-def process_zone(
-    parameters: Parameters,
-    rest: float = 0.0,
-) -> float:
-    """Length (m) over which friction at the front weakens.
+def process_zone(fault: Fault, law: Friction, rest: float = 0.0) -> float:
+    """Length (m) over which friction at the front weakens; infinite if it does not weaken.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the run.
-    rest : float
-        Time (s) for which the interface has been at rest when the front reaches it; in many laws
-        it ages meanwhile.
+    The interface has been at rest for the time `rest` (s) when the front reaches it; in many laws
+    it ages meanwhile.
 
-    Returns
-    -------
-    float
-        Infinite if friction does not weaken.
-
-    Notes
-    -----
     The wavelength over 2 pi at which the body's stiffness equals friction's weakening with slip,
     ``s b sigma0/D``, with ``b = a + zeta`` and the :func:`steepness` s of the state evolution: in a
     thick body ``L_b/s``, ``L_b = mu D/((1 - nu) b sigma0)`` (Dieterich, 1992; Rubin and Ampuero,
     2005), in a thin block ``sqrt(2 H L_b/s)``. The smaller of both counts. Two blocks act by
     their joint stiffness (:func:`stiffness_of`).
     """
-    friction, loading = parameters.friction, parameters.loading
-    interface = linearised(friction, loading)
-    weakening = (interface.a + interface.zeta) * loading.normal_stress
+    weakening = (fault.a + fault.zeta) * fault.normal_stress
     if weakening <= 0.0:
         return math.inf
-    age = loading.initial_state + rest * float(friction.evolution_law.growth(FRESH))
-    weakening *= steepness(friction, age / parameters.memory_time)
-    stiffness = stiffness_of(parameters)
-    scale = friction.slip_distance / weakening
+    age = fault.initial_state + rest * float(law.evolution_law.growth(FRESH))
+    weakening *= steepness(law, age * fault.velocity / law.slip_distance)
+    stiffness = stiffness_of(fault)
+    scale = law.slip_distance / weakening
     in_thick_body = stiffness.thick * scale
     in_thin_body = math.sqrt(stiffness.thin * scale)
     return min(in_thick_body, in_thin_body)
 
 
-def growth_time(
-    parameters: Parameters,
-    length: float,
-) -> float:
-    """Time until the creep patch has a length, roughly.
+def growth_time(fault: Fault, start: Start, length: float) -> float:
+    """Time (s) from the start until the creep patch has a length (m), roughly.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Of the run.
-    length : float
-        Length (m) of the patch.
-
-    Returns
-    -------
-    float
-        Time (s) from the start of the run.
-
-    Notes
-    -----
     The edge's displacement ``V t`` that moves a patch against ``f sigma0``: ``(1 - nu)/mu f sigma0
     [L^2/(4 H) + L]``. The first term compresses a thin block, the second a thick one; two blocks
     act by their joint stiffness (:func:`stiffness_of`). In the simulations of the paper's study the
     force drops at 0.5 to 0.8 of the time for the theory's critical length.
     """
-    loading = parameters.loading
-    if loading.kind != "edge":
-        return _time_to_strength(parameters)
-    stiffness = stiffness_of(parameters)
-    strength = linearised(parameters.friction, loading).friction * loading.normal_stress
+    if fault.loading != "edge":
+        return _time_to_strength(fault, start)
+    stiffness = stiffness_of(fault)
+    strength = fault.friction * fault.normal_stress
     moved = length**2 / (2.0 * stiffness.thin) + length / stiffness.thick
-    return strength * moved / loading.velocity
+    return strength * moved / fault.velocity
 
 
-def _time_to_strength(parameters: Parameters) -> float:
+def _time_to_strength(fault: Fault, start: Start) -> float:
     """Time (s) until a remote load has brought the whole interface to its peak strength.
 
     The peak is the strength of sliding at V, plus that of the interface's greater age at the start.
     """
-    loading = parameters.loading
-    sliding = linearised(parameters.friction, loading)
-    omega = loading.initial_state * loading.velocity / sliding.slip_length
-    peak = sliding.friction + (sliding.a + sliding.zeta) * np.log1p(omega)
-    missing = peak * loading.normal_stress - loading.initial_shear_stress
-    return max(missing, 0.0) / loading.stress_rate
+    omega = fault.initial_state * fault.velocity / fault.slip_distance
+    peak = fault.friction + (fault.a + fault.zeta) * np.log1p(omega)
+    missing = peak * fault.normal_stress - start.initial_shear_stress
+    return max(missing, 0.0) / start.stress_rate
+
+
+def element_height(height: float, n_y: int, grading: float) -> float:
+    """Height (m) of the elements at the interface of a body that is `height` (m) high."""
+    growth = grading ** (1.0 / (n_y - 1))
+    return height / sum(growth**row for row in range(n_y))

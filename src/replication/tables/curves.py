@@ -1,17 +1,19 @@
 """The dataset of the linear theory: all curves of Figures 2, 3 and S1."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import xarray as xr
 
-from ..datasets.shared import SHARED
-from ..datasets.variables import Variable, annotate, some
-from ..model.friction.law import Friction
-from ..model.linearised import InterfaceState
-from ..model.material import Material
-from ..types import Array
-from .closed_forms import bimaterial_length_ratio, thin_limit_length
-from .critical import modes_on_rigid_base
-from .settings import Curves
+from nucleation.datasets.shared import SHARED
+from nucleation.datasets.variables import Variable, annotate, some
+from nucleation.fault import Fault
+from nucleation.model.friction.law import Friction
+from nucleation.run.run import Run
+from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
+from nucleation.types import Array
+
+from .main_text import main_text, on_rigid_base
 
 CURVES = {
     "height": SHARED["height"],
@@ -32,65 +34,33 @@ CURVES = {
 
 
 def theory_dataset(
-    material: Material,
-    friction: Friction,
-    interface: InterfaceState,
-    curves: Curves,
+    base: Run,
+    curves: Mapping[str, Sequence[float]],
 ) -> xr.Dataset:
-    """All curves of the linear theory.
+    """All curves of the linear theory, :data:`CURVES`, for the fault of a run.
 
-    Parameters
-    ----------
-    material : Material
-        Of the block.
-    friction : Friction
-        The full law with the parameters of Table S1.
-    interface : InterfaceState
-        The main text's rounded friction, used for the curve of Figure 3; the full law is expanded
-        at its velocity.
-    curves : Curves
-        Where to compute.
-
-    Returns
-    -------
-    Dataset
-        The variables :data:`CURVES`.
+    `curves` has the section of the configuration. The curve of Figure 3, over heights (m), has the
+    main text's rounded friction; that of Figure S1, over slip rates (m/s), the full law.
     """
+    heights, f_beta, zeta_over_a, slip_rates = (
+        np.array(curves[name]) for name in ("heights", "f_beta", "zeta_over_a", "slip_rates")
+    )
     parts = (
-        length_curve(material, interface, np.array(curves.heights)),
-        _bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
-        _friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
+        length_curve(main_text(base.fault), heights),
+        _bimaterial_curves(f_beta, zeta_over_a),
+        _friction_curves(base.law, base.fault.velocity, slip_rates),
     )
     return annotate(xr.merge(parts), CURVES)
 
 
-def length_curve(
-    material: Material,
-    interface: InterfaceState,
-    height: Array,
-) -> xr.Dataset:
-    """Critical length, wavenumber and frequency against the height (Figure 3).
-
-    Parameters
-    ----------
-    material : Material
-        Of the block.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-    height : ndarray
-        Heights (m) of the block.
-
-    Returns
-    -------
-    Dataset
-        On the dimension ``height``.
-    """
-    modes = modes_on_rigid_base(height, material, interface)
+def length_curve(fault: Fault, height: Array) -> xr.Dataset:
+    """L_c, wavenumber and frequency of blocks on a rigid base over their height (m) (Figure 3)."""
+    modes = on_rigid_base(fault, height).critical_mode()
     values = {
         "critical_length": modes.length,
         "critical_wavenumber": modes.wavenumber,
         "critical_frequency": modes.angular_frequency,
-        "thin_limit_length": thin_limit_length(height, material, interface),
+        "thin_limit_length": thin_limit_length(height, fault),
     }
     on_height = {name: ("height", column) for name, column in values.items()}
     return xr.Dataset(on_height, {"height": height})

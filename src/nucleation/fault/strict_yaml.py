@@ -11,8 +11,8 @@ from typing import Any
 
 import yaml
 
-from .datasets.files import refuse_pipe
-from .model.quantities import ParameterError
+from ..datasets.files import refuse_pipe
+from ..model.quantities import ParameterError
 
 _LEADING_ZERO = re.compile(r"[-+]?0[0-9_]+")
 """Integers that YAML 1.1 reads as octal, ``0400`` as 256; with colons it reads 1:30 as 90."""

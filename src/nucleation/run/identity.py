@@ -1,0 +1,45 @@
+"""Digests that identify the fault of a run, and the ensemble of its realisations.
+
+Tables have these digests in a column; runs of the same fault are found by comparing it. Values
+that differ only by round-off have the same digest, and a second body's value that is left out
+counts as the first body's.
+"""
+
+import hashlib
+import json
+from functools import lru_cache
+
+from .names import sections
+from .run import Run
+
+DIGITS = 10  # significant, of numbers
+_DIGEST_LENGTH = 12  # enough for thousands of faults
+
+
+def fault(run: Run) -> str:
+    """Digest of the fault: materials, friction, loads, initial state, heights and far sides.
+
+    The block must be so long that its length has no effect.
+    """
+    known = sections()
+    of_solution = [name for name in known["block"] if name != "height"]
+    for section in ("stepping", "perturbation", "recording"):
+        of_solution += known[section]
+    return identity(run, *of_solution, "second_n_y", "second_grading")
+
+
+def ensemble(run: Run) -> str:
+    """Digest of all parameters except the seed and the recording."""
+    return identity(run, "seed", "record")
+
+
+@lru_cache(2**14)
+def identity(run: Run, *excluded: str) -> str:
+    """Digest, of twelve digits, of the parameters but those with the names `excluded`."""
+    kept = {}
+    for name, value in run.to_dict().items():
+        if name not in excluded:
+            rounded = isinstance(value, float)
+            kept[name] = float(f"{value:.{DIGITS}g}") if rounded else value
+    content = json.dumps(kept, sort_keys=True)
+    return hashlib.sha256(content.encode()).hexdigest()[:_DIGEST_LENGTH]

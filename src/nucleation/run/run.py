@@ -1,0 +1,290 @@
+"""One simulation: a fault with its block, mesh, steps, perturbation, heterogeneity and record."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any, NamedTuple, Self
+
+from ..fault import Fault
+from ..fault.paper import PAPER
+from ..model.block import Block
+from ..model.friction.constants import CONSTANTS, with_constants
+from ..model.friction.law import Friction
+from ..model.friction.registry import law_declarations
+from ..model.heterogeneity import Heterogeneity
+from ..model.material import Material
+from ..model.perturbation import Perturbation
+from ..model.quantities import ParameterError, plain
+from ..model.recording import Recording
+from ..model.start import Start
+from ..model.stepping import Stepping
+from ..theory.creep.patches import Patches
+from ..theory.evaluation import single_system
+from .complete import completed, flat
+from .estimates import growth_time, process_zone
+from .names import GROUPS, read, sections
+
+
+class Body(NamedTuple):
+    """An elastic block with its mesh and the condition on its far side."""
+
+    material: Material
+    length: float  # m
+    height: float  # m
+    n_x: int
+    n_y: int
+    grading: float
+    far_side: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """Everything that one simulation depends on; two equal runs give the same record.
+
+    Parameters
+    ----------
+    fault : Fault
+        A single fault with velocity, friction and heights; half-spaces become blocks 4 L_c high.
+    **values
+        Parameters of the run by name, as numbers in SI units or texts such as "8m":
+        ``block_length``, 6 L_c if left out, ``n_x``, ``n_y``, ``perturbation``, ``strength``,
+        ``end_time`` and so on; `nucleation simulate --help` lists them.
+
+    Raises
+    ------
+    ParameterError
+        If the fault can't be simulated, or values are not allowed or contradict each other.
+
+    Examples
+    --------
+    >>> from nucleation.api import PAPER, Run
+    >>> run = Run(PAPER, n_x=400, n_y=20)
+    >>> run.block.length, run.fault.height
+    (1.407, 0.005)
+    """
+
+    fault: Fault
+    law: Friction
+    """The full friction law, of which f, a, zeta and D of the fault are the expansion at V."""
+    start: Start
+    block: Block
+    stepping: Stepping
+    perturbation: Perturbation
+    heterogeneity: Heterogeneity
+    recording: Recording
+
+    def __init__(self, fault: Fault, **values: Any) -> None:
+        self._set(completed(fault, read(values)))
+
+    def completed(self, **values: Any) -> Self:
+        """A run of the same fault and friction law in which only `values` are given."""
+        run = object.__new__(type(self))
+        run._set(completed(self.fault, read(values), self.law))
+        return run
+
+    def _set(self, values: Mapping[str, Any]) -> None:
+        """Set the fields from a flat mapping of all parameters."""
+        own = {name: values[name] for name in sections()["friction"] if name in values}
+        law = Friction(law=own.pop("friction_law"), **own)
+        object.__setattr__(self, "law", law)
+        object.__setattr__(self, "fault", _fault_of(values, law))
+        for group, cls in GROUPS.items():
+            own = {}
+            for field in dataclasses.fields(cls):
+                name = cls.called.get(field.name, field.name)
+                if name in values:
+                    own[field.name] = values[name]
+            object.__setattr__(self, group, cls(**own))
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """The run of :meth:`to_dict`; a ParameterError names what is wrong or missing."""
+        if not isinstance(values, Mapping) or "shear_modulus" not in values:
+            raise ParameterError(
+                "the parameters are no run of this version: records of earlier versions are made "
+                "again by their simulations"
+            )
+        run = object.__new__(cls)
+        run._set(read(values))
+        return run
+
+    def to_dict(self) -> dict[str, Any]:
+        """All parameters by name, in SI units; without those of a second body like the first."""
+        found = flat(self.fault, self.law)
+        for group in GROUPS:
+            own = getattr(self, group)
+            for name, value in plain(own).items():
+                if value is not None:
+                    found[own.called.get(name, name)] = value
+        return found
+
+    def to_json(self) -> str:
+        """:meth:`to_dict` as JSON, for datasets."""
+        return json.dumps(self.to_dict(), sort_keys=True)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The inverse of :meth:`to_json`."""
+        return cls.from_dict(json.loads(text))
+
+    def replaced(self, **values: Any) -> Self:
+        """A copy with other parameters of the fault, its friction or the run, by name.
+
+        Parameters
+        ----------
+        **values
+            Numbers in SI units or texts such as "8m"; ``None`` makes a parameter of the second
+            body that of the first. The constants a, b, zeta, zeta_over_a and friction change the
+            friction law.
+
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        ParameterError
+            If a value is not allowed, or the law has no such parameter or constants.
+        """
+        given = read(values)
+        changed = {**self.to_dict(), **given}
+        if given.get("second_body") == "rigid":
+            kept = [name for name in changed if not name.startswith("second_")]
+            changed = {name: changed[name] for name in (*kept, "second_body")}
+            changed |= {name: x for name, x in given.items() if name.startswith("second_")}
+        law = self.law.changed(
+            {
+                "law" if name == "friction_law" else name: value
+                for name, value in given.items()
+                if name in _OF_LAWS
+            }
+        )
+        law = with_constants(law, changed["velocity"], given)
+        for name in (*_OF_LAWS, *CONSTANTS):
+            changed.pop(name, None)
+        for name, value in plain(law).items():
+            changed[law.called.get(name, name)] = value
+        run = object.__new__(type(self))
+        run._set({name: value for name, value in changed.items() if value is not None})
+        return run
+
+    @property
+    def upper(self) -> Body:
+        """The first block."""
+        fault, block = self.fault, self.block
+        material = Material(fault.shear_modulus, fault.poisson_ratio, fault.density, fault.plane)
+        return Body(
+            material,
+            block.length,
+            fault.height,
+            block.n_x,
+            block.n_y,
+            block.grading,
+            fault.far_side,
+        )
+
+    @property
+    def below(self) -> Body | None:
+        """The second block, or None on a rigid base."""
+        fault, block = self.fault, self.block
+        if math.isinf(fault.second_shear_modulus):
+            return None
+        material = Material(
+            fault.second_shear_modulus,
+            fault.second_poisson_ratio,
+            fault.second_density,
+            fault.plane,
+        )
+        return Body(
+            material,
+            block.length,
+            fault.second_height,
+            block.n_x,
+            block.second_n_y or block.n_y,
+            block.second_grading or block.grading,
+            fault.second_far_side,
+        )
+
+    @property
+    def memory_time(self) -> float:
+        """Time ``D/V`` (s) over which friction forgets at the imposed velocity."""
+        return self.law.slip_distance / self.fault.velocity
+
+    @property
+    def longest_step(self) -> float:
+        """Longest time step (s): the shorter limit of the stepping and of the perturbation."""
+        memory = self.memory_time
+        return min(self.stepping.longest_step * memory, self.perturbation.longest_step(memory))
+
+    @cached_property
+    def critical_length(self) -> float:
+        """L_c (m) of the fault; NaN where sliding is stable at every wavelength."""
+        return float(self.fault.critical_length())
+
+    def process_zone(self, rest: float = 0.0) -> float:
+        """Length (m) of the front's process zone after a time (s) at rest ahead of it."""
+        return process_zone(self.fault, self.law, rest)
+
+    def growth_time(self, length: float) -> float:
+        """Time (s) from the start until the creep patch has a length (m), roughly."""
+        return growth_time(self.fault, self.start, length)
+
+    @property
+    def patches(self) -> Patches:
+        """The creeping patches of the fault, with the run's own friction law.
+
+        They begin at the edge that is pushed, or in the interior under a remote load.
+        """
+        fault = self.fault
+        found = Patches(
+            single_system(fault), self.law, fault.velocity, evolution=self.law.evolution
+        )
+        if fault.loading == "edge":
+            return found
+        rate = self.start.stress_rate * self.memory_time / fault.normal_stress
+        return dataclasses.replace(found, loading="remote", load_rate=rate)
+
+
+_OF_LAWS = ("friction_law", *(name for name in law_declarations() if name != "law"))
+"""Names of the parameters of all friction laws."""
+
+
+def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
+    """The fault in a flat mapping of parameters."""
+    names = (*sections()["material"], "normal_stress", "velocity", "initial_state", "loading")
+    found = {name: values[name] for name in (*names, "height")}
+    for name in sections()["second_body"]:
+        if values.get(name) is not None and name not in ("second_n_y", "second_grading"):
+            found[name] = values[name]
+    found |= {"far_side": "free", "evolution": law.evolution}
+    if found.pop("second_body") == "rigid":
+        extra = [name for name in found if name.startswith("second_")]
+        if extra:
+            raise ParameterError(
+                f"{extra[0]} = {found[extra[0]]!r} is not allowed with second_body = rigid, a base "
+                f"that does not deform: leave {extra[0]} out, or make second_body deformable"
+            )
+        found["second_shear_modulus"] = math.inf
+    if found["loading"] == "edge":
+        return Fault(**found, friction_law=law)
+    f, a, zeta = law.expansion(found["velocity"])
+    return Fault(**found, friction=f, a=a, zeta=zeta, slip_distance=law.slip_distance)
+
+
+def _paper_run() -> Run:
+    values = flat(PAPER, PAPER.law())
+    for cls in GROUPS.values():
+        for field in dataclasses.fields(cls):
+            if field.default is not None:
+                values[cls.called.get(field.name, field.name)] = field.default
+    run = object.__new__(Run)
+    run._set(values)
+    return run
+
+
+PAPER_RUN = _paper_run()
+"""The paper's fault on the paper's mesh, without a declared perturbation."""

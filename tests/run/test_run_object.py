@@ -1,0 +1,124 @@
+"""Runs: one name for each parameter, copies with other values, what follows from the fault."""
+
+import math
+
+import pytest
+
+from nucleation.fault import Fault
+from nucleation.fault.paper import PAPER
+from nucleation.model.quantities import ParameterError
+from nucleation.run.names import parameters, sections
+from nucleation.run.run import PAPER_RUN, Run
+
+GRANITE = Fault(
+    shear_modulus="30GPa", poisson_ratio=0.25, friction=0.65, a=0.010, b=0.015,
+    slip_distance="5um", normal_stress="50MPa", velocity="1um/s", height="2m",
+)  # fmt: skip
+PAIR = PAPER_RUN.replaced(second_body="deformable", second_shear_modulus=6.2e9, second_n_y=9)
+
+
+def test_each_parameter_is_in_one_section():
+    names = [name for section in sections().values() for name in section]
+    assert len(names) == len(set(names)) and set(PAIR.to_dict()) <= set(names)
+    assert all(parameters()[name].description for name in names)
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        PAPER_RUN,
+        PAIR,
+        PAPER_RUN.replaced(loading="remote", stress_rate=1e4, n_x=61, friction_law="product"),
+        PAPER_RUN.replaced(friction_law="dieterich_ruina", a=0.01, zeta_over_a=2.0),
+        Run(GRANITE, perturbation="normal_load", strength=1e-4, seed=1),
+    ],
+)
+def test_a_run_is_its_flat_values(run):
+    again = Run.from_json(run.to_json())
+    assert again == run and hash(again) == hash(run)
+    assert again.to_dict() == run.to_dict() and run.replaced() == run
+    assert run.fault.a == run.law.expansion(run.fault.velocity).a
+
+
+def test_a_second_body_is_like_the_first_in_all_that_is_left_out():
+    like = PAPER_RUN.replaced(second_body="deformable")
+    taller = like.replaced(height=0.02)
+    assert taller.below.height == 0.02 and taller.below.n_y == taller.block.n_y
+    assert like.replaced(second_height=like.fault.height) == like
+    assert PAIR.below.material.shear_modulus == 6.2e9 and PAIR.below.n_y == 9
+    assert PAIR.replaced(second_shear_modulus=None).below.material == PAIR.upper.material
+    assert PAIR.replaced(second_body="rigid", second_n_y=None).below is None
+
+
+def test_constants_change_the_friction_law():
+    run = PAPER_RUN.replaced(friction=0.6, a=0.01, b=0.015)
+    assert run.law.expansion(1e-5) == pytest.approx((0.6, 0.01, 0.005))
+    assert (run.fault.friction, run.fault.a) == pytest.approx((0.6, 0.01))
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"heigth": 0.2}, "there is no parameter heigth; did you mean height"),
+        ({"law": "product"}, "there is no parameter law; did you mean friction_law"),
+        ({"varies": "a"}, "did you mean heterogeneity"),
+        ({"length": 1.0}, "did you mean block_length"),
+        ({"height": -1.0}, "height = -1.0 m is not allowed"),
+        ({"n_x": 7}, r"n_x = 7 is not allowed: .* integer in \[8, 100000\]"),
+        ({"log_state_coefficient": 0.1}, "the friction law product has no such parameter"),
+        ({"zeta": 0.01, "b": 0.02}, "zeta is not allowed together with b"),
+        ({"second_height": 0.1}, "second_height = 0.1 is not allowed with second_body = rigid"),
+    ],
+)
+def test_bad_values_are_refused(values, message):
+    with pytest.raises(ParameterError, match=message):
+        PAPER_RUN.replaced(**values)
+
+
+def test_what_follows_from_the_fault():
+    run = Run(GRANITE, n_x=800)
+    critical = run.critical_length
+    assert run.block.length == float(f"{6.0 * critical:.4g}") and run.block.n_x == 800
+    assert run.fault.initial_state == pytest.approx(20.0 * 5e-6 / 1e-6)
+    assert run.law.law == "dieterich_ruina" and run.law.slip_distance == 5e-6
+    assert run.stepping.end_time > run.growth_time(critical) > run.stepping.time_after_event
+    zone = 30e9 / 0.75 * 5e-6 / (0.015 * 50e6)
+    assert run.perturbation.correlation_length == pytest.approx(0.2 * zone)
+    assert Run(PAPER).fault.initial_state == 1.0
+
+
+def test_half_spaces_become_high_and_long_blocks():
+    run = Run(GRANITE.replace(height=math.inf))
+    critical = GRANITE.replace(height=math.inf).critical_length()
+    assert run.fault.height == run.below.height == pytest.approx(4.0 * critical, rel=1e-3)
+    assert run.block.length == pytest.approx(35.0 * critical, rel=1e-3)
+    assert run.process_zone() / (run.block.length / run.block.n_x) >= 6.0
+    expected = GRANITE.replace(height=math.inf).stability_length()
+    assert run.fault.stability_length() == pytest.approx(expected, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        ({"velocity": None}, "velocity"),
+        ({"friction": None}, "friction"),
+        ({"height": [0.1, 0.2]}, "height has 2 values"),
+        ({"far_side": "clamped"}, "far_side = 'clamped' is not allowed"),
+        ({"b": 0.009}, "a control run, in which nothing is to nucleate, needs its block_length"),
+    ],
+)
+def test_what_is_missing_is_asked_for(fault, message):
+    """V and f of the paper were taken in silence (issue 43, point 2)."""
+    with pytest.raises(ParameterError, match=message):
+        Run(GRANITE.replace(**fault))
+
+
+def test_records_of_earlier_versions_are_refused():
+    with pytest.raises(ParameterError, match="no run of this version"):
+        Run.from_dict({"material": {"shear_modulus": 3.1e9}})
+    for bad in ({}, [1], "text"):
+        with pytest.raises(ParameterError, match="no run of this version"):
+            Run.from_dict(bad)
+    text = PAPER_RUN.to_dict() | {"height": "high"}
+    with pytest.raises(ParameterError, match="height = 'high' is not allowed"):
+        Run.from_dict(text)
