@@ -35,7 +35,7 @@ CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
-.PHONY: help install paper report replication quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
+.PHONY: help install paper report replication quick test test-quick lint hooks docs bench reference lock clean-venv asked-python \
 	targets check prune torture
 
 help: ## This list
@@ -115,9 +115,6 @@ check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 
 prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
 	$(LAUNCH) prune $(OPTIONS)
-
-schema: $(STAMP) ## Make config/schema.json, with which a text editor checks configurations (docs/studies.md)
-	$(BIN)/python -m replication.configuration.schema > config/schema.json
 
 # For all Pythons and machines at once, with one version of a package on all of them if there is one.
 LOCK = uv pip compile --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from replication.configuration.study_names import study_parameters
+from nucleation.run.names import parameters as run_parameters
 
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
@@ -102,7 +102,7 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
 def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
     six = nucleation("simulate", tmp_path / "run.nc", "--dry-run")
     four = nucleation("simulate", tmp_path / "run.nc", "--dry-run", "--length-over-critical", "4")
-    entry = study_parameters()["block_length"]
+    entry = run_parameters()["block_length"]
     lengths = [parse("length", planned(ended)["length"], entry) for ended in (four, six)]
     ratio = lengths[0] / lengths[1]
     assert ratio == pytest.approx(4 / 6, rel=1e-3)
@@ -158,7 +158,7 @@ def test_every_parameter_has_an_option(nucleation):
     help = nucleation("simulate", "--help").out
     text = " ".join(help.split())
     understood = {word for option in command.params for word in option.opts}
-    for name, entry in study_parameters().items():
+    for name, entry in run_parameters().items():
         assert f"--{name.replace('_', '-')} " in text
         assert entry.range_text().replace("one of ", "").split(", ")[0] in text
         assert f"--{name.replace('_', '-')}" in understood
