@@ -80,14 +80,14 @@ class FreeFemError(RuntimeError):
 def arguments(run: Run) -> dict[str, str]:
     """The script's arguments by name; FreeFemError if it does not support a value."""
     named = {"second_grading": run.block.grading} | run.to_dict()
-    supported = {name: (value,) for name, value in FIXED.items()}
+    supported: dict[str, tuple[object, ...]] = {name: (value,) for name, value in FIXED.items()}
     supported |= {"perturbation": ("none", *IN_TIME)}
     below = run.below
     if below is not None:
         supported["second_grading"] = (1.0,)
-    for name, values in supported.items():
-        if named[name] not in values:
-            choices = ", ".join(map(str, values))
+    for name, allowed in supported.items():
+        if named[name] not in allowed:
+            choices = ", ".join(map(str, allowed))
             raise FreeFemError(f"the script for FreeFem++ has {name} = {choices} only")
     called = {"block_length": "length", "perturbation": "kind"}
     values = NUMBERS | {called.get(name, name): named[name] for name in USED}

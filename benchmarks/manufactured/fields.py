@@ -99,7 +99,7 @@ class Displacement:
     ) -> tuple[Array, Array, Array]:
         """The stress or a derivative of it."""
         lame = self.material.lame_modulus
-        shear = self.fault.shear_modulus
+        shear = self.material.shear_modulus
         along_x = {"by_x": by_x + 1, "by_y": by_y}
         along_y = {"by_x": by_x, "by_y": by_y + 1}
         xx = self.value(0, x, y, t, **along_x)
@@ -120,7 +120,7 @@ class Displacement:
         t: float,
     ) -> tuple[Array, Array]:
         """``rho u_tt - div sigma``."""
-        density = self.fault.density
+        density = self.material.density
         xx_by_x, xy_by_x, _ = self.stress(x, y, t, by_x=1)
         _, xy_by_y, yy_by_y = self.stress(x, y, t, by_y=1)
         inertia_x = density * self.value(0, x, y, t, by_t=2)

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from nucleation.run.names import parameters as run_parameters
 
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
@@ -16,6 +15,7 @@ from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
 from nucleation.model.units import parse
 from nucleation.run.estimates import growth_time
+from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import simulate
 from nucleation.simulation.to_file import simulation_code

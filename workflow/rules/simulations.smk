@@ -11,8 +11,8 @@ def memory(runs, threads, attempt):
 
 def before_others(runs):
     """What a batch adds to its priority: the longest begin first, by their elements and rows."""
-    meshes = [run.parameters.mesh for run in runs]
-    return min(0.9, sum(mesh.n_x * mesh.n_y for mesh in meshes) / 1e7)
+    blocks = [run.run.block for run in runs]
+    return min(0.9, sum(block.n_x * block.n_y for block in blocks) / 1e7)
 
 
 rule simulate:

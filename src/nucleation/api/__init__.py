@@ -96,10 +96,10 @@ def _simulate(self: Fault, **settings: Any) -> Any:
         The record, as of :func:`simulate`.
     """
     require("solver")
-    from ..simulation.of_fault import parameters_of_fault
+    from ..run.run import Run
     from ..simulation.progress import simulate
 
-    return simulate(parameters_of_fault(self, **settings))
+    return simulate(Run(self, **settings))
 
 
 Fault.simulate = _simulate  # type: ignore[attr-defined]  # here, since a fault knows no simulation

@@ -116,7 +116,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, click.NoSuchOption):
             error = _with_suggestion(error)
         elif "unexpected extra argument" in error.message:
-            error.message += "; write a value and its unit as one word, 10cm, or in quotes"
+            text = f"{error.message}; write a value and its unit as one word, 10cm, or in quotes"
+            error = click.UsageError(text, getattr(error, "ctx", None))
         shown = io.StringIO()
         error.show(shown)
         _print_error(*shown.getvalue().splitlines())

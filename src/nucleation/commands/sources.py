@@ -52,7 +52,6 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], list[str
     """
     from ..run.names import parameters
     from ..run.run import PAPER_RUN, Run
-    from .faults import papers_line
 
     base, file = base_of(options), options["file"]
     known = parameters()
@@ -96,3 +95,20 @@ def _expanded(given: Mapping[str, Any]) -> dict[str, Any]:
         return found
     kind = "rigid" if text == "rigid" else "deformable"
     return {"second_body": kind} | ({} if text == "rigid" else second_body(text)) | found
+
+
+def papers_line(names: frozenset[str]) -> list[str]:
+    """The main parameters that are not given and therefore the paper's, in one line or none."""
+    given_by = {
+        "shear_modulus": {"shear_modulus"},
+        "poisson_ratio": {"poisson_ratio"},
+        "height": {"height"},
+        "normal_stress": {"normal_stress"},
+        "velocity": {"velocity"},
+        "slip_distance": {"slip_distance"},
+        "friction": {"friction"},
+        "a": {"a"},
+        "b": {"zeta_over_a", "zeta", "b"},
+    }
+    papers = [name for name, by in given_by.items() if not names & by]
+    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []

@@ -172,7 +172,7 @@ def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
             "the force: in simulations it did not drop up to 1.3 times this length"
         )
     upper, lower = patches.one.pair
-    if lower is not None and tuple(lower) != tuple(upper):
+    if lower is not None and (upper is None or tuple(lower) != tuple(upper)):
         yield (
             "L_run was compared with simulations on a rigid base and between equal bodies, but not "
             "between different ones"

@@ -123,31 +123,31 @@ class Fault:
     array([2.51327412, 1.25663706])
     """
 
-    shear_modulus: Values = _MISSING
-    poisson_ratio: Values = _MISSING
-    normal_stress: Values = _MISSING
-    a: Values = _MISSING
-    zeta: Values | None = None
-    b: Values | None = None
-    slip_distance: Values = _MISSING
-    friction: Values | None = None
-    velocity: Values | None = None
-    height: Values = math.inf
-    second_shear_modulus: Values | None = None
-    second_poisson_ratio: Values | None = None
-    second_height: Values | None = None
+    shear_modulus: Any = _MISSING
+    poisson_ratio: Any = _MISSING
+    normal_stress: Any = _MISSING
+    a: Any = _MISSING
+    zeta: Any = None
+    b: Any = None
+    slip_distance: Any = _MISSING
+    friction: Any = None
+    velocity: Any = None
+    height: Any = math.inf
+    second_shear_modulus: Any = None
+    second_poisson_ratio: Any = None
+    second_height: Any = None
     far_side: str = "traction"
     second_far_side: str | None = None
-    zone_thickness: Values | None = None
-    zone_shear_modulus: Values | None = None
-    zone_poisson_ratio: Values | None = None
+    zone_thickness: Any = None
+    zone_shear_modulus: Any = None
+    zone_poisson_ratio: Any = None
     plane: str = "strain"
     loading: str = "edge"
     evolution: str | None = None
     friction_law: Friction | None = None
-    density: Values = 1200.0
-    second_density: Values | None = None
-    initial_state: Values | None = None
+    density: Any = 1200.0
+    second_density: Any = None
+    initial_state: Any = None
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     def __new__(cls, **given: Any) -> Self:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -88,7 +88,7 @@ def _law(given: Any, own: dict[str, Any], fault: Mapping[str, Any]) -> Friction:
         return given.changed(own)
     name = given or _law_with(own)
     needed = ["velocity", "slip_distance"]
-    set_by_constants = law_class(name).set_by_expansion
+    set_by_constants = cast(type[Friction], law_class(name)).set_by_expansion
     whole = own.keys() & set(set_by_constants)
     if whole:
         clash = [constant for constant in ("friction", "a", "zeta", "b") if constant in fault]

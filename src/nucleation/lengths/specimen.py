@@ -81,12 +81,12 @@ def specimen_fit(
     """
     _require_choice("unknown", unknown, UNKNOWNS.choices)
     _require_choice("criterion", criterion, CRITERIA)
-    size = checked("length", length, SPECIMEN)
+    given = checked("length", length, SPECIMEN)
     low, high = _range(unknown, within)
     others = numbers_of(fault).items()
-    if np.ndim(size) or any(np.size(x) != 1 for name, x in others if name != unknown):
+    if np.ndim(given) or any(np.size(x) != 1 for name, x in others if name != unknown):
         raise ParameterError("a specimen is one: its length and parameters are single numbers")
-    size = float(size)
+    size = float(given)
 
     def lengths(values: float | Array) -> Array:
         return _lengths(fault.replace(**{unknown: values}), criterion, size)

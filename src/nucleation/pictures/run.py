@@ -52,7 +52,7 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     Record(simulation).require("slip", "shear_stress")
     figure, panels = style.panels(2, 2, 10.2, sharex="col", width_ratios=(2.1, 1.0))
     panels[0, 1].sharey(panels[0, 0])
-    ratio = simulation["shear_stress"] / parameters_of(simulation).loading.normal_stress
+    ratio = simulation["shear_stress"] / parameters_of(simulation).fault.normal_stress
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
     norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
     time = simulation["time"].values

@@ -206,7 +206,7 @@ class Run:
             block.n_x,
             block.second_n_y or block.n_y,
             block.second_grading or block.grading,
-            fault.second_far_side,
+            str(fault.second_far_side),
         )
 
     @property

@@ -143,7 +143,7 @@ def _short_waves(evidence: Evidence) -> float:
     ratios = np.geomspace(1.001, 100.0, 60)[:, None]
     wavenumbers = ratios * curve["critical_wavenumber"].values
     rates = block(evidence, curve["height"].values).spectrum(wavenumbers)
-    return float(rates.real.max() * evidence.interface.slip_length / evidence.interface.velocity)
+    return float(rates.real.max() * evidence.interface.slip_distance / evidence.interface.velocity)
 
 
 # -- two half-spaces ----------------------------------------------------------------------------
@@ -209,7 +209,7 @@ def _coupling(evidence: Evidence, q: float) -> float:
 def _thin_length(evidence: Evidence) -> Estimate:
     """L_c over Eq. (11), extrapolated to a height of zero."""
     heights = np.array([1e-5, 2.5e-6])  # m: far below those of Fig. 3
-    thin = thin_limit_length(heights, evidence.material, evidence.interface)
+    thin = thin_limit_length(heights, block(evidence, 1.0))
     ratio, quarter = block(evidence, heights).critical_length() / thin
     limit = 2.0 * quarter - ratio
     return between(limit, quarter, 2.0 * limit - quarter)

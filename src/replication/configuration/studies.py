@@ -88,7 +88,9 @@ def critical_lengths(faults: Sequence[Fault]) -> list[float]:
         groups.setdefault(kind, []).append(fault)
     lengths: dict[Fault, float] = {}
     for (plane, far_side, second_far_side), group in groups.items():
-        arrays = {name: np.array([getattr(fault, name) for fault in group]) for name in _ARRAYS}
+        arrays: dict[str, Any] = {
+            name: np.array([getattr(fault, name) for fault in group]) for name in _ARRAYS
+        }
         words = {"plane": plane, "far_side": far_side, "second_far_side": second_far_side}
         found = Fault(**arrays, **words).critical_length()
         lengths |= zip(group, found.tolist(), strict=True)
