@@ -1,11 +1,11 @@
 """A configuration is looked at before Snakemake sees it."""
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from warm_snakemake import warm
 
 from replication.pipeline import launch
 
@@ -87,15 +87,11 @@ def test_a_file_without_studies_is_the_paper_for_make_and_for_snakemake_alone(tm
     """What is left out has the paper's value, whoever reads the file."""
     (tmp_path / "mine.yaml").write_text("results: mine\n")
     assert launch.problem(["--configfile", str(tmp_path / "mine.yaml")]) is None
-    command = [
-        sys.executable, "-m", "snakemake", "paper", "--snakefile", ROOT / "Snakefile",
-        "--dry-run", "--quiet", "rules", "--directory", tmp_path,
-    ]  # fmt: skip
+    arguments = ["paper", "--snakefile", str(ROOT / "Snakefile"), "--dry-run", "--quiet", "rules"]
     planned = []
     for options in ([], ["--configfile", "mine.yaml"]):
-        done = subprocess.run(
-            [*command, *options], cwd=tmp_path, text=True, capture_output=True, check=True
-        )
+        done = warm()([*arguments, *options], tmp_path, tmp_path / "printed")
+        assert done.returncode == 0, done.stdout
         planned.append(dict(re.findall(r"^(\w+) +(\d+)$", done.stdout, re.MULTILINE)))
     assert planned[0] == planned[1]
     assert planned[0]["figure_3"] == "1"

@@ -197,8 +197,14 @@ def test_a_damaged_entry_of_another_user_stops_nobody(tmp_path):
         put(store)
         assert Store(place).has(KEY) and len(list(place.glob("damaged-*"))) == 1
 
+    def third():
+        with pytest.raises(PermissionError, match="another user's"):
+            Store(place).remove(KEY)
+        assert Store(place).has(KEY)
+
     as_user(2001, first)
     as_user(2002, second)
+    as_user(2001, third)
 
 
 def as_user(number, work):
@@ -262,6 +268,15 @@ def test_note_of_others_names_no_file_outside(store, tmp_path, capsys):
     assert Store(tmp_path / "clone" / "a" / "b").take(KEY, (), [shared]) is None
     assert "names other files" in capsys.readouterr().err
     assert len(list(tmp_path.rglob("*evil.nc"))) == 1
+
+
+def test_no_byte_of_a_wrong_file_is_copied(store, other, monkeypatch):
+    """A sparse file of any size, say, whose digest is another."""
+    entry = put(other)
+    monkeypatch.setattr(module.shutil, "copyfile", lambda *_: pytest.fail("it is copied"))
+    damaged(entry, lambda entry: os.truncate(entry / "result.csv", 2**24))
+    rewrite(entry, files={"result.csv": {"size": 2**24, "sha256": "0" * 64}})
+    assert store.take(KEY, (), [other]) is None
 
 
 def test_first_store_that_is_right_serves(store, other, tmp_path, capsys):

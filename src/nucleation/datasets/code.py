@@ -30,11 +30,7 @@ ALWAYS = ("nucleation.datasets.netcdf",)
 # libraries whose distribution has another name than the module
 _DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
 # libraries that do the work of others and are not imported here
-_COMPANIONS = {
-    "numba": ("llvmlite",),
-    "xarray": ("netCDF4", "pandas"),
-    "matplotlib": ("pillow",),
-}
+_COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
 # fields of syntax trees without meaning here, or unknown to some Python versions
 _UNCOUNTED = {"ctx", "kind", "type_comment", "type_ignores", "type_params"}
 _PARSED = _ROOT / "nucleation" / "__pycache__" / "digests.json"

@@ -7,6 +7,7 @@ made again. Stores elsewhere are asked first, and given each new result.
 """
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -226,6 +227,8 @@ class Store:
 
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that no process finds half of it."""
+        if self.entry(key).is_dir() and not os.access(self.entry(key), os.W_OK):
+            raise PermissionError(errno.EACCES, "it is another user's")
         gone = self.directory / f".{key}-{uuid.uuid4().hex[:8]}.tmp"
         self.entry(key).rename(gone)
         if gone.is_symlink() or not gone.is_dir():
