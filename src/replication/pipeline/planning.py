@@ -114,7 +114,7 @@ class Plan:
         """
         workflow = self._workflow
         only_lists = workflow.executor_plugin is None or workflow.dryrun or workflow.touch
-        if only_lists or any(Path(_LOCKS).glob("*")):
+        if only_lists or self._beside_a_run:
             return False
         asked = workflow.dag_settings
         forced = {*asked.forcerun, *(asked.targets if asked.forcetargets else ())}
@@ -122,6 +122,10 @@ class Plan:
         Path(self._place).mkdir(parents=True, exist_ok=True)
         write(Path(self._place, _PLANNED), "")
         return True
+
+    @cached_property
+    def _beside_a_run(self) -> bool:
+        return any(Path(_LOCKS).glob("*"))
 
     @cached_property
     def _planned(self) -> dict[str, str]:
@@ -272,7 +276,7 @@ class Plan:
         if shown and _time(str(file)) != 0.0:
             write(file, recipe.text(""))
             os.utime(file, (0, 0))
-        elif not shown and _time(str(file)) <= newest:
+        elif not shown and (_time(str(file)) <= newest or not self._beside_a_run):
             write(file, recipe.text(str(time.time_ns())))
             if newest >= _time(str(file)):  # a clock was wrong
                 os.utime(file, (newest + 1.0, newest + 1.0))
