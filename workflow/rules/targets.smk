@@ -80,7 +80,7 @@ rule check:
     localrule: True
     params:
         results=lambda wildcards: recipe.results,
-        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
+        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies), checks=True),
     shell:
         f"({PYTHON} -m replication.pipeline.check check {{params.results:q}} {{params.expected:q}})"
         " | tee {log:q} || true"

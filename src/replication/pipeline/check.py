@@ -24,7 +24,7 @@ from .views import shows_expected
 
 CURRENT = "All is current"
 _HALF = "half a file of a run that was killed: delete it"
-_LEFTOVERS = {
+LEFTOVERS = {
     ".*.tmp": _HALF,
     "*.checkpoint.npz": "a run has begun here and continues when it is requested again",
     "*.failed.nc": "the record of a run that failed",
@@ -114,7 +114,7 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
         if any((directory / "store").is_dir() for directory in below):
             continue  # of another configuration
         wanted = expected.get(str(path))
-        leftover = next((text for form, text in _LEFTOVERS.items() if path.match(form)), None)
+        leftover = next((text for form, text in LEFTOVERS.items() if path.match(form)), None)
         if leftover is not None:
             yield Finding(path, "incomplete", leftover)
         elif wanted is None:

@@ -49,7 +49,7 @@ class Plan:
         self._inputs: dict[str, list[str]] = {}  # by the name of the result
         self._files: dict[str, Any] = {}  # Snakemake's files by their paths
         self._kept: Counter[str] = Counter()  # jobs of a dry run that a run would not start
-        self.checked = False  # whether the expected files were asked for
+        self.checked = False  # whether the expected files are for the check
         self._shown = 0  # results that were shown without a job
         self._taken = 0  # results that were copied from other stores
         atexit.register(self._report)
@@ -166,13 +166,14 @@ class Plan:
         found, rule = next(((found, rule) for found, rule in matches if found), (None, ""))
         return self._of_rule(rule, found.groupdict()) if found else None
 
-    def write_expected(self, more: list[str]) -> str:
+    def write_expected(self, more: list[str], checks: bool = False) -> str:
         """Write which result each file of the workflow should show; return the written path.
 
         This includes the files of all rules without wildcards, the files `more`, and all their
-        sources. A target is left out if the configuration lacks its studies.
+        sources. A target is left out if the configuration lacks its studies. If it is for the
+        check, the workflow fails at its end unless all is current.
         """
-        self.checked = True
+        self.checked = checks
         found: dict[str, str] = {}
         for path in (*self._makers[0], *more):
             with contextlib.suppress(Exception):
