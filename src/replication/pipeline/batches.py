@@ -47,21 +47,22 @@ class Batch:
         self._result = result
         self._parts = parts
         self._cores = cores
-        self._failures: list[str] = []
 
     def map(self, function: Callable[[int, Any], Any] | None = None) -> list[Any]:
         """Make all results, and return the values of a function of each one's number and result.
 
-        It is called in the process that makes the result; failed parts are left out.
+        It is called in the process that makes the result. If parts have failed, SystemExit names
+        them once all were tried.
         """
         names = [part.name for part in self._parts]
-        values = []
-        for failure, value in side_by_side(lambda i: self._one(i, function), names, self._cores):
-            if failure:
-                self._failures.append(failure)
-            else:
-                values.append(value)
-        return values
+        made = side_by_side(lambda i: self._one(i, function), names, self._cores)
+        failures = [failure for failure, _ in made if failure]
+        if failures and len(names) == 1:
+            sys.exit(failures[0])
+        if failures:
+            count = f"{len(failures)} of {len(names)} runs failed, the others are kept:"
+            sys.exit("\n  ".join([count, *failures]))
+        return [value for _, value in made]
 
     def _one(self, number: int, function: Callable[[int, Any], Any] | None) -> tuple[str, Any]:
         """Why a part has failed, and the value of the function if it has not."""
@@ -73,15 +74,6 @@ class Batch:
             return str(error), None
         show(part)
         return "", None if function is None else function(number, result)
-
-    def end_on_failures(self) -> None:
-        """Raise SystemExit if a part has failed; it is called after all parts were tried."""
-        if not self._failures:
-            return
-        if len(self._parts) == 1:
-            sys.exit(self._failures[0])
-        count = f"{len(self._failures)} of {len(self._parts)} runs failed, the others are kept:"
-        sys.exit("\n  ".join([count, *self._failures]))
 
 
 def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -> list[Any]:

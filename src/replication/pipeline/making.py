@@ -85,10 +85,10 @@ class _Maker:
             self._result(recipe)
             return
         batch = Batch(self._result, recipe.parts, threads)
-        table = self._called(recipe, records=batch) if recipe.call else batch.map()
-        batch.end_on_failures()  # a table without the failed runs is not kept
-        if recipe.call:
-            self._put(recipe, table)
+        if recipe.call:  # if a run has failed, this ends before the table is kept
+            self._put(recipe, self._called(recipe, records=batch))
+        else:
+            batch.map()
 
     def _result(self, recipe: Recipe) -> Any:
         """The result of a recipe as its function returned it, or the dataset in the store.
@@ -274,12 +274,9 @@ def differences(new: Path, old: Path) -> list[str]:
     if new.suffix != ".nc":
         same = new.read_bytes() == old.read_bytes()
         return [] if same else [f"{new.name} differs"]
-    ours = netcdf.read(new)
-    theirs = netcdf.read(old)
-    found = []
-    for name in sorted({*map(str, ours.variables), *map(str, theirs.variables)} - _OF_MACHINE):
-        if name not in ours.variables or name not in theirs.variables:
-            found.append(f"{name} is in one of them alone")
-        elif not ours[name].variable.equals(theirs[name].variable):
-            found.append(f"{name} differs")
-    return found
+    ours = netcdf.read(new).variables
+    theirs = netcdf.read(old).variables
+    names = {*map(str, ours), *map(str, theirs)} - _OF_MACHINE
+    both = ours.keys() & theirs.keys()
+    equal = {name for name in names & both if ours[name].equals(theirs[name])}
+    return [f"{name} differs" for name in sorted(names - equal)]
