@@ -49,7 +49,7 @@ DRAWN = {
 """The thin limit's curve, and the creep of some faults at their L_s."""
 
 CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
-PLACES = 121  # along a patch, in its angle
+PLACES = 241  # along a patch, in its angle
 _SHOWN_MODES = 256  # with fewer, curves have kinks near a pushed edge under strong contrast
 PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 
