@@ -19,10 +19,12 @@ from functools import cached_property
 
 import numpy as np
 
+from . import edge_kernels
 from .grid import Components, Field, Motion, Motions, Terms
 from .layer import Layers
 from .modes import BlockModes
 from .operator import Operator
+from .right_edge import elastic_energy
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
@@ -72,6 +74,33 @@ class Body(Layers):
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x (kg/s per unit depth), at w_t (m/s), of what moves with the edge."""
         return self.layers[0].momentum_x(self.parts(velocity)[0])
+
+    def product(self, load: Field, field: Field) -> float:
+        """Work per depth (J/m) of forces (N/m) on a displacement (m)."""
+        modes = (load.modes * field.modes).sum(axis=(0, 1)) @ self.modes.norms
+        return float(modes + load.edge @ field.edge)
+
+    def far_work(self, loads: tuple[Field, Field], fields: tuple[Field, Field]) -> float:
+        """Work (J/m) of far loads (N/m) between two displacements (m), by the trapezoidal rule."""
+        pairs = *loads, *fields
+        modes = tuple(field.modes for field in pairs)
+        edges = tuple(field.edge for field in pairs)
+        end = -1
+        work = 0.0
+        for layer in self.layers:
+            end += layer.levels
+            work += edge_kernels.work_on_a_level(end, modes, edges, self.modes.norms)
+        return work
+
+    def kinetic_energy(self, velocity: Field, of_edge: float) -> float:
+        """Kinetic energy (J/m) at a velocity w_t and that of the driven edge (m/s)."""
+        own = 0.5 * self.product(self.inertia_load(1.0, [(1.0, velocity)]), velocity)
+        return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
+
+    def elastic_energy(self, displacement: Field) -> float:
+        """Elastic energy (J/m) of a displacement (m)."""
+        parts = zip(self.layers, self.parts(displacement), strict=True)
+        return sum(elastic_energy(layer, part) for layer, part in parts)
 
     def nodal_values(self, field: Field, number: int = 0) -> Components:
         """Nodal w_x and u_y of a layer, by its number, levels from the interface on.

@@ -19,6 +19,7 @@ class _Modes:
     def __init__(self, grid: Grid, theta: Array, x_integral: Array) -> None:
         self.n_x = grid.n_x
         self.scale = 2.0 / grid.n_x  # of all loads and stiffnesses per mode
+        self.norms = np.full(grid.n_x, 0.5 * grid.n_x)  # sums of each mode's squares over the nodes
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
         self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
         self.sine = np.sin(theta)
@@ -112,6 +113,7 @@ class PeriodModes(_Modes):
         half = np.arange(1, grid.n_x // 2 + 1)
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
         super().__init__(grid, theta, np.where(theta == 0.0, grid.length, 0.0))
+        self.norms[0] *= 2.0  # of the mean
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
         """The mean, A and B."""

@@ -32,7 +32,8 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """
     body = dynamics.body
     imposed = dynamics.drive.at(0.0)
-    load = dynamics.load(imposed)
+    external = dynamics.drive.load(0.0)
+    load = dynamics.in_frame(external, imposed)
     operator = body.operator(0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
@@ -59,7 +60,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     )
     friction = float(interface.tangential[dynamics.grid.own].sum())
     force = friction - dynamics.frame_inertia(imposed)
-    return state, StepReport(interface, force, error=0.0)
+    return state, StepReport(interface, force, 0.0, imposed, external)
 
 
 def _in_uniform_shear(

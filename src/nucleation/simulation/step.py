@@ -111,6 +111,8 @@ class StepReport:
     interface: InterfaceSolution
     driving_force: float  # f_d (N/m), negative in compression
     error: float  # largest local error of asinh(v / v_scale) and log(phi)
+    imposed: Imposed
+    load: Field  # N/m, without the inertia of an accelerated frame
 
 
 class Dynamics:
@@ -145,7 +147,8 @@ class Dynamics:
         time = state.time + step.length
         operator = self.operator(step.s)
         imposed = self.drive.at(time)
-        load = self._load_with_past(state, step, imposed)
+        external = self.drive.load(time)
+        load = self._load_with_past(state, step, self.in_frame(external, imposed))
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         rates = self.body.modes.on_all_nodes(guess.slip_rate[1:], imposed.velocity)
         past = self._past(state, step, imposed)
@@ -165,7 +168,8 @@ class Dynamics:
         motion = Motion(balance.displacement, balance.velocity, momentum)
         new = self._pushed(state, time, solution, motion, balance.edge_error)
         force = self._driving_force(state, step, imposed, solution, motion)
-        return new, StepReport(solution, force, step.error(guess.distance(solution)))
+        error = step.error(guess.distance(solution))
+        return new, StepReport(solution, force, error, imposed, external)
 
     def _past(self, state: State, step: Step, imposed: Imposed) -> Past:
         formula = step.interface
@@ -185,9 +189,8 @@ class Dynamics:
         self._operators.move_to_end(s)
         return self._operators[s]
 
-    def load(self, imposed: Imposed) -> Field:
-        """The load (N/m) at an instant, with the inertia of an accelerated frame."""
-        load = self.drive.load(imposed.time)
+    def in_frame(self, load: Field, imposed: Imposed) -> Field:
+        """A load (N/m) with the inertia of an accelerated frame."""
         if imposed.acceleration == 0.0:
             return load
         return load.plus(self.body.translation_load(imposed.acceleration))
@@ -196,18 +199,13 @@ class Dynamics:
         """Force (N/m) by which the driven edge accelerates the whole body with it."""
         return self.body.total_mass * imposed.acceleration
 
-    def _load_with_past(
-        self,
-        state: State,
-        step: Step,
-        imposed: Imposed,
-    ) -> Field:
-        """The load at the end of the step, with the past part of inertia."""
+    def _load_with_past(self, state: State, step: Step, load: Field) -> Field:
+        """A load at the end of the step, with the past part of inertia."""
         terms = []
         for c, motion in zip(step.body.past, state.motions, strict=False):
             terms.append((c, motion.displacement))
             terms.append((c * step.body.beta, motion.velocity))
-        return self.body.inertia_load(step.s, terms, self.load(imposed))
+        return self.body.inertia_load(step.s, terms, load)
 
     def _driving_force(
         self,
