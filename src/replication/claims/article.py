@@ -23,7 +23,14 @@ def write_article(
 ) -> dict[str, str]:
     """The step ``article``: its text from the template, the claims as JSON and the lengths."""
     rows = json.loads(claims.read_text("utf-8"))
-    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
+    return {
+        ".md": render(
+            template.read_text("utf-8"),
+            rows,
+            lengths,
+            beyond,
+        )
+    }
 
 
 def render(

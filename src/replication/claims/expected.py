@@ -32,17 +32,31 @@ WORDS: dict[str, tuple[float, float, str]] = {
     "small variation": (-0.10, 0.10, "less than 10 %"),
     "significant": (0.10, math.inf, "more than 10 %"),
     "negligible": (-0.01, 0.01, "less than 1 %"),
-    "typical": (1.0 / math.sqrt(10.0), math.sqrt(10.0), "within half an order of magnitude"),
+    "typical": (
+        1.0 / math.sqrt(10.0),
+        math.sqrt(10.0),
+        "within half an order of magnitude",
+    ),
     "about": (0.1, 10.0, "within an order of magnitude"),
     "most": (0.5, math.inf, "more than half"),
     "almost everywhere": (0.9, math.inf, "more than 90 %"),
     "much": (10.0, math.inf, "at least ten times"),
     "dramatically": (100.0, math.inf, "at least a hundred times"),
-    "huge range": (3.0, math.inf, "at least three orders of magnitude"),
+    "huge range": (
+        3.0,
+        math.inf,
+        "at least three orders of magnitude",
+    ),
 }
 """How words are read: lower and upper end of the range that they allow, and the range in words."""
 
-REASONED = ("perfect", "extremely well", "computed", "small variation", "significant")
+REASONED = (
+    "perfect",
+    "extremely well",
+    "computed",
+    "small variation",
+    "significant",
+)
 """Words whose reading follows from the paper or from the accuracy of a number. The readings of the
 other words are our choice."""
 
@@ -75,7 +89,11 @@ class Estimate(NamedTuple):
 def between(value: float, *ends: float) -> Estimate:
     """A number with the range that contains it and some ends."""
     numbers = [float(value), *map(float, ends)]
-    return Estimate(numbers[0], min(numbers), max(numbers))
+    return Estimate(
+        numbers[0],
+        min(numbers),
+        max(numbers),
+    )
 
 
 Found = Any
@@ -142,30 +160,63 @@ def number(printed: str) -> Expected:
     decimal = Decimal(printed)
     half = Decimal(1).scaleb(int(decimal.as_tuple().exponent)) / 2
     ends = float(decimal - half), float(decimal + half)
-    return Expected("number", *ends, printed, float(decimal))
+    return Expected(
+        "number",
+        *ends,
+        printed,
+        float(decimal),
+    )
 
 
 def formula(value: float, text: str = "") -> Expected:
     """A formula's value, exact except for round-off, and the formula as Markdown."""
     margin = FORMULA_TOLERANCE * (abs(value) or 1.0)
     text = text or f"{value:.6g}"
-    return Expected("formula", value - margin, value + margin, text, value)
+    return Expected(
+        "formula",
+        value - margin,
+        value + margin,
+        text,
+        value,
+    )
 
 
 def words(expression: str) -> Expected:
     """Words, read by the table :data:`WORDS`."""
     low, high, reading = WORDS[expression]
     chosen = expression not in REASONED
-    return Expected("words", low, high, f"{expression}: {reading}", chosen=chosen)
+    return Expected(
+        "words",
+        low,
+        high,
+        f"{expression}: {reading}",
+        chosen=chosen,
+    )
 
 
 KINDS: dict[str, Callable[..., Expected]] = {
     "number": number,
     "formula": formula,
-    "below": lambda bound: Expected("bound", -math.inf, bound, f"< {bound:g}"),
-    "above": lambda bound: Expected("bound", bound, math.inf, f"> {bound:g}"),
+    "below": lambda bound: Expected(
+        "bound",
+        -math.inf,
+        bound,
+        f"< {bound:g}",
+    ),
+    "above": lambda bound: Expected(
+        "bound",
+        bound,
+        math.inf,
+        f"> {bound:g}",
+    ),
     "words": words,
-    "reading": lambda text: Expected("reading", -math.inf, math.inf, text, 1.0),
+    "reading": lambda text: Expected(
+        "reading",
+        -math.inf,
+        math.inf,
+        text,
+        1.0,
+    ),
 }
 
 
@@ -251,7 +302,11 @@ def _by_reading(result: Result) -> str:
     return reason
 
 
-def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:
+def _comparison(
+    expected: Expected,
+    ours: Estimate,
+    held: bool,
+) -> str:
     """Sentences that compare our number with the paper's."""
     value = expected.value or 0.0
     if expected.kind == "formula":
@@ -270,7 +325,11 @@ def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:
     return reason
 
 
-def _on_papers_mesh(expected: Expected, result: Result, held: bool) -> str:
+def _on_papers_mesh(
+    expected: Expected,
+    result: Result,
+    held: bool,
+) -> str:
     """A sentence on whether the statement holds for the study ``paper`` too."""
     if result.papers is None:
         return ""

@@ -105,24 +105,46 @@ def _settled(evidence: Tables) -> tuple[pd.DataFrame, str]:
 
 
 def _at_heights(rows: pd.DataFrame) -> str:
-    pairs = zip(rows["length_ratio"], rows["height"], strict=True)
+    pairs = zip(
+        rows["length_ratio"],
+        rows["height"],
+        strict=True,
+    )
     return " and ".join(f"{length:.2f} at {height:g} m" for length, height in pairs)
 
 
 def _both_senses(rows: pd.DataFrame) -> _Senses:
     """The lengths in both senses of each contrast; raises Missing without one of them."""
-    lengths = rows.pivot(index="weakening", columns="contrast", values="over_modulus")
+    lengths = rows.pivot(
+        index="weakening",
+        columns="contrast",
+        values="over_modulus",
+    )
     positive = np.array([contrast for contrast in lengths.columns if contrast > 0.0])
     wanted = lengths.reindex(columns=[0.0, *positive, *-positive])
     if not positive.size or wanted.isna().any(axis=None):
         raise Missing(r"A $\zeta/a$ lacks a sense of a contrast, or identical bodies")
-    parts = np.split(wanted.to_numpy(), [1, 1 + positive.size], axis=1)
-    return _Senses(lengths.index.to_numpy(), positive, *parts)
+    parts = np.split(
+        wanted.to_numpy(),
+        [1, 1 + positive.size],
+        axis=1,
+    )
+    return _Senses(
+        lengths.index.to_numpy(),
+        positive,
+        *parts,
+    )
 
 
 def _lengths(rows: pd.DataFrame, unit: str = "") -> list[Estimate]:
     """The lengths at the drop in the unit of a column, each with its realisations' range."""
-    columns = rows[["length_ratio", "length_ratio_low", "length_ratio_high"]]
+    columns = rows[
+        [
+            "length_ratio",
+            "length_ratio_low",
+            "length_ratio_high",
+        ]
+    ]
     scaled = columns.mul(rows[unit], axis=0) if unit else columns
     return [between(*row) for row in scaled.to_numpy()]
 
@@ -175,7 +197,11 @@ def _modulus(evidence: Tables) -> Result:
     rows, notes = _settled(evidence)
     senses = _both_senses(rows)
     mean = (senses.below + senses.above) / 2.0
-    return _over_weakenings(senses, mean / senses.identical, _note(rows) + notes)
+    return _over_weakenings(
+        senses,
+        mean / senses.identical,
+        _note(rows) + notes,
+    )
 
 
 def _contrast(evidence: Tables) -> Result:
@@ -185,10 +211,18 @@ def _contrast(evidence: Tables) -> Result:
     effect = difference / (senses.below + senses.above) / senses.contrast
     if senses.contrast.size < 2:
         raise Missing("There are no two contrasts")
-    return _over_weakenings(senses, effect[:, 1:] / effect[:, :1], _note(rows) + notes)
+    return _over_weakenings(
+        senses,
+        effect[:, 1:] / effect[:, :1],
+        _note(rows) + notes,
+    )
 
 
-def _over_weakenings(senses: _Senses, ratios: Array, note: str) -> Result:
+def _over_weakenings(
+    senses: _Senses,
+    ratios: Array,
+    note: str,
+) -> Result:
     """The ratios of all zeta/a; the note has that of each which is furthest from one."""
     worst = [max(row, key=lambda value: abs(value - 1.0)) for row in ratios]
     pairs = zip(worst, senses.weakening, strict=True)
