@@ -218,7 +218,7 @@ def test_a_longer_thin_limit_is_not_replicated(monkeypatch):
 def test_rubin_and_ampueros_length_is_the_one_that_the_note_has():
     """And it is outside the range of eta that the paper has for the conventional approach."""
     on = evidence()
-    _, a, zeta = on.friction.expansion(on.loading.velocity)
+    _, a, zeta = on.friction.expansion(on.fault.velocity)
     fault = theory.main_text(on, a=a, zeta=zeta)
     found = fault.lengths()["rubin_ampuero_localised"].value
     scale = fault.shear_modulus * fault.slip_distance / (fault.zeta * fault.normal_stress)
