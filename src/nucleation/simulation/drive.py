@@ -163,18 +163,7 @@ class _ForcedState(Steady):
 
 
 def drive_of(run: Run, body: Body) -> Drive:
-    """The drive of a run: a moving edge, or a far load that rises.
-
-    Parameters
-    ----------
-    run : Run
-    body : Body
-        The elastic body on which the loads act.
-
-    Returns
-    -------
-    Drive
-    """
+    """The drive of a run: a moving edge, or a far load that rises."""
     near = _near_drive(run, body)
     if run.fault.loading != "remote":
         return near

@@ -46,18 +46,7 @@ FEW = 4  # elements: a patch has more of them when its event begins
 
 
 def where_patch_is_sought(run: Run, x: Array) -> NDArray[np.bool_]:
-    """Select the nodes at which the patch may be: those near the edge, if an edge is pushed.
-
-    Parameters
-    ----------
-    run : Run
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-
-    Returns
-    -------
-    ndarray of bool, shape (n,)
-    """
+    """Select the nodes at which the patch may be: those near the edge, if an edge is pushed."""
     if run.fault.loading != "edge":
         return np.ones(x.size, dtype=bool)
     return x <= NEAR * run.block.length
@@ -72,21 +61,6 @@ def long_after(
     """Find the time (s) after which the patch has been longer than :data:`FEW` elements.
 
     Between two frames the nearest one counts, as for the length of the patch.
-
-    Parameters
-    ----------
-    run : Run
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    times : ndarray, shape (frames,)
-        Times (s) of the frames.
-    slip_rates : ndarray, shape (frames, n)
-        Slip rates (m/s).
-
-    Returns
-    -------
-    float
-        Minus infinity if the patch always was longer, infinity if it never was.
     """
     near = np.abs(slip_rates[:, where_patch_is_sought(run, x)])
     nodes = np.count_nonzero(near > SLIPPING * run.fault.velocity, axis=1)
@@ -109,10 +83,6 @@ class PatchBursts:
     A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
     pushed, a burst belongs to the patch once its fastest point is in the half of the block next to
     the edge, later than the memory time D/V. Under other loads the patch may be anywhere.
-
-    Parameters
-    ----------
-    run : Run
     """
 
     def __init__(self, run: Run) -> None:
@@ -128,19 +98,7 @@ class PatchBursts:
         rate: float,
         position: float,
     ) -> bool:
-        """Take in the next step and return whether the patch slips fast.
-
-        Parameters
-        ----------
-        time : float
-            Time (s) at the end of the step.
-        rate, position : float
-            Largest slip rate (m/s) on the interface, and its position (m).
-
-        Returns
-        -------
-        bool
-        """
+        """Take in the next step and return whether the patch slips fast."""
         if rate <= self._fast:
             self.own = False
         elif time > self._from and position <= self._end:
@@ -149,15 +107,7 @@ class PatchBursts:
 
 
 class DropWatch:
-    """Detects from step to step whether the force has dropped abruptly.
-
-    Parameters
-    ----------
-    window : float
-        Time (s) within which the force has to fall.
-    drop : float
-        Fraction by which it has to fall.
-    """
+    """Detects from step to step whether the force has dropped by a fraction in a time (s)."""
 
     def __init__(
         self,
@@ -188,19 +138,7 @@ class DropWatch:
         force: float,
         fast: bool = True,
     ) -> bool:
-        """Take in the next force and return whether it completes an abrupt drop.
-
-        Parameters
-        ----------
-        time, force : float
-            Time (s), and magnitude of the force (N/m) at this time.
-        fast : bool
-            Whether the patch slips fast at this time (:class:`PatchBursts`).
-
-        Returns
-        -------
-        bool
-        """
+        """Take in the next force and return whether it completes an abrupt drop."""
         while self._largest and self._largest[-1][1] <= force:
             self._largest.pop()
         self._largest.append((time, force))

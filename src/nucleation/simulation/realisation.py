@@ -41,17 +41,6 @@ def normals(
 
     A larger number of them begins with the same ones. They are made from the raw integers of the
     generator, since NumPy does not guarantee equal normal numbers in all its versions.
-
-    Parameters
-    ----------
-    seed, stream, row : int
-        Seed, one of its independent streams, and a row of the stream.
-    number : int
-        How many numbers.
-
-    Returns
-    -------
-    ndarray, shape (number,)
     """
     return ndtri(_uniform(seed, stream, row, number))
 
@@ -113,14 +102,7 @@ def _place(position: float) -> tuple[int, float]:
 
 
 class Series:
-    """A realisation in time, from time zero on.
-
-    Parameters
-    ----------
-    seed : int
-    correlation : float
-        Correlation time (s).
-    """
+    """A realisation in time, from time zero on, of a correlation time (s)."""
 
     def __init__(
         self,
@@ -201,36 +183,13 @@ def profile(
     correlation: float,
     x: Array,
 ) -> Array:
-    """A realisation along x.
-
-    Parameters
-    ----------
-    seed : int
-    correlation : float
-        Correlation length (m).
-    x : ndarray, shape (n,)
-        Positions (m), at least zero.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        ``xi`` at the positions.
-    """
+    """``xi`` along x at positions (m), at least zero, of a correlation length (m)."""
     positions = _Positions(seed, correlation, x, PROFILE)
     return positions.values(normals(seed, PROFILE, 0, positions.number))
 
 
 class Sheet:
-    """A realisation in time and along x: its correlation is the product of both correlations.
-
-    Parameters
-    ----------
-    seed : int
-    correlation_time, correlation_length : float
-        Correlation time (s) and length (m).
-    x : ndarray, shape (n,)
-        Positions (m), at least zero.
-    """
+    """A realisation in time and along x: its correlation is the product of both correlations."""
 
     def __init__(
         self,

@@ -34,14 +34,7 @@ PER_STEP = (
 
 
 class Recorder:
-    """Collects the states of one run and makes the dataset.
-
-    Parameters
-    ----------
-    run : Run
-    dynamics : Dynamics
-        Body and drive of the run.
-    """
+    """Collects the states of one run and makes the dataset."""
 
     def __init__(
         self,
@@ -85,14 +78,7 @@ class Recorder:
         state: State,
         report: StepReport,
     ) -> None:
-        """Take in the initial state or one accepted step.
-
-        Parameters
-        ----------
-        state : State
-        report : StepReport
-            Report of the step that led to this state.
-        """
+        """Take in the initial state or one accepted step."""
         interface = report.interface
         node = passes.largest_at(interface.slip_rate)
         fastest = float(abs(interface.slip_rate[node]))

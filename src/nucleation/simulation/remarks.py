@@ -22,21 +22,7 @@ def front_width(
     x: Array,
     state: Array,
 ) -> float:
-    """Width of the front in elements: total change of log(phi) over the steepest one.
-
-    Parameters
-    ----------
-    run : Run
-    x : ndarray, shape (n,)
-        Positions (m) of the nodes.
-    state : ndarray, shape (n,)
-        State variable (s) at one instant. Zero where it was not recorded, as nothing slips there.
-
-    Returns
-    -------
-    float
-        Infinite if there is no front: the state changes by less than a factor e.
-    """
+    """Width of the front in elements: total change of log(phi) over the steepest one."""
     with np.errstate(divide="ignore", invalid="ignore"):
         log_state = np.log(state[where_patch_is_sought(run, x)])
         changes = np.abs(np.diff(log_state))
@@ -54,21 +40,7 @@ def fastest_elsewhere(
     positions: Array,
     until: float,
 ) -> Burst | None:
-    """Find the fastest slip outside the patch before a given time.
-
-    Parameters
-    ----------
-    run : Run
-    times, rates, positions : ndarray, shape (steps,)
-        Time (s), largest slip rate (m/s) and its position (m) at every step.
-    until : float
-        Onset of the event (s), or infinity.
-
-    Returns
-    -------
-    Burst or None
-        None if only the patch slips fast.
-    """
+    """Find the fastest slip outside the patch before a given time."""
     bursts = PatchBursts(run)
     steps = list(zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True))
     own = np.array([bursts.at(*step) for step in steps], dtype=bool)

@@ -16,20 +16,7 @@ from .step import Dynamics, State, StepReport
 
 
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
-    """The static field under the load at rest.
-
-    Parameters
-    ----------
-    dynamics : Dynamics
-        Body, interface and drive of the run.
-    run : Run
-        With ``initial_stress`` the interface starts in uniform shear. Otherwise it starts without
-        slip, except where it cannot carry the shear stress.
-
-    Returns
-    -------
-    State, StepReport
-    """
+    """The static field under the load at rest."""
     body = dynamics.body
     imposed = dynamics.drive.at(0.0)
     external = dynamics.drive.load(0.0)
