@@ -99,6 +99,11 @@ def critical_lengths(cases):
     return 2.0 * np.pi / np.array(k)
 
 
+def critical_length(height, material, interface):
+    """L_c (m) of a block on a rigid base."""
+    return fault_of(material, interface).replace(height=height).critical_length()
+
+
 def fault_of(material, interface):
     """A half-space on a rigid body, with this friction."""
     return Fault(

@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 from declared import VARIABLES, declarations
 
+from nucleation.datasets import code
 from nucleation.datasets.variables import (
     DatasetError,
     Variable,
@@ -16,7 +17,6 @@ from nucleation.datasets.variables import (
     table,
     to_csv,
 )
-from replication.pipeline import code
 from replication.tables import lengths
 
 RECORDED = "nucleation.simulation.recorded"

@@ -6,6 +6,7 @@ import pickle
 import pytest
 
 import nucleation.model.friction.laws as laws
+from nucleation.datasets import code
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import (
     LAWS,
@@ -17,7 +18,6 @@ from nucleation.model.friction.registry import (
 )
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
-from replication.pipeline import code
 
 HOME = "nucleation.model.friction"
 

@@ -11,9 +11,9 @@ from commands_of_slurm import output_of, wait_for
 
 from nucleation.datasets import netcdf
 from nucleation.fault.strict_yaml import read_yaml
+from nucleation.run.checks import estimated_megabytes
 from nucleation.simulation.checkpoints import VARIABLE
 from replication.configuration.load import configure
-from replication.configuration.settings import estimated_megabytes
 
 ROOT = Path(__file__).parents[3]
 OFTEN = ("--slurm-init-seconds-before-status-checks", "2")
