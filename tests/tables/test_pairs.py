@@ -33,7 +33,7 @@ def test_rows_say_what_the_runs_are():
     assert table["seed"].values.tolist() == [3, 3]
     assert table["critical_length"].values.tolist() == [run.critical_length for run in runs]
     first = runs[0].run
-    contrast = bimaterial_contrast(first.material, first.below.material)
+    contrast = bimaterial_contrast(first.upper.material, first.below.material)
     f_beta = float(table["f_beta"][0])
     assert contrast > 0.0 and f_beta == pytest.approx(contrast * float(table["friction"][0]))
     ratio = bimaterial_length_ratio(f_beta, float(table["zeta_over_a"][0]))
