@@ -87,7 +87,7 @@ def quick(numbers):
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
 def test_theory_answers(cost, number):
     fault, loading = random_fault(number)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), np.errstate(all="raise"):
         warnings.simplefilter("error", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
         own = Fault(**fault, loading=loading)
@@ -133,7 +133,8 @@ def test_the_drop_answers(cost, number):
             return
         cost.clear()
         try:
-            found = expected_drop(run)
+            with np.errstate(all="raise"):
+                found = expected_drop(run)
         except NoLength as none:
             assert str(none)
             return

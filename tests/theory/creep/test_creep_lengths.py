@@ -83,6 +83,17 @@ def test_arrays_keep_their_names():
     assert plain.shape == (2, 3)
 
 
+def test_modes_are_doubled_where_they_do_not_resolve_the_patch():
+    """16, 32, 64 and 256 modes give 1.796, 1.8128, 1.8130 and 1.8130 L_c."""
+    fault = Fault(
+        shear_modulus=3.1e9, poisson_ratio=1 / 3, friction=0.41, a=0.0068, zeta=0.00068,
+        slip_distance=5e-7, normal_stress=1e6,
+    )  # fmt: skip
+    length, _, error = stability_answers(fault)[:3]
+    assert float(length / fault.critical_length()) == pytest.approx(1.8130, rel=3e-4)
+    assert error < 1e-3
+
+
 def test_identical_half_spaces():
     """A multiple of Eq. (6) that depends on zeta/a alone."""
     bodies = {"second_shear_modulus": None, "friction": None}

@@ -37,6 +37,8 @@ SHORTEST = 0.7  # where the search starts, over its guess
 FACTOR = 1.12  # from one length to the next
 PRECISION = 1e-9  # relative, of L_s for a given number of modes
 STEP = 1e-3  # of log L, in the derivative of the growth rate
+LARGEST_ERROR = 1e-3  # relative, of L_s, beyond which there are twice as many modes
+NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 
 
 class _StabilityPoint(NamedTuple):
@@ -52,35 +54,33 @@ def stability_point(
     patches: Patches,
     critical: float,
 ) -> _StabilityPoint:
-    """L_s of one fault.
+    """L_s of one fault, with L_c (m) or NaN.
 
-    Parameters
-    ----------
-    patches : Patches
-        Of the fault.
-    critical : float
-        L_c (m), NaN where homogeneous sliding is stable.
-
-    Returns
-    -------
-    _StabilityPoint
-        L_s, its mode and its error.
-
-    Raises
-    ------
-    NoLength
-        If homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its
-        creep opens the fault.
+    Raises NoLength if homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing
+    mode, or its creep opens the fault.
     """
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
+    point = _point_beyond(patches, SHORTEST * _guess(patches) * critical, critical)
+    if point.error < LARGEST_ERROR or patches.refinement > 1:
+        return point
+    finer = dataclasses.replace(patches, refinement=2)
+    return _point_beyond(finer, NEAR * point.length, critical)
+
+
+def _point_beyond(
+    patches: Patches,
+    start: float,
+    critical: float,
+) -> _StabilityPoint:
+    """Where a mode begins to grow, by a search from a length (m)."""
 
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
 
     step = math.log(FACTOR)
     longest = math.log(LONGEST * critical)
-    low = math.log(SHORTEST * _guess(patches) * critical)
+    low = math.log(start)
     while growth(low) > 0.0:
         low -= 2.0 * step
     high = low + step

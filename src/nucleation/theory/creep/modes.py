@@ -33,6 +33,7 @@ CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
 WIDTH = 6.0  # of the panels of kappa: J_2n(kappa) oscillates with 2 pi
 POINTS = 10  # Gauss points of a panel
 FINEST = 1e-3  # the first panel, of thick layers
+NEGLIGIBLE = 1e-100  # of J_m at small kappa, whose products underflow
 GRADED = 14  # ends of panels that grow from the finest to the full width
 
 
@@ -110,6 +111,7 @@ def mirror_modes(
     weights = np.where(n == 0, weight_imposed, orders)
     kappa, shares = _quadrature(CUT * slimmest)
     bessel = jv(orders, kappa[:, None]) * shares[:, None]
+    bessel[np.abs(bessel) < NEGLIGIBLE] = 0.0
     phase = np.outer(kappa, np.cos(theta))
     sine, cosine = np.sin(phase), np.cos(phase)
     return _MirrorModes(

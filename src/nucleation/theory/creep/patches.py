@@ -30,11 +30,12 @@ class Patches:
     loading: str = "edge"
     load_rate: float = 1.0
     evolution: str = "aging"  # of the state, with constant a and b; a law has its own
+    refinement: int = 1  # times the usual number of modes
 
     @cached_property
     def number(self) -> int:
         """Number of modes that the fault needs."""
-        return modes_for(self.one)
+        return self.refinement * modes_for(self.one)
 
     @property
     def memory(self) -> float:
