@@ -36,7 +36,7 @@ class Body:
         body, second = dynamics.body, parameters.below
         self.below, self.values = below, body.nodal_values
         grid = body.layers[below].grid
-        self.stiffness, self.mass = assemble(grid, (second if below else parameters).material)
+        self.stiffness, self.mass = assemble(grid, (second if below else parameters.upper).material)
         i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))
         self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
         self.top = np.zeros(grid.n_x + 1)  # lengths over which a normal stress acts on the far side
