@@ -45,7 +45,7 @@ def test_reference_has_the_runs_of_the_configuration():
 )
 def test_fresh_simulation_gives_the_reference(name, tolerance):
     """Perturbed, the drop is one number on all machines; else round-off grows in the event."""
-    parameters = RUNS[name].parameters.replaced(time_after_event=0.0)
+    parameters = RUNS[name].run.replaced(time_after_event=0.0)
     measured = extract(simulate(parameters))
     for column, value in measured.items():
         assert value == pytest.approx(float(LENGTHS[name][column]), rel=tolerance), column
