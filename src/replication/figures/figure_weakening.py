@@ -74,7 +74,7 @@ def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
             laws.draw_range(axes, fault["zeta_over_a"].values[0], dropped, **look)
     style.level(axes, 0.5, label="half of $L_c$")
     axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
-    axes.set(yscale="log", ylim=(0.4, 2.8))
+    axes.set(yscale="log", ylim=(0.4, 3.5))
     style.plain_numbers(axes.xaxis, _TICKS)
     style.plain_numbers(axes.yaxis, _RATIOS)
 
