@@ -1,25 +1,21 @@
 """Random faults over the declared ranges: each question has an answer, or says why it has none."""
 
+import json
 import math
 import warnings
 from collections import Counter
 
 import numpy as np
 import pytest
-from asked import (
-    critical_length,
-    expected_drop,
-    stability_length,
-)
 
-from nucleation.api import Fault, NoLength, ParameterError, Run
-from nucleation.model.own_fault import own_law
+from nucleation import commands
+from nucleation.api import Fault
 from nucleation.theory.creep import slow_slip
-from nucleation.theory.creep.lengths import LONGEST, stability_length_of
+from nucleation.theory.creep.lengths import LONGEST
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.pair import LayerPair
 
-SEED, NUMBER, QUICK = 34, 200, 12
+SEED, NUMBER, QUICK = 34, 300, 12
 LONGEST_SPECIMEN = 1e7  # m
 MOST = Counter(wavenumbers=2_500_000, patches=150, steps=25_000)
 """Largest cost of the answers about a fault: wavenumbers of the bodies' stiffness, creeping patches
@@ -106,46 +102,39 @@ def test_theory_answers(cost, number):
     assert cost <= MOST
 
 
-def run_of(fault, law, evolution):
-    """The same fault in blocks, and the full law with its constants."""
-    kept = {name: value for name, value in fault.items() if not name.endswith("far_side")}
-    base = own_law(fault["velocity"], fault["slip_distance"], evolution, law)
-    blocks = Fault(**kept, far_side="free", evolution=evolution, friction_law=base)
-    length = 6.0 * float(critical_length(**fault))
-    return Run(blocks, block_length=length, perturbation="normal_load", strength=1e-5)
+def option(value):
+    return repr(value) if isinstance(value, float) else value
 
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
-def test_the_drop_answers(cost, number):
-    """With the law's L_s, which is that of constant a and b where v0 is far below V."""
-    fault, _ = random_fault(number)
-    law = ("dieterich_ruina", "product")[number % 2]
-    evolution = ("aging", "slip")[number // 2 % 2]
+def test_one_answer_by_library_command_and_study(cost, capsys, number):
+    """Each length is finite or has a reason, and is the same however the fault is given."""
+    given, _ = random_fault(number)
+    fault = Fault(**given, evolution=("aging", "slip")[number % 2])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
-        critical = float(critical_length(**fault))
-        if not (math.isfinite(critical) and math.isfinite(fault["height"])):
-            return
-        try:
-            run = run_of(fault, law, evolution)
-        except ParameterError as refused:
-            assert any(word in str(refused) for word in ("friction law", "is not allowed"))
-            return
-        cost.clear()
-        try:
-            with np.errstate(all="raise"):
-                found = expected_drop(run)
-        except NoLength as none:
-            assert str(none)
-            return
+        with np.errstate(all="raise"):
+            found = fault.lengths(strength=1e-5)
     assert cost <= MOST
-    assert found.stability_length == pytest.approx(
-        stability_length_of(run.patches, critical), rel=1e-6, nan_ok=True
-    )
-    assert np.isfinite(found.law.length) or found.doubt
-    if law == "dieterich_ruina" and math.isfinite(found.stability_length):
-        constant = float(stability_length(**fault))
-        # where slip changes the normal stress, the law's f counts, which changes along the patch
-        coupled = fault["plane"] != "antiplane" and "second_shear_modulus" in fault
-        expected = pytest.approx(constant, rel=2e-2 if coupled else 2e-3)
-        assert found.stability_length == expected
+    for answer in found.values():
+        assert answer.exists == (answer.status == "value") == (answer.reason == "")
+        assert not answer.exists or 0.0 < answer.low <= answer.value <= answer.high
+    drop, runaway, stable = (found[f"{x}_length"] for x in ("drop", "runaway", "stability"))
+    if drop.exists:
+        assert not drop.value < runaway.value
+        assert drop.value > stable.value or "before L_s" in drop.doubt
+    assert Fault.from_dict(fault.to_dict()) == fault
+    flat = fault.to_dict()
+    if flat.get("second_shear_modulus") == math.inf:
+        del flat["second_shear_modulus"]
+        flat["second_body"] = "rigid"
+    words = [w for k, x in flat.items() for w in (f"--{k.replace('_', '-')}", option(x))]
+    perturbed = ["--strength", "1e-5"] if number % 4 == 0 else ["--perturbation", "none"]
+    code = commands.run(["length", *words, *perturbed, "--json"])
+    ended = capsys.readouterr()
+    assert code == (0 if found["critical_length"].exists else 3), ended.err
+    told = {entry["key"]: entry for entry in json.loads(ended.out)["lengths"]}
+    assert told.keys() | {"runaway_length", "drop_length"} == found.keys()
+    for key, entry in told.items():
+        assert entry["value"] == (found[key].value if found[key].exists else None), key
+        assert (entry["status"], entry["reason"]) == (found[key].status, found[key].reason)

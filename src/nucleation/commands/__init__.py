@@ -103,7 +103,7 @@ def _with_suggestion(error: click.NoSuchOption) -> click.NoSuchOption:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command line, without its name, and return the exit code."""
-    from ..datasets.variables import DatasetError
+    from ..datasets import DatasetError
     from ..model.quantities import ParameterError
 
     try:

@@ -13,7 +13,6 @@ from ..lengths.draws import Draws, Range, draw, parse_range
 from ..model.quantities import ParameterError
 from ..theory.reading import required
 from .options import Decorator, option, second_body_option, source_options, together
-from .sources import base_of, papers_line
 
 NOTES = {
     "b": "this, --zeta or --zeta-over-a",
@@ -56,6 +55,15 @@ fault_options = together(
 """One option for each parameter of a fault, and options for the source of other parameters."""
 
 FAULT_OPTIONS = (*declarations_of_flat(), SECOND_BODY, "per_decade", *_SOURCES)
+
+
+def samples_of(path: Path | None) -> dict[str, Any]:
+    """The samples in a file, if there is one."""
+    if path is None:
+        return {}
+    from ..fault.samples import read_samples
+
+    return dict(read_samples(path))
 
 
 class GivenFault(NamedTuple):
@@ -138,7 +146,11 @@ def _paper() -> Fault:
 
 
 def _base(options: Mapping[str, Any]) -> Fault | None:
-    """The fault of a run or a dataset, if one is given."""
+    """The fault of a dataset of a simulation, if one is given."""
+    file = options["file"]
+    if file is None or file.suffix != ".nc":
+        return None
+    from .sources import base_of
 
     run = base_of(options)
     return None if run is None else run.fault
@@ -154,3 +166,20 @@ def _require(given: Mapping[str, Any], file: Path | None) -> None:
                 f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all other "
                 "parameters from the paper by --paper"
             )
+
+
+def papers_line(names: frozenset[str]) -> list[str]:
+    """The main parameters that are not given and therefore the paper's, in one line or none."""
+    given_by = {
+        "shear_modulus": {"shear_modulus"},
+        "poisson_ratio": {"poisson_ratio"},
+        "height": {"height"},
+        "normal_stress": {"normal_stress"},
+        "velocity": {"velocity"},
+        "slip_distance": {"slip_distance"},
+        "friction": {"friction"},
+        "a": {"a"},
+        "b": {"zeta_over_a", "zeta", "b"},
+    }
+    papers = [name for name, by in given_by.items() if not names & by]
+    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []

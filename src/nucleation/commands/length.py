@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..fault.samples import read_samples
 from ..lengths import formulas
 from ..lengths.answer import Answer
 from ..lengths.draws import parse_range
@@ -20,7 +19,7 @@ from ..model.quantities import ParameterError, declarations
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
-from .faults import fault_options, given_fault
+from .faults import fault_options, given_fault, samples_of
 from .options import draws_option, json_option, option, samples_option, together
 from .system_text import (
     BEGINS,
@@ -107,7 +106,7 @@ def command(
     """
     perturbed = {n: options[n] for n in _OF_PERTURBATION if options[n] is not None}
     of_patch = {name: options[name] for name in OPTIONS}
-    columns = read_samples(samples) if samples else {}
+    columns = samples_of(samples)
     with printed_warnings():
         given = given_fault(options, columns, draws)
         if given.drawn:

@@ -13,8 +13,7 @@ import click
 import numpy as np
 import xarray as xr
 
-from ..datasets import netcdf
-from ..datasets.variables import DatasetError
+from ..datasets import DatasetError, netcdf
 from ..extraction.extraction import extract
 from ..extraction.record import parameters_of
 from ..installed import require

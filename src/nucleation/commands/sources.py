@@ -12,6 +12,7 @@ from ..installed import require
 from ..lengths.draws import Range
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError
+from .faults import papers_line
 
 if TYPE_CHECKING:
     from ..run.run import Run
@@ -56,7 +57,7 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], list[str
     base, file = base_of(options), options["file"]
     known = parameters()
     own = {k: x for k, x in options.items() if x is not None and (k in known or k == "density")}
-    given = own if base or file is None else read_parameters(file, known) | own
+    given = own if base or file is None else read_parameters(file, further=known) | own
     names = frozenset(given)
     _refuse(given, base)
     if base is not None:
@@ -95,20 +96,3 @@ def _expanded(given: Mapping[str, Any]) -> dict[str, Any]:
         return found
     kind = "rigid" if text == "rigid" else "deformable"
     return {"second_body": kind} | ({} if text == "rigid" else second_body(text)) | found
-
-
-def papers_line(names: frozenset[str]) -> list[str]:
-    """The main parameters that are not given and therefore the paper's, in one line or none."""
-    given_by = {
-        "shear_modulus": {"shear_modulus"},
-        "poisson_ratio": {"poisson_ratio"},
-        "height": {"height"},
-        "normal_stress": {"normal_stress"},
-        "velocity": {"velocity"},
-        "slip_distance": {"slip_distance"},
-        "friction": {"friction"},
-        "a": {"a"},
-        "b": {"zeta_over_a", "zeta", "b"},
-    }
-    papers = [name for name, by in given_by.items() if not names & by]
-    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []

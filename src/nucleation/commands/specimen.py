@@ -3,31 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 import numpy as np
 
-from ..fault.samples import read_samples
 from ..lengths.answer import Answer, Lengths
 from ..lengths.draws import QUANTILES
 from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, Interval, at_share
 from ..theory.status import STABLE as STABLE_SLIDING
 from ..theory.values import QUANTITIES, arrays_of
 from . import DONE, EXIT_CODES, STABLE
-from .faults import GivenFault, fault_options, given_fault
+from .faults import GivenFault, fault_options, given_fault, samples_of
 from .options import draws_option, json_option, option, samples_option
 from .progress import progress_of
-from .quantiles import as_sure, drawn_size, median_fault
+from .quantiles import drawn_size, median_fault
 from .system_text import plane_in_words, printed_warnings, system_of_fault
 from .text import show, wrapped
-from .unit_text import engineering_unit, in_unit
+from .unit_text import in_unit
 
 if TYPE_CHECKING:
     from ..fault import Fault
 
+_DIGITS_OF_SHARES = 2  # as many as some hundred draws leave
 _SHORTEST_EVENT = 0.7
 """Least length of a simulated block with an event, over L_s: its far end is free, and the theory's
 block is long (PMMA plates 10 cm high and 12 cm long under 1 MPa)."""
@@ -76,7 +75,7 @@ def command(
       nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa \\
           --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
-    columns = read_samples(samples) if samples else {}
+    columns = samples_of(samples)
     any_value = {unknown: _middle(unknown)}
     with printed_warnings():
         given = given_fault(options, columns, draws, sought=any_value)
@@ -165,13 +164,11 @@ class _Shares(NamedTuple):
     unit: str
     searched: Interval
     intervals: dict[float, tuple[Interval, ...]]
-    errors: dict[float, tuple[Interval, ...]]
     draws: int
     invalid: int
     outside: tuple[str, ...]
     share: float
     """Of the draws in which the length fits at the given value; NaN without a value."""
-    share_error: float
 
 
 def _shares(given: GivenFault, length: float, unknown: str, criterion: str) -> _Shares:
@@ -195,30 +192,11 @@ def _shares(given: GivenFault, length: float, unknown: str, criterion: str) -> _
         unit=fits[0].unit,
         searched=fits[0].searched,
         intervals={q: at_share(fits, q) for q in QUANTILES},
-        errors={q: _errors(fits, q) for q in QUANTILES},
         draws=drawn.total,
         invalid=sum(drawn.invalid.values()),
         outside=tuple(drawn.invalid),
         share=share,
-        share_error=_scatter(share, size),
     )
-
-
-def _errors(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
-    """Standard errors of the ends: half the distance between those at shares an error apart."""
-    scatter = _scatter(share, len(fits))
-    own = at_share(fits, share)
-    less = at_share(fits, share - scatter)
-    more = at_share(fits, share + scatter)
-    if not len(less) == len(own) == len(more):
-        return tuple((math.nan, math.nan) for _ in own)
-    half = 0.5 * np.abs(np.reshape(more, (-1, 2)) - np.reshape(less, (-1, 2)))
-    return tuple((float(first), float(last)) for first, last in half)
-
-
-def _scatter(share: float, number: int) -> float:
-    """Standard error of a share of a number of draws."""
-    return math.sqrt(share * (1.0 - share) / number)
 
 
 def _print_shares(
@@ -235,10 +213,8 @@ def _print_shares(
         "specimen": length,
         "criterion": criterion,
         **found._asdict(),
+        "intervals": {f"{share:g}": ends for share, ends in found.intervals.items()},
     }
-    for name in ("intervals", "errors"):
-        by_share = getattr(found, name)
-        everything[name] = {f"{share:g}": value for share, value in by_share.items()}
     lines = _share_lines(_fits(length, criterion, middle), found)
     show(as_json, everything, wrapped(*system, "", *lines))
     return DONE if any(found.intervals.values()) else STABLE
@@ -257,15 +233,10 @@ def _share_lines(fits: str, found: _Shares) -> list[str]:
         drawn += f" ({', '.join(found.outside)} not allowed)"
     lines = [drawn]
     if not math.isnan(found.share):
-        error = max(found.share_error, 1.0 / found.draws)
-        lines.append(
-            f"At the given {found.unknown} it fits in {found.share:.0%} (+- {error:.0%}) of them."
-        )
+        lines.append(f"At the given {found.unknown} it fits in {found.share:.0%} of them.")
     lines.append(fits)
     for share, intervals in found.intervals.items():
-        texts = []
-        for ends, errors in zip(intervals, found.errors[share], strict=True):
-            texts.append(_interval(found, ends, errors))
+        texts = [_interval(found, ends, _DIGITS_OF_SHARES) for ends in intervals]
         values = f"if {' or '.join(texts)}" if texts else "at no value"
         lines.append(f"  in {share:>4.0%} of the draws {values}")
     return [*lines, _searched_line(found)]
@@ -276,9 +247,9 @@ def _searched_line(found: Fit | _Shares) -> str:
     return f"searched: {QUANTITIES[found.unknown].description}, {span}"
 
 
-def _interval(found: Fit | _Shares, ends: Interval, errors: Interval) -> str:
-    """An interval of values, with the digits that the errors of its ends leave."""
-    first, last = map(_end, ends, errors, (found.unit, found.unit))
+def _interval(found: Fit | _Shares, ends: Interval, digits: int) -> str:
+    """An interval of values."""
+    first, last = (in_unit(end, found.unit, digits) for end in ends)
     if ends[1] == found.searched[1] and ends[0] > found.searched[0]:
         return f"{found.unknown} > {first}"
     if ends[0] == found.searched[0] and ends[1] < found.searched[1]:
@@ -286,17 +257,11 @@ def _interval(found: Fit | _Shares, ends: Interval, errors: Interval) -> str:
     return f"{first} < {found.unknown} < {last}"
 
 
-def _end(value: float, error: float, unit: str) -> str:
-    """The end of an interval in an engineering unit, with the digits that its error leaves."""
-    name, size = engineering_unit(value, unit)
-    return f"{as_sure(value / size, error / size)} {name}"
-
-
 def _fit_lines(fits: str, fit: Fit) -> list[str]:
     """The values at which the length fits."""
     lines = [f"{fits} if"]
     for ends in fit.intervals:
-        lines.append(f"  {_interval(fit, ends, (0.0, 0.0))}")
+        lines.append(f"  {_interval(fit, ends, 4)}")
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values; {fit.reason}")

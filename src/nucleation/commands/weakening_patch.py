@@ -1,12 +1,9 @@
 """A weakening patch among strengthening surroundings, for ``nucleation length``."""
 
-import dataclasses
 import math
 from typing import Any
 
-from ..lengths.weakening_patch import patch_answer
-from ..model.heterogeneity import Heterogeneity
-from ..model.quantities import ParameterError, declarations
+from ..model.quantities import ParameterError, declared
 from ..theory.values import QUANTITIES, FaultLike
 from .options import option, together
 from .text import Row, table, wrapped
@@ -14,10 +11,7 @@ from .unit_text import in_unit
 
 OPTIONS = ("width", "outside_zeta", "outside_a")
 
-_WIDTH = dataclasses.replace(
-    declarations(Heterogeneity)["width"],
-    description="width W of a weakening patch among strengthening surroundings",
-)
+_WIDTH = declared("width W of a weakening patch among strengthening surroundings", "(0.0, 1e6) m")
 
 patch_options = together(
     option(
@@ -65,6 +59,8 @@ def patch_of(fault: FaultLike, options: dict[str, Any]) -> dict[str, Any] | None
             "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
             "surroundings, negative where they strengthen"
         )
+    from ..lengths.weakening_patch import patch_answer
+
     return patch_answer(fault, outside_zeta, outside_a, width)
 
 

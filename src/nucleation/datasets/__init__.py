@@ -2,3 +2,7 @@
 
 This wing imports nothing else of the package.
 """
+
+
+class DatasetError(ValueError):
+    """A variable is not declared, or results are damaged, incomplete or from another project."""

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from . import seal
+from . import DatasetError, seal
 from .files import replacing, require_room
-from .variables import DatasetError, require_annotated
+from .variables import require_annotated
 
 _MAPPINGS = {"sources", "versions"}
 STRUCTURES = {"parameters", *_MAPPINGS}

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .. import __version__
-from .variables import DatasetError
+from . import DatasetError
 
 _LIBRARIES = (
     "numpy",

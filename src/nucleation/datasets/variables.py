@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from . import DatasetError
+
 if TYPE_CHECKING:
     import xarray as xr
-
-
-class DatasetError(ValueError):
-    """A variable is not declared, or results are damaged, incomplete or from another project."""
 
 
 class Variable(NamedTuple):

@@ -1,7 +1,9 @@
 """L_run and the length L at the drop of one or many faults, as answers."""
 
+from __future__ import annotations
+
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +19,9 @@ from ..theory.spectrum import Systems
 from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike
 from ..types import Array
-from .expected_drop import ExpectedDrop, expected_drop
+
+if TYPE_CHECKING:
+    from .expected_drop import ExpectedDrop
 
 FIELDS = len(Answer._fields)
 
@@ -30,6 +34,8 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
         return _alike(fault, _none(UNKNOWN, f"needs {which}: the drop depends on the friction law"))
     if fault.loading != "edge":
         return _alike(fault, _none(UNKNOWN, "it is known for a patch that is pushed at its edge"))
+    from .expected_drop import WEAK, expected_drop
+
     given = (fault.velocity, fault.slip_distance)
     age = np.nan if fault.initial_state is None else fault.initial_state
 
@@ -44,7 +50,9 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
             try:
                 law = law_of(fault.friction_law, fault.evolution, v, d, *constants)
                 patches = Patches(one, law, v, evolution=fault.evolution)
-                runaway, drop = _both(expected_drop(patches, declared, float(length), phi0))
+                known = expected_drop(patches, declared, float(length), phi0)
+                slowly = constants[2] < WEAK * constants[1]
+                runaway, drop = _both(known, slowly)
             except NoLength as none:
                 runaway = drop = _none(none.status, str(none))
             except ParameterError as refused:  # no law has these constants
@@ -78,13 +86,23 @@ def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
     return {"runaway_length": found, "drop_length": found}
 
 
-def _both(known: ExpectedDrop) -> tuple[Answer, Answer]:
-    """L_run and L of one fault."""
+def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
+    """L_run and L of one fault, whose friction may weaken so little that it slips slowly."""
     longest, status = known.runaway_length, known.runaway_status
     error = longest * known.runaway_error
     runaway = Answer(longest, longest - error, longest + error, status, known.runaway_reason)
     if status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
         return runaway, _none(BEYOND, known.runaway_reason)
+    if not math.isfinite(known.stability_length):
+        return runaway, _none(UNKNOWN, "no patch in steady creep turns unstable before the drop")
+    if slowly and not math.isfinite(longest):
+        reason = f"a patch may slip slowly, and L_run is not known: {known.runaway_reason}"
+        return runaway, _none(UNKNOWN, reason)
     if not math.isfinite(known.length):
         return runaway, _none(BEYOND, known.doubt)
-    return runaway, Answer(known.length, known.low, known.high, VALUE, "", known.doubt)
+    doubts = [known.doubt] if known.doubt else []
+    if known.length < known.stability_length:
+        doubts.append(
+            "behind its advancing front the patch turns unstable before L_s, of steady creep"
+        )
+    return runaway, Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts))

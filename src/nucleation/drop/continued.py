@@ -35,17 +35,7 @@ def trend(
 ) -> Callable[[Array], Array]:
     """Real values as a function of patch length.
 
-    Parameters
-    ----------
-    history : ModeHistory
-        The mode along the creep.
-    values : ndarray
-        At the instants of the history, (instant,).
-
-    Returns
-    -------
-    callable
-        Of lengths (m): a polynomial, continued as a straight line.
+    Returns: Of lengths (m): a polynomial, continued as a straight line.
     """
     last = history.length[-1]
     fit = np.polynomial.Polynomial.fit(history.length, values, DEGREE)
@@ -65,17 +55,7 @@ def complex_trend(
 ) -> Callable[[Array | float], ComplexArray]:
     """Complex values as a function of patch length.
 
-    Parameters
-    ----------
-    history : ModeHistory
-        The mode along the creep.
-    values : ndarray
-        At the instants of the history, (instant,) or (instant, x).
-
-    Returns
-    -------
-    callable
-        Of lengths (m): a polynomial, continued as a constant.
+    Returns: Of lengths (m): a polynomial, continued as a constant.
     """
     last = history.length[-1]
     powers = np.vander(history.length / last - 1.0, DEGREE + 1)
@@ -117,21 +97,7 @@ def roughness_weights(
 ) -> Iterator[tuple[float, ComplexArray]]:
     """Weights of the roughness at each position in the amplitude A, as time advances.
 
-    Parameters
-    ----------
-    history : ModeHistory
-        The mode along the creep.
-    path : CreepPath
-        Its continuation.
-    x : ndarray
-        Positions (m), evenly spaced, (x,).
-
-    Yields
-    ------
-    log_factor : float
-        Logarithm of a common factor, without which the weights would overflow.
-    weights : ndarray
-        Weights at the positions, (x,).
+    Takes x (m).
     """
     exponent = exponent_of(path)
     moving = _moving_weights(history)
@@ -185,12 +151,7 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     ) -> ComplexArray:
         """The weights for a front.
 
-        Parameters
-        ----------
-        length : float
-            Patch length (m).
-        x : ndarray
-            Positions (m).
+        Takes length (m), x (m).
         """
         weights = fitted(length)
         return np.interp(x - length, behind, weights, left=0.0, right=0.0)

@@ -118,17 +118,7 @@ class Growth:
     ) -> ClosedForm:
         """The median drop in one line.
 
-        Parameters
-        ----------
-        history : ModeHistory
-            The mode along the creep.
-        strength : float
-            Relative strength of the perturbation.
-
-        Returns
-        -------
-        ClosedForm
-            The median length at the drop, and the numbers that it depends on.
+        Returns: The median length at the drop, and the numbers that it depends on.
         """
         first = int(np.argmin(self.exponent))  # where growth begins
         start = float(self.length[first])
@@ -161,22 +151,7 @@ def growth(
 
     The creep is continued by the trends of L(t) and Lambda(L).
 
-    Parameters
-    ----------
-    history : ModeHistory
-        The mode along the creep.
-    declared : Perturbation
-        The forcing; its strength and seed are not used.
-
-    Returns
-    -------
-    Growth
-        The amplitude per strength.
-
-    Raises
-    ------
-    ValueError
-        If nothing is declared to be perturbed.
+    Returns: The amplitude per strength.
     """
     path = continued(history)
     if declared.kind == "strength":
@@ -237,17 +212,7 @@ def grown(
 ) -> Growth:
     """The growth along a path.
 
-    Parameters
-    ----------
-    path : CreepPath
-        The continued creep.
-    log_amplitude : ndarray
-        log(sigma / eps) at times of the path, evenly spaced from the first to the last.
-
-    Returns
-    -------
-    Growth
-        At all times of the path.
+    Returns: At all times of the path.
     """
     count = path.time.size
     at = np.linspace(0, count - 1, log_amplitude.size)

@@ -135,19 +135,7 @@ def followed(
     The mode is followed from L_s to either side, until it no longer oscillates or the rate jumps:
     there another mode is the fastest growing one that oscillates.
 
-    Parameters
-    ----------
-    length : ndarray
-        Patch lengths (m), rising, (n,).
-    rates : ndarray
-        Lambda of the fastest growing oscillating mode at each, NaN without one, (n,).
-    stable : float
-        L_s (m).
-
-    Returns
-    -------
-    ndarray
-        The indices, rising.
+    Takes length (m), stable (m). Returns: The indices, rising.
     """
     slowest = SLOWED * np.interp(stable, length, rates.imag)
     grows = (rates.imag > slowest) & (rates.real > 0.0)

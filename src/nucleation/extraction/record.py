@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import DatasetError
+from ..datasets import DatasetError
 from ..run.run import Run
 from ..simulation.event import WINDOW, PatchBursts, long_after
 from ..simulation.patch import patch_lengths

@@ -18,7 +18,6 @@ from ..model.quantities import ParameterError, Quantity, check, plain
 from ..model.synonyms import hint
 from ..model.units import bounds, parse
 from ..theory.values import QUANTITIES, FaultLike
-from .strict_yaml import read_yaml
 
 _OF_FAULT = ("law", "evolution", "slip_distance")
 LAW_NAMES = tuple(name for name in law_declarations() if name not in _OF_FAULT)
@@ -144,6 +143,8 @@ def read_parameters(
     Keys that are `ignored` are those of other questions about the fault. Beside its parameters
     there may be `further` ones, by name.
     """
+    from .strict_yaml import read_yaml
+
     content = read_yaml(Path(path))
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")

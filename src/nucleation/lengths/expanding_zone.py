@@ -18,25 +18,10 @@ def expanding_length(
 ) -> Numbers:
     """Length (m) of Rubin and Ampuero's expanding zone at a finite slip rate.
 
-    Parameters
-    ----------
-    fault : Fault
-        The material of its first body is that of both half-spaces.
-    slip_rate : array_like
-        Largest slip rate v (m/s).
-    far_slip_rate : array_like
-        Slip rate v_far (m/s) far ahead of the zone.
-    far_state_ratio : array_like
-        ``W = v_far phi/D`` far ahead of the zone (dimensionless), 1 in steady sliding.
+    Takes slip_rate (m/s), far_slip_rate (m/s). Returns: The full length (m); NaN outside ``1/2 <
+    a/b < 1``, where the slip rate does not exceed the one far ahead, and where the stress does not
+    drop.
 
-    Returns
-    -------
-    array_like
-        The full length (m); NaN outside ``1/2 < a/b < 1``, where the slip rate does not exceed the
-        one far ahead, and where the stress does not drop.
-
-    Notes
-    -----
     Rubin and Ampuero (2005), with ``w = log(v/v_far)``:
 
         (2 L_b/pi) [(w + log W)/((1 - a/b) w + log W)]^2

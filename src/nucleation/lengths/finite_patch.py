@@ -52,15 +52,7 @@ def _basis() -> tuple[Array, Array, Array]:
 def softest(answer: NDArray) -> complex:
     """The softest mode of a patch, as the largest ``1/(2 lambda)`` with ``K u = lambda answer u``.
 
-    Parameters
-    ----------
-    answer : ndarray
-        Response of friction to ``u/sin(theta)`` at the nodes of theta, shape (n,).
-
-    Returns
-    -------
-    complex
-        With lambda in units of 1/h.
+    Returns: With lambda in units of 1/h.
     """
     n, _, products = _basis()
     matrix = (products @ answer) / n[:, None]

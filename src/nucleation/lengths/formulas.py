@@ -42,14 +42,7 @@ coupling of slip to normal stress may be: a tenth of the terms that are kept."""
 class Setting:
     """The parameters in the formulas: two identical half-spaces, or a layer on a rigid body.
 
-    Parameters
-    ----------
-    shear_modulus, normal_stress : array_like
-        mu and sigma0 (Pa).
-    poisson_ratio, a, b, zeta : array_like
-        Dimensionless.
-    slip_distance, height, weakening_rate : array_like
-        D and H (m), and the decrease of strength per slip, W (Pa/m).
+    mu and sigma0 in Pa, D and H in m, the decrease of strength per slip W in Pa/m.
     """
 
     shear_modulus: Numbers
@@ -100,21 +93,11 @@ def bimaterial(
 ) -> tuple[Numbers, Numbers]:
     """Modulus and contrast of two half-spaces (Eq. 8).
 
-    Slip on their interface changes the shear stress as between two half-spaces of one material
-    with ``mu* = M``, and the normal stress by beta times as much, shifted by a quarter wavelength
-    (Eq. 7). For identical materials M is ``mu*`` and beta vanishes.
+    Slip on their interface changes the shear stress as between two half-spaces of one material with
+    ``mu* = M``, and the normal stress by beta times as much, shifted by a quarter wavelength (Eq.
+    7). For identical materials M is ``mu*`` and beta vanishes.
 
-    Parameters
-    ----------
-    shear_modulus, second_shear_modulus : array_like
-        mu (Pa) of both bodies; inf for a rigid second body.
-    poisson_ratio, second_poisson_ratio : array_like
-        nu of both bodies.
-
-    Returns
-    -------
-    M, beta : array_like
-        In Pa, and dimensionless.
+    Takes mu in Pa, inf for a rigid second body; returns M in Pa, and beta.
     """
     softness = shear_modulus / second_shear_modulus  # 1/psi, 0 for a rigid second body
     nu, nu2 = poisson_ratio, second_poisson_ratio
@@ -124,32 +107,12 @@ def bimaterial(
 
 
 def between_localised_and_crack(a: float | Numbers, b: float | Numbers) -> Conditions:
-    """Whether a/b is in the gap between the ranges of Rubin and Ampuero's two lengths.
-
-    Parameters
-    ----------
-    a, b : array_like
-        Coefficients of friction, natural logarithms.
-
-    Returns
-    -------
-    bool or array_like of bool
-    """
+    """Whether a/b is in the gap between the ranges of Rubin and Ampuero's two lengths."""
     return (a >= LOCALISED_LIMIT * b) & (a <= CRACK_LIMIT * b)
 
 
 def valid(condition: Conditions, values: Numbers) -> Numbers:
-    """The values where a condition holds, NaN elsewhere.
-
-    Parameters
-    ----------
-    condition, values : array_like
-        Numbers, arrays or DataArrays that broadcast.
-
-    Returns
-    -------
-    array_like
-    """
+    """The values where a condition holds, NaN elsewhere."""
     return where(condition, values, np.nan)
 
 

@@ -38,17 +38,7 @@ class Length:
     def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length of a fault.
 
-        Parameters
-        ----------
-        fault : Fault
-            One fault, or arrays of faults.
-        weakening_rate : array_like
-            Slip weakening W (Pa/m).
-
-        Returns
-        -------
-        array_like
-            In metres, NaN outside the validity.
+        Takes weakening_rate (Pa/m). Returns: In metres, NaN outside the validity.
         """
         own: dict[str, Any] = {
             "weakening_rate": weakening_rate,
@@ -113,19 +103,7 @@ def _setting(fault: FaultLike, own: dict[str, Any]) -> Setting:
 
 
 def number(fault: FaultLike, name: str) -> Numbers:
-    """A parameter of a fault, which has checked it, in SI units.
-
-    Parameters
-    ----------
-    fault : Fault
-        One fault, or arrays of faults.
-    name : str
-        Name of the parameter, which is not None.
-
-    Returns
-    -------
-    ndarray or DataArray
-    """
+    """A parameter of a fault, which has checked it, in SI units."""
     return cast(Numbers, getattr(fault, name))
 
 

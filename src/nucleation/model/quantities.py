@@ -21,12 +21,12 @@ class ParameterError(ValueError):
 
     Examples
     --------
-    >>> from nucleation.api import Geometry
+    >>> from nucleation.api import PAPER
     >>> try:
-    ...     Geometry(height=-1.0)
+    ...     PAPER.replace(height=-1.0)
     ... except ParameterError as error:
     ...     print(error)
-    geometry.height = -1.0 m is not allowed: block height must lie in (0, 1e+06) m
+    height = -1.0 m is not allowed: height of the body (inf: half-space) must lie in [1e-12, inf] m
     """
 
 

@@ -28,18 +28,8 @@ def marginal_stiffness(
 ) -> tuple[Array, Array]:
     """The roots ``h_minus <= h_plus`` of ``(g - zeta)^2 = rho^2 g (a + zeta - g)``.
 
-    Parameters
-    ----------
-    rho : ndarray or float
-        Coupling ``f G2/|G1|``, of either sign.
-    a, zeta : ndarray or float
-        Direct effect and velocity weakening; broadcast with `rho`.
-
-    Returns
-    -------
-    h_minus, h_plus : ndarray
-        Broadcast shape; NaN where they are not real or ``a + zeta <= 0``. Even in rho; h_plus
-        grows with ``|rho|``.
+    Returns: Broadcast shape; NaN where they are not real or ``a + zeta <= 0``. Even in rho; h_plus
+    grows with ``|rho|``.
     """
     rho = np.abs(np.asarray(rho, dtype=float))
     b = a + zeta
@@ -60,17 +50,7 @@ def stability_margin(
 ) -> Array:
     """Negative where a mode grows, positive where none does, continuous in k.
 
-    Parameters
-    ----------
-    systems : Systems
-        Fields of shape (n,).
-    k : ndarray
-        Wavenumbers (1/m), shape (n,).
-
-    Returns
-    -------
-    ndarray
-        The margin, dimensionless, shape (n,).
+    Takes k (1/m). Returns: The margin, dimensionless, shape (n,).
     """
     g, rho = systems.load_and_coupling(k)
     zeta = systems.zeta
@@ -87,18 +67,8 @@ def marginal_frequencies(
 ) -> Array:
     """omega at marginal wavenumbers: the root of ``a w^2 - rho b w - zeta = 0`` that fits g.
 
-    Parameters
-    ----------
-    systems : Systems
-        Fields of shape (n,).
-    k : ndarray
-        Marginal wavenumbers (1/m), shape (n,).
-
-    Returns
-    -------
-    ndarray
-        Angular frequencies (rad/s), shape (n,). If ``G2 = 0`` both signs are marginal, and the
-        positive one is given.
+    Takes k (1/m). Returns: Angular frequencies (rad/s), shape (n,). If ``G2 = 0`` both signs are
+    marginal, and the positive one is given.
     """
     a, zeta, b = systems.a, systems.zeta, systems.b
     g, rho = systems.load_and_coupling(k)

@@ -40,15 +40,7 @@ class _PatchBasis(NamedTuple):
     def matrices(self, forward: ComplexArray, backward: ComplexArray) -> ComplexArray:
         """Matrices of operators on the patch.
 
-        Parameters
-        ----------
-        forward, backward : ndarray
-            F(q) and F(-q) of each operator, (operators, points).
-
-        Returns
-        -------
-        ndarray
-            (operators, number, number).
+        Returns: (operators, number, number).
         """
         found = (forward + backward) @ self.even
         difference = forward - backward

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from nucleation.datasets.variables import DatasetError
+from nucleation.datasets import DatasetError
 
 from .planning import RECIPES
 from .recipes import key_in, read

@@ -19,8 +19,8 @@ from typing import Any
 
 import xarray as xr
 
-from nucleation.datasets import code, netcdf, provenance
-from nucleation.datasets.variables import DatasetError, is_table, to_csv
+from nucleation.datasets import DatasetError, code, netcdf, provenance
+from nucleation.datasets.variables import is_table, to_csv
 from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event

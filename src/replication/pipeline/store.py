@@ -19,9 +19,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from nucleation.datasets import seal
+from nucleation.datasets import DatasetError, seal
 from nucleation.datasets.files import flush
-from nucleation.datasets.variables import DatasetError
 
 from .messages import LOGGER
 

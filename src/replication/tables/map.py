@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import DatasetError, annotate, some, to_csv
+from nucleation.datasets import DatasetError
+from nucleation.datasets.variables import annotate, some, to_csv
 
 from .lengths import COLUMNS as LENGTHS
 from .rows import RATIO_COLUMNS, ratios

@@ -186,28 +186,7 @@ def advance(
 ) -> Advance:
     """The patch of one fault at some lengths, with its advancing front.
 
-    Parameters
-    ----------
-    patches : Patches
-        With a friction law and its velocity; pushed at the edge.
-    lengths : array_like
-        Patch lengths (m), shape (n,).
-    initial_state : float
-        phi_0 (s) when the edge begins to move.
-    initial_stress : float
-        Shear stress over sigma0 when the edge begins to move.
-    number : int
-        Number of modes; more than steady creep needs, by default.
-
-    Returns
-    -------
-    Advance
-        Time, speed and linearised patch at each length.
-
-    Raises
-    ------
-    NoLength
-        If the creep removes all of the compression somewhere, or no edge is pushed.
+    Takes lengths (m), initial_state (s). Returns: Time, speed and linearised patch at each length.
     """
     if patches.loading != "edge":
         raise NoLength(

@@ -32,26 +32,7 @@ def first_growing(
     growth. Where the pair oscillates in a narrow window only, the parabola's root is not where
     growth begins, and L_s is bisected.
 
-    Parameters
-    ----------
-    patches : Patches
-        With a friction law and its velocity; pushed at the edge.
-    critical : float
-        L_c (m) of the fault.
-    initial_state : float
-        phi_0 (s) when the edge begins to move.
-    initial_stress : float
-        Shear stress over sigma0 when the edge begins to move.
-
-    Returns
-    -------
-    float
-        L_s (m).
-
-    Raises
-    ------
-    NoLength
-        If no patch of these lengths has a growing mode, or its creep opens the fault.
+    Takes critical (m), initial_state (s). Returns: L_s (m).
     """
 
     def advanced(lengths: ArrayLike) -> Advance:

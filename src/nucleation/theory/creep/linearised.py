@@ -104,19 +104,8 @@ def log_state_derivatives(
 ) -> tuple[Array, Array]:
     """Derivatives of ``dpsi/dt``, which is ``g(phi w / D) / phi`` with the evolution law g(omega).
 
-    Parameters
-    ----------
-    law : Friction
-        The friction law.
-    slip_rate : ndarray
-        v (m/s) at each place.
-    state : ndarray
-        phi (s) at each place.
-
-    Returns
-    -------
-    by_rate, by_log_state : ndarray
-        By v at fixed psi (1/m), and by psi at fixed v (1/s); same shape.
+    Takes slip_rate (m/s), state (s). Returns: By v at fixed psi (1/m), and by psi at fixed v (1/s);
+    same shape.
     """
     speed = law.slip_speed(slip_rate)
     distance = law.slip_distance
@@ -150,17 +139,7 @@ def constant_coefficients(
 ) -> _LinearFriction:
     """Friction with constant a and b about steady sliding at each place.
 
-    Parameters
-    ----------
-    rate : ndarray
-        Slip rates over V, (N,).
-    friction, a, zeta : float
-        Friction coefficient, direct effect and velocity weakening.
-
-    Returns
-    -------
-    _LinearFriction
-        Its coefficients, (N,).
+    Returns: Its coefficients, (N,).
     """
     ones = np.ones_like(rate)
     return _LinearFriction(
@@ -180,21 +159,7 @@ def local_coefficients(
 ) -> _LinearFriction:
     """A friction law linearised at each place.
 
-    Parameters
-    ----------
-    law : Friction
-        The friction law.
-    velocity : float
-        V (m/s).
-    rate : ndarray
-        Slip rates over V, (N,).
-    log_state : ndarray, optional
-        log(phi), phi in s, (N,); by default that of steady sliding.
-
-    Returns
-    -------
-    _LinearFriction
-        Its coefficients, (N,).
+    Takes velocity (m/s). Returns: Its coefficients, (N,).
     """
     v = velocity * rate
     psi = np.log(law.steady_state(v)) if log_state is None else log_state
@@ -219,17 +184,7 @@ def creeping_patch(
 
     ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f at each place.
 
-    Parameters
-    ----------
-    creep : Creep
-        The creeping patch.
-    friction : _LinearFriction
-        Friction linearised at the same places.
-
-    Returns
-    -------
-    FrozenPatch
-        Its coefficients at the angles of the modes.
+    Returns: Its coefficients at the angles of the modes.
     """
     response = creep.response
     stiffness = response.coupled(friction.friction)[:, 1:] @ response.modes.inverse

@@ -79,19 +79,7 @@ def mirror_modes(
 ) -> _MirrorModes:
     """The modes of one symmetry about x = 0.
 
-    Parameters
-    ----------
-    number : int
-        N, the number of sines.
-    slimmest : float
-        Patch length over layer height up to which the tables reach.
-    even : bool
-        Whether u is even in x; by default u - U is odd.
-
-    Returns
-    -------
-    _MirrorModes
-        The modes at N angles, and their tables.
+    Returns: The modes at N angles, and their tables.
     """
     n = np.arange(number + 1)
     theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number

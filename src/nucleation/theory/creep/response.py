@@ -52,22 +52,8 @@ def response(
 ) -> PatchResponse:
     """The response of one fault's bodies to slip of a patch.
 
-    Parameters
-    ----------
-    one : Systems
-        A single fault, all fields of shape (1,).
-    length : float
-        Patch length L (m), from end to end.
-    number : int
-        Number of modes; under a remote load there are as many of either symmetry.
-    loading : {"edge", "remote"}
-        Kind of loading.
-
-    Returns
-    -------
-    PatchResponse
-        Column 0 is for the imposed quantity: the edge's displacement, or under a remote load a
-        shear stress of sigma0 on all of the interface.
+    Takes length (m). Returns: Column 0 is for the imposed quantity: the edge's displacement, or
+    under a remote load a shear stress of sigma0 on all of the interface.
     """
     if loading == "edge":
         return _mirror_response(one, length, number, even=False)
@@ -142,17 +128,7 @@ def extrapolation_error(
 ) -> float:
     """Upper bound of the error of L_s due to layers slimmer than the tables reach.
 
-    Parameters
-    ----------
-    one : Systems
-        A single fault, all fields of shape (1,).
-    length : float
-        Patch length L (m).
-
-    Returns
-    -------
-    float
-        Relative error of L_s.
+    Takes length (m). Returns: Relative error of L_s.
     """
     slim = _slimness(one, length)
     return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0

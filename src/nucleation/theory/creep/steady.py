@@ -31,27 +31,12 @@ def creep(
 ) -> Creep:
     """The creep of a patch under the loading of a response.
 
-    Parameters
-    ----------
-    response : PatchResponse
-        Of the fault's bodies.
-    friction : float
-        f, the strength over the normal stress.
-    load_rate : float, optional
-        Rate of the shear stress that loads the patch, over ``sigma0 V/D``; by default an edge is
-        pushed at V.
+    Returns: Slip rate and normal stress at the angles of the modes.
 
-    Returns
-    -------
-    Creep
-        Slip rate and normal stress at the angles of the modes.
-
-    Notes
-    -----
-    Slip rate: the strength is constant. So ``(K1 + f S2) v = 0`` with ``v(0) = V``, or ``(K1 +
-    f S2) v`` is the rate of the stress. Slip: the patch is loaded to its strength, ``-(K1 + f S2) u
-    = f sigma0``, and the edge has the displacement for which the front has no singularity. That
-    slip has changed the normal stress by ``S2 u``. A stress that loads a uniform interface evenly
+    Slip rate: the strength is constant. So ``(K1 + f S2) v = 0`` with ``v(0) = V``, or ``(K1 + f
+    S2) v`` is the rate of the stress. Slip: the patch is loaded to its strength, ``-(K1 + f S2) u =
+    f sigma0``, and the edge has the displacement for which the front has no singularity. That slip
+    has changed the normal stress by ``S2 u``. A stress that loads a uniform interface evenly
     reaches the strength everywhere at once, and u = 0.
     """
     slip = edge_slip(response, friction, friction)
@@ -89,19 +74,7 @@ def edge_slip(
     not regular. An error of alternating sign at neighbouring places remains, which
     :attr:`~nucleation.theory.creep.modes.Modes.smoothing` removes from the result.
 
-    Parameters
-    ----------
-    response : PatchResponse
-        Of the fault's bodies.
-    friction : ndarray or float
-        Friction coefficient f at the angles of the modes, (N,), or a uniform one.
-    strength : ndarray or float
-        Strength less the initial shear stress, over sigma0; the same shapes.
-
-    Returns
-    -------
-    EdgeSlip
-        Coefficients of shape (N + 1,).
+    Returns: Coefficients of shape (N + 1,).
     """
     matrix = response.coupled(friction)
     sines: Array = matrix[:, 1:]

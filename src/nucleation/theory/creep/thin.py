@@ -63,22 +63,7 @@ def thin_limit(
 ) -> _ThinLimit:
     """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
 
-    Parameters
-    ----------
-    zeta_over_a : float
-        Velocity weakening over direct effect.
-    degree : int
-        Of the Chebyshev polynomials.
-
-    Returns
-    -------
-    _ThinLimit
-        L_s over L_c, and the frequency of its mode over V/D.
-
-    Raises
-    ------
-    ValueError
-        If zeta/a is not positive.
+    Returns: L_s over L_c, and the frequency of its mode over V/D.
     """
     if not zeta_over_a > 0.0:
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
