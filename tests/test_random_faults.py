@@ -17,7 +17,7 @@ from nucleation.theory.pair import LayerPair
 
 SEED, NUMBER, QUICK = 34, 300, 12
 LONGEST_SPECIMEN = 1e7  # m
-MOST = Counter(wavenumbers=2_500_000, patches=150, steps=25_000)
+MOST = Counter(wavenumbers=2_500_000, patches=250, steps=25_000)
 """Largest cost of the answers about a fault: wavenumbers of the bodies' stiffness, creeping patches
 that are solved, and steps of slow slip; about two seconds where all are needed."""
 

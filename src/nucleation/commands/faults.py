@@ -13,6 +13,7 @@ from ..lengths.draws import Draws, Range, draw, parse_range
 from ..model.quantities import ParameterError
 from ..theory.reading import required
 from .options import Decorator, option, second_body_option, source_options, together
+from .system_text import papers_line
 
 NOTES = {
     "b": "this, --zeta or --zeta-over-a",
@@ -166,20 +167,3 @@ def _require(given: Mapping[str, Any], file: Path | None) -> None:
                 f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all other "
                 "parameters from the paper by --paper"
             )
-
-
-def papers_line(names: frozenset[str]) -> list[str]:
-    """The main parameters that are not given and therefore the paper's, in one line or none."""
-    given_by = {
-        "shear_modulus": {"shear_modulus"},
-        "poisson_ratio": {"poisson_ratio"},
-        "height": {"height"},
-        "normal_stress": {"normal_stress"},
-        "velocity": {"velocity"},
-        "slip_distance": {"slip_distance"},
-        "friction": {"friction"},
-        "a": {"a"},
-        "b": {"zeta_over_a", "zeta", "b"},
-    }
-    papers = [name for name, by in given_by.items() if not names & by]
-    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []

@@ -12,7 +12,7 @@ from ..installed import require
 from ..lengths.draws import Range
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError
-from .faults import papers_line
+from .system_text import papers_line
 
 if TYPE_CHECKING:
     from ..run.run import Run

@@ -194,3 +194,20 @@ def printed_warnings() -> Iterator[None]:
         yield
     for text in dict.fromkeys(str(warning.message) for warning in caught):
         warn(text)
+
+
+def papers_line(names: frozenset[str]) -> list[str]:
+    """The main parameters that are not given and therefore the paper's, in one line or none."""
+    given_by = {
+        "shear_modulus": {"shear_modulus"},
+        "poisson_ratio": {"poisson_ratio"},
+        "height": {"height"},
+        "normal_stress": {"normal_stress"},
+        "velocity": {"velocity"},
+        "slip_distance": {"slip_distance"},
+        "friction": {"friction"},
+        "a": {"a"},
+        "b": {"zeta_over_a", "zeta", "b"},
+    }
+    papers = [name for name, by in given_by.items() if not names & by]
+    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []
