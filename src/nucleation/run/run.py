@@ -64,7 +64,7 @@ class Run:
     >>> from nucleation.api import PAPER, Run
     >>> run = Run(PAPER, n_x=400, n_y=20)
     >>> run.block.length, run.fault.height
-    (1.407, 0.005)
+    (1.428, 0.005)
     """
 
     fault: Fault
