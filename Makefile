@@ -98,11 +98,12 @@ reference: $(DEV_STAMP) ## Make the committed reference set again, from the resu
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_drop \
 		figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
-		figure_weakening_patches other_faults \
+		figure_weakening_patches patch_outcomes other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/
 	sed 's|](figures/|](|' results/replication.md > results/reference/article.md
+	install -m 644 results/patch_outcomes.csv src/nucleation/lengths/
 	@# digits beyond the twelfth are those of one machine
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 	$(BIN)/python -c '$(REST)' | sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' > results/reference/measures.csv

@@ -80,10 +80,12 @@ def test_surroundings_of_a_patch_are_named(nucleation, tmp_path):
     """What is stable at every wavelength are the surroundings of a weakening patch."""
     words = ["--loading", "remote", "--stress-rate", "1", "--n-x", "101", "--a", "0.0068"]
     words += ["--zeta", "-0.0034", "--block-length", "12m", "--height", "6m", "--friction", "0.4"]
-    words += ["--second-body", "deformable"]
+    words += ["--second-body", "same", "--shear-modulus", "3.1GPa", "--poisson-ratio", "0.3"]
+    words += ["--normal-stress", "1MPa", "--slip-distance", "0.5um", "--velocity", "10um/s"]
+    words += ["--end-time", "10s"]
     alone = nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run").out
     assert "theory: sliding is stable at every wavelength" in " ".join(alone.split())
-    words += ["--varies", "zeta", "--shape", "step", "--width", "1.2m", "--change", "-2"]
+    words += ["--heterogeneity", "zeta", "--shape", "step", "--width", "1.2m", "--change", "-2"]
     patch = nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run").out
     assert "sliding outside the step or bump is stable at every wavelength" in " ".join(
         patch.split()

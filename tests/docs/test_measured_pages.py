@@ -14,7 +14,9 @@ from docs.samples import DOCS, ROOT
 from nucleation.lengths.finite_patch import loaded_patch_factor
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.lengths.in_use import LENGTHS
+from nucleation.lengths.patch_outcomes import DYNAMIC, ROOM, simulated
 from replication.tables.pairs import over_realisations
+from replication.tables.weakening_patches import patch_outcomes_table
 
 
 def reference(name):
@@ -258,20 +260,44 @@ def patch_theory_rows():
         yield line(words, len(rows), *cells)
 
 
+def extent(values):
+    """The least and the greatest of some numbers, to two digits after the point at most."""
+    low, high = (f"{round(value, 2):g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def patch_outcome_rows():
+    """One row for each zeta/a: where slow slip ends and events begin, over the surroundings."""
+    outcomes = pd.DataFrame(simulated())
+    for varies in ("zeta", "a"):
+        words = {"zeta": "another $b$", "a": "another $a$"}[varies]
+        for ratio, rows in outcomes[outcomes["varies"] == varies].groupby("zeta_over_a"):
+            names = ("strengthening", "slow_slip_up_to", "events_from")
+            yield line(words, f"{ratio:g}", *(extent(rows[name]) for name in names))
+
+
 def test_weakening_patches_creep_below_their_critical_width():
-    table = reference("weakening_patches").query("outcome != 'theory'")
-    width = table["width_ratio"]
-    assert (table["outcome"] == "creep").equals(width < 1.0)
-    event = table["outcome"] == "event"
-    slow = width[~event & (width > 1.0)]
-    first = width[event].min()
-    always = width[width > slow.max()].min()
-    says(
-        "creeping_patch.md",
-        f"Limit cycles of slow slip are found up to {slow.max():.2f} $W_c$.",
-        f"Events (slip faster than 0.1 m/s) are found from {first:.2f} $W_c$ on, and in all "
-        f"patches from {always:.2f} $W_c$ on.",
-    )
+    table = reference("weakening_patches")
+    unstable = table["width_ratio"] > 1.0
+    assert not unstable.all()
+    assert set(table["outcome"][~unstable]) == {"creep"}
+    assert "creep" not in set(table["outcome"][unstable])
+    assert {"strain", "antiplane"} == set(table["plane"])
+    says("creeping_patch.md", f"{len(table)} patches in the study `weakening_patches`")
+
+
+def test_outcomes_in_the_library_are_those_of_the_reference():
+    """The file that the library reads is made from the table of simulated patches."""
+    frame = reference("weakening_patches")
+    made = patch_outcomes_table(xr.Dataset({name: ("run", frame[name]) for name in frame}))
+    stated = pd.DataFrame(simulated())
+    assert len(stated) == made.sizes["run"] >= 20
+    for name in stated:
+        assert list(made[name].values) == list(stated[name])
+    assert frame["elements"].min() >= 3.0
+    assert (frame["height"] / frame["width"]).min() >= ROOM
+    dynamic = [frame["dynamic_rate"].min(), frame["dynamic_rate"].max()]
+    assert dynamic == pytest.approx(DYNAMIC, rel=5e-3)
 
 
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
@@ -359,7 +385,7 @@ def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
 
 TABLES = {
     "verification": (kind_rows, floor_rows),
-    "creeping_patch": (patch_theory_rows,),
+    "creeping_patch": (patch_theory_rows, patch_outcome_rows),
 }
 
 

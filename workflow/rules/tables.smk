@@ -208,3 +208,20 @@ rule gather_weakening_patches:
         runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),
     shell:
         JOB
+
+
+rule patch_outcomes:
+    """Widths of weakening patches at which slow slip ends and events begin"""
+    input:
+        patches=f"{RESULTS}/weakening_patches.nc",
+        recipe=recipe("patch_outcomes"),
+    output:
+        multiext(f"{RESULTS}/patch_outcomes", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/patch_outcomes.log",
+    params:
+        call="replication.tables.weakening_patches:patch_outcomes_table",
+    message:
+        "Widths of weakening patches at which slow slip ends and events begin"
+    shell:
+        JOB

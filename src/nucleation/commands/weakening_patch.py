@@ -87,11 +87,15 @@ def patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> 
         rows.append("  no W_c: the patch is stable, or its surroundings are not")
     else:
         ratio = f"{smallest / critical:.3g} L_c"
-        meaning = "smallest width that nucleates; a narrower patch creeps"
+        meaning = "smallest width at which slip is unstable; a narrower patch creeps"
         rows.append(("W_c", f"{smallest:.4g} m", ratio, meaning))
         if width is not None:
             own = f"{patch['width_ratio']:.3g} W_c"
             rows.append(("W", in_unit(width, "m"), own, patch["outcome"]))
+            if patch["width_ratio"] >= 1.0:
+                from ..lengths.patch_outcomes import SETTING
+
+                rows.append(f"      simulated: {SETTING}")
     if not math.isnan(patch["cell_size"]):
         cell = f"{patch['cell_size']:.3g} m"
         rows.append(("cells", cell, "", "or less: three in a process zone (Day et al., 2005)"))

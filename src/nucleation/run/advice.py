@@ -101,6 +101,8 @@ def advice(run: Run, critical: float) -> Iterator[Advice]:
 def _has_weakening_patch(run: Run) -> bool:
     """Whether zeta, which is declared for the surroundings, is positive on a patch of the fault."""
     own = run.heterogeneity
+    if own.varies == "a":
+        return run.fault.zeta - run.fault.a * own.change > 0.0
     return own.varies == "zeta" and run.fault.zeta * (1.0 + own.change) > 0.0
 
 

@@ -11,7 +11,7 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.model.recording import STUCK_BELOW
 from nucleation.run.checks import contradictions, memory_problem
 
-from .roles import LITERATURE, OWN, ROLES
+from .roles import LITERATURE, OWN, ROLES, WEAKENING_PATCHES
 from .runs import StudyRun
 from .settings import Limits, Settings
 
@@ -41,7 +41,7 @@ def run_problems(
 
 def _measurement_problems(run: StudyRun, extraction: ExtractionSettings) -> Iterator[str]:
     event_drop = run.run.stepping.event_drop
-    measures_drop = run.role != LITERATURE
+    measures_drop = run.role not in (LITERATURE, WEAKENING_PATCHES)
     if measures_drop and event_drop < extraction.drop:
         yield (
             f"event_drop = {event_drop:g} is not allowed with extraction.drop = "

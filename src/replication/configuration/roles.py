@@ -16,6 +16,9 @@ JUDGED = "converged"
 PAPERS = "paper"
 """The role of the runs on the paper's own mesh."""
 
+WEAKENING_PATCHES = "weakening_patches"
+"""The role of patches that weaken in a fault that strengthens: no length is measured."""
+
 LITERATURE = "literature"
 """The role of runs with lengths that are measured during acceleration, not at the drop."""
 
@@ -45,7 +48,7 @@ _INTERFACE = _Need("record", "interface".__eq__, "interface")
 _UNPERTURBED = _Need("perturbation", "none".__eq__, "none")
 _PAIR = _Need("second_body", "deformable".__eq__, "deformable")
 _REMOTE = _Need("loading", "remote".__eq__, "remote")
-_ZETA_VARIES = _Need("heterogeneity", "zeta".__eq__, "zeta")
+_FRICTION_VARIES = _Need("heterogeneity", ("zeta", "a").__contains__, "zeta or a")
 
 
 class _Role(NamedTuple):
@@ -101,9 +104,9 @@ ROLES = {
         "faults that the expected drop was not fitted to, for `other_faults`",
         one_by_one=False,
     ),
-    "weakening_patches": _Role(
+    WEAKENING_PATCHES: _Role(
         "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
-        runs=(_REMOTE, _ZETA_VARIES),
+        runs=(_REMOTE, _FRICTION_VARIES),
     ),
     "map": _Role(
         "heights and weakenings, for `figure_map`",

@@ -1,6 +1,6 @@
 """Where slow slip begins and where it ends in an event, over the weakening of friction.
 
-:func:`draw_patches`: which weakening patches nucleate among strengthening surroundings.
+:func:`draw_patches`: which weakening patches creep, slip slowly or have events.
 """
 
 import numpy as np
@@ -80,47 +80,44 @@ def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
 
 
 LOOKS = {
-    "creep": ("creeps", "o", style.BLUE),
-    "slow slip": ("slips slowly", "s", style.GREEN),
-    "event": ("nucleates", "^", style.VERMILLION),
+    "creep": ("creep", "o", style.BLUE),
+    "slow slip": ("slow slip", "s", style.GREEN),
+    "event": ("event", "^", style.VERMILLION),
+    "undecided": ("undecided", "D", style.GUIDE),
 }
 """Label, marker and colour of each outcome of a run."""
 
-THEORY = "$W_c$ by theory"
-RIGID = 1.158 / np.pi  # for half-spaces with surroundings that do not slip
-TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # of the surroundings' strengthening
+TICKS = (0.2, 0.5, 1.0, 2.3, 5.0)  # of zeta/a
+APART = 0.08  # log of zeta/a over that of r, by which marks of one zeta/a are displaced
 
 
 @style.styled
 def draw_patches(table: xr.Dataset) -> Figure:
-    """Draw widths over L_c against the surroundings' strengthening, one panel for each zeta/a."""
-    rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
-    ratios = np.unique(rounded["ratio"])
-    figure, panels = style.panels(1, ratios.size, 7.5)
-    panels = np.ravel(panels)
-    for axes, letter, ratio in zip(panels, "abcdefgh", ratios, strict=False):
-        _draw_weakening(axes, laws.where(rounded, ratio=ratio))
-        axes.set_title(rf"({letter}) $\zeta/a$ = {ratio:.2g}")
-    panels[0].set_ylabel("Width of the patch $W/L_c$")
-    entries = style.entries(panels[0])
-    for label, marker, colour in LOOKS.values():
-        entries[label] = style.key(label, marker, colour=colour, mfc="none")
+    """Draw outcomes of patches over zeta/a and W/W_c, one panel for each V, the largest first."""
+    velocities = np.unique(table["velocity"])[::-1]
+    figure, panels = style.panels(1, velocities.size, 8.0, sharey=True, squeeze=False)
+    for axes, letter, velocity in zip(panels[0], "abcdefgh", velocities, strict=False):
+        rows = laws.where(table, velocity=velocity)
+        _draw_outcomes(axes, rows)
+        rate = float(rows["dynamic_rate"][0])
+        axes.set_title(rf"({letter}) $v_d$ = {rate:.3g} $V$")
+    panels[0, 0].set_ylabel("Width of the patch $W/W_c$")
+    entries = {
+        label: style.key(label, marker, colour=colour, mfc="none")
+        for label, marker, colour in LOOKS.values()
+    }
+    entries["other $a$"] = style.key("other $a$", "o", colour=style.GUIDE)
     figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
     return figure
 
 
-def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
-    """The theory's curve and the runs with one friction of the patch."""
-    theory = laws.where(rows, outcome="theory")
-    curve = theory["smallest_width"] / theory["critical_length"]
-    axes.plot(theory["strengthening"], curve, color=style.BLACK, label=THEORY)
-    style.level(axes, RIGID, label="asperity, rigid surroundings")
+def _draw_outcomes(axes: Axes, rows: xr.Dataset) -> None:
+    """The runs with one V; filled where the surroundings have another a."""
+    style.level(axes, 1.0)
     for name, (_, marker, colour) in LOOKS.items():
-        own = laws.where(rows, outcome=name)
-        width = own["width"] / own["critical_length"]
-        axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
-    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
-    axes.set(
-        xscale="log", xlabel=r"Strengthening around $-\zeta_\mathrm{out}/\zeta$", ylim=(0.0, top)
-    )
+        for varies, face in (("zeta", "none"), ("a", colour)):
+            own = laws.where(rows, outcome=name, varies=varies)
+            place = own["zeta_over_a"] * own["strengthening"] ** APART
+            axes.plot(place, own["width_ratio"], marker, color=colour, mfc=face, ls="none")
+    axes.set(xscale="log", xlabel=r"Weakening of the patch $\zeta/a$")
     style.plain_numbers(axes.xaxis, TICKS)

@@ -1,11 +1,12 @@
-"""Weakening patches in a strengthening fault: simulations beside the theory's width W_c.
+"""Weakening patches in a strengthening fault: outcomes of simulations, and their bounds.
 
 A fault that is periodic along x creeps at V under a far shear stress that hardly changes. A patch
-narrower than W_c keeps creeping. On a wider one the slip rate oscillates in a limit cycle, or the
-patch nucleates an event.
+narrower than W_c keeps creeping. On a wider one the slip rate oscillates in a limit cycle of slow
+slip, or the patch has an event: it slips so fast that inertia limits the slip rate,
+``2 a sigma0 c_s/mu``, at which the damping ``mu v/(2 c_s)`` by radiation (Rice, 1993) is a sigma0.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
@@ -14,108 +15,117 @@ from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import Run
+from nucleation.simulation.event import Outcome
 from nucleation.theory.crossings import largest_crossings
 from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 
 from .curves import CURVES
-from .rows import Row
+from .rows import Row, rows_of
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
-SEISMIC = 1e4  # largest slip rate over V of slow slip: 0.1 m/s in the study
+TALL = 1e5  # m, height of bodies that are half-spaces
+PERIOD = 1.03  # by which the study's periods and heights raise W_c of half-spaces at most
 
 CREEP = "creep"
 SLOW = "slow slip"
 EVENT = "event"
-THEORY = "theory"  # in place of an outcome, in the rows of the theory's curve
+UNDECIDED = "undecided"  # the run ended by a fall of the force before the rate of an event
 
-CURVE = np.geomspace(0.05, 5.0, 21)
-"""-zeta of the surroundings over zeta of the patch, along the theory's curve."""
 
 COLUMNS = {
     "id": SHARED["id"],
-    "outcome": Variable("", "creep, slow slip or event; theory: a point of the curve, no run"),
-    **some(SHARED, "height a zeta"),
+    "outcome": Variable("", "creep, slow slip, event or undecided"),
+    **some(SHARED, "plane velocity height a zeta"),
+    "varies": Variable("", "how the surroundings differ: zeta by another b, or a at the same b"),
+    "outside_a": Variable("1", "direct effect of the surroundings", "a_out"),
     "outside_weakening": Variable("1", "velocity weakening of the surroundings", "zeta_out"),
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
     "width": SHARED["width"],
     "critical_length": CURVES["critical_length"],  # of a fault with the patch's friction
-    "smallest_width": Variable("m", "smallest width that nucleates, by theory", "W_c"),
-    "width_ratio": Variable("1", "width over the smallest one that nucleates", "W/W_c"),
+    "smallest_width": Variable("m", "smallest width with a growing mode, by theory", "W_c"),
+    "width_ratio": Variable("1", "width over the smallest one with a growing mode", "W/W_c"),
     "fastest": Variable("1", "largest slip rate over V"),
+    "dynamic_rate": Variable("1", "least slip rate of an event over V", "2 a sigma0 c_s/(mu V)"),
     "n_x": SHARED["n_x"],
+    "elements": Variable("1", "elements in half of L_b"),
     "period": Variable("1", "period of the fault over the width of the patch"),
 }
 
+BOUNDS = {
+    **some(COLUMNS, "varies zeta_over_a strengthening"),
+    "slow_slip_up_to": Variable("1", "W/W_c below which no patch had an event"),
+    "events_from": Variable("1", "W/W_c above which all patches had an event"),
+}
 
-def patch_of(parameters: Run) -> WeakeningPatch:
+
+def patch_of(run: Run) -> WeakeningPatch:
     """The patch of a run, with the friction law expanded at V."""
-    own = parameters.heterogeneity
-    if (own.varies, own.shape) != ("zeta", "step"):
+    own = run.heterogeneity
+    if own.varies not in ("zeta", "a") or own.shape != "step":
         raise ParameterError(
             f"heterogeneity = {own.varies} with shape = {own.shape} is not "
-            "allowed with role = weakening_patches: it must be zeta with a step"
+            "allowed with role = weakening_patches: it must be zeta or a with a step"
         )
-    outside = single_system(parameters.fault)
-    inside = outside._replace(zeta=outside.zeta * (1.0 + own.change))
+    outside = single_system(run.fault)
+    factor = 1.0 + own.change
+    if own.varies == "zeta":
+        return WeakeningPatch(outside._replace(zeta=outside.zeta * factor), outside)
+    less = outside.a * (1.0 - factor)  # b is the same
+    inside = outside._replace(a=outside.a - less, zeta=outside.zeta + less)
     return WeakeningPatch(inside, outside)
 
 
-def outcome(fastest: float) -> str:
-    """Outcome of a run by its largest slip rate over V: creep, slow slip or an event."""
-    if fastest < UNSTEADY:
-        return CREEP
-    return SLOW if fastest < SEISMIC else EVENT
+def outcome(fastest: float, dynamic_rate: float, dropped: bool = False) -> str:
+    """Outcome of a run by its largest slip rate and that of an event, both over V."""
+    if fastest >= dynamic_rate:
+        return EVENT
+    if dropped:
+        return UNDECIDED
+    return CREEP if fastest < UNSTEADY else SLOW
 
 
 def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
-    """Simulated patches beside theory, and the theory's curves."""
-    rows: list[Row] = []
-    patches: dict[float, WeakeningPatch] = {}
-    for run, simulation in zip(runs, simulations, strict=True):
-        parameters = Run.from_dict(run["parameters"])
-        width = parameters.heterogeneity.width
-        patch = patch_of(parameters)
-        largest_rate = float(np.abs(simulation["slip_rate"]).max())
-        fastest = largest_rate / parameters.fault.velocity
-        row = {
-            **_of_patch(patch, parameters.fault.height, width),
-            "id": run["id"],
-            "outcome": outcome(fastest),
+    """Simulated patches beside theory: :data:`COLUMNS` of each run on ``run``."""
+    rows = []
+    for entry, simulation in zip(runs, simulations, strict=True):
+        run = Run.from_dict(entry["parameters"])
+        fastest = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
+        row = _of_patch(run)
+        row |= {
+            "id": entry["id"],
             "fastest": fastest,
-            "n_x": parameters.block.n_x,
-            "period": parameters.block.length / width,
+            "outcome": outcome(fastest, row["dynamic_rate"], _dropped(simulation)),
         }
         rows.append(row)
-        patches.setdefault(round(row["zeta_over_a"], 6), patch)
-    for patch in patches.values():
-        rows += _curve(patch, max(row["height"] for row in rows))
     return table(rows, COLUMNS)
 
 
-def _curve(patch: WeakeningPatch, height: float) -> Iterator[Row]:
-    """Rows of the theory's curve for the friction of one patch."""
-    empty = {"id": "", "outcome": THEORY, "fastest": np.nan, "n_x": 0, "period": np.nan}
-    for strengthening in CURVE:
-        zeta = -strengthening * patch.inside.zeta
-        outside = patch.outside._replace(zeta=zeta)
-        own = WeakeningPatch(patch.inside, outside)
-        yield _of_patch(own, height, np.nan) | empty
+def _dropped(simulation: xr.Dataset) -> bool:
+    """Whether a run ended because the force had dropped."""
+    return str(simulation.attrs.get("status", "")).startswith(Outcome.AFTER_EVENT.value)
 
 
-def _of_patch(patch: WeakeningPatch, height: float, width: float) -> Row:
+def _of_patch(run: Run) -> Row:
     """The columns about one patch and its theory."""
-    wavenumber = float(largest_crossings(patch.inside)[0])
-    critical = 2.0 * np.pi / wavenumber
-    smallest = smallest_width(patch, critical)
-    a = float(patch.inside.a[0])
-    zeta = float(patch.inside.zeta[0])
+    fault, block = run.fault, run.block
+    patch = patch_of(run.replaced(height=TALL))
+    a, zeta = float(patch.inside.a[0]), float(patch.inside.zeta[0])
     outside_zeta = float(patch.outside.zeta[0])
+    critical = 2.0 * np.pi / float(largest_crossings(patch.inside)[0])
+    smallest = smallest_width(patch, critical)
+    width = run.heterogeneity.width
+    strength = a * fault.normal_stress / fault.shear_modulus
+    zone = 0.5 * critical * zeta / (np.pi * (a + zeta))  # L_b/2 of half-spaces
     return {
-        "height": height,
+        "plane": fault.plane,
+        "velocity": fault.velocity,
+        "height": fault.height,
         "a": a,
         "zeta": zeta,
+        "varies": run.heterogeneity.varies,
+        "outside_a": float(patch.outside.a[0]),
         "outside_weakening": outside_zeta,
         "zeta_over_a": zeta / a,
         "strengthening": -outside_zeta / zeta,
@@ -123,4 +133,36 @@ def _of_patch(patch: WeakeningPatch, height: float, width: float) -> Row:
         "critical_length": critical,
         "smallest_width": smallest,
         "width_ratio": width / smallest,
+        "dynamic_rate": 2.0 * strength * run.upper.material.shear_wave_speed / fault.velocity,
+        "n_x": block.n_x,
+        "elements": zone * block.n_x / block.length,
+        "period": block.length / width,
     }
+
+
+def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
+    """Bounds of slow slip and events: :data:`BOUNDS` of each simulated friction on ``run``."""
+    groups: dict[tuple[str, float, float], list[Row]] = {}
+    for row in rows_of(patches):
+        key = row["varies"], round(row["zeta_over_a"], 4), round(row["strengthening"], 4)
+        groups.setdefault(key, []).append(row)
+    found = []
+    for key, rows in sorted(groups.items()):
+        names = ("varies", "zeta_over_a", "strengthening", "slow_slip_up_to", "events_from")
+        found.append(dict(zip(names, (*key, *bounds_of(rows)), strict=True)))
+    return table(found, BOUNDS)
+
+
+def bounds_of(rows: Iterable[Row]) -> tuple[float, float]:
+    """W/W_c up to which no run had an event (1 if none is known), and from which all had one.
+
+    The first one is a run's at the largest V, over the W_c of the period, which is larger at most
+    by :data:`PERIOD`; the second one a run's at the least V, infinite if there is none.
+    """
+    runs = [(row["width_ratio"], row["outcome"], row["velocity"]) for row in rows]
+    velocities = [velocity for _, _, velocity in runs]
+    first = min((w for w, outcome, _ in runs if outcome in (EVENT, UNDECIDED)), default=np.inf)
+    last = max((w for w, outcome, _ in runs if outcome != EVENT), default=0.0)
+    slow = [w / PERIOD for w, _, velocity in runs if w < first and velocity == max(velocities)]
+    events = [w for w, _, velocity in runs if w > last and velocity == min(velocities)]
+    return max([1.0, *slow]), min(events, default=np.inf)
