@@ -1,6 +1,6 @@
 """Behaviour of a weakening patch (creep, slow slip or event), for models of sequences of events.
 
-The width W of the patch is compared with the smallest width that nucleates, W_c
+The width W of the patch is compared with the smallest width with a growing mode, W_c
 (:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above W_c slip is unstable
 and grows into a limit cycle of slow slip or into an event. The transition between these two is
 known from simulations (:mod:`.patch_outcomes`), not from a theory.
@@ -74,10 +74,8 @@ def _outcome(ratio: float, untried: str, bounds: tuple[float, float] | None) -> 
         return NO_WIDTH
     if ratio < 1.0:
         return "it creeps"
-    if bounds is None:
-        untried = untried or "such friction"
-    if untried:
-        return f"slow slip or events: {untried} was not tried"
+    if untried or bounds is None:
+        return f"slow slip or events: {untried or 'such friction'} was not tried"
     return patch_outcomes.outcome(ratio, bounds)
 
 
