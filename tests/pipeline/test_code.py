@@ -4,12 +4,15 @@ import importlib.metadata
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from nucleation.datasets import code
 from replication.pipeline import bytecode
 
+SOURCE = str(Path(__file__).parents[2] / "src")
+ENVIRONMENT = {**os.environ, "PYTHONPATH": SOURCE}
 LOW = "import numpy as np\n\nX = 1\n\n\ndef f(a):\n    return np.sin(a) + X\n"
 HIGH = "from . import low\nfrom .low import f as g\n\nY = low.X + g(2)\n"
 JOB = "from replication.pipeline import around\nfrom nucleation.wing.high import Y\nprint(Y)\n"
@@ -99,9 +102,41 @@ def test_digest_of_the_simulation_reaches_its_libraries():
     assert {"numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4"} <= names
     modules = code.closure("nucleation.simulation.run") - {"nucleation"}
     wings = {module.split(".")[1] for module in modules}
-    # a run holds a Fault, whose methods import theory, lengths and drop
-    assert not wings & {"extraction", "commands", "api", "pictures"}
+    assert not wings & {"extraction", "commands", "api", "pictures", "lengths", "drop"}
     assert not any(module.startswith("replication") for module in modules)
+
+
+WITHOUT = """
+import sys
+
+class Missing:
+    def find_spec(self, name, *_):
+        if f"{name}.".startswith(PREFIXES):
+            raise ImportError(name)
+
+sys.meta_path.insert(0, Missing())
+from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.run import simulate
+
+small = PAPER_RUN.replaced(n_x=16, n_y=4, end_time=1e-3)
+print(simulate(type(small).from_dict(small.to_dict())).attrs["steps"])
+"""
+
+
+@pytest.mark.slow
+def test_a_simulation_runs_without_the_code_that_does_not_count_for_it():
+    (unused,) = code._UNUSED.values()
+    text = WITHOUT.replace("PREFIXES", repr(tuple(f"{name}." for name in unused)))
+    command = [sys.executable, "-c", text]
+    given = {"capture_output": True, "text": True, "env": ENVIRONMENT}
+    done = subprocess.run(command, **given)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 3
+    counted = text.replace("nucleation.lengths.", "nucleation.fem.")
+    assert (
+        "ImportError: nucleation.fem"
+        in subprocess.run([sys.executable, "-c", counted], **given).stderr
+    )
 
 
 def test_bytecode_is_never_outdated(tmp_path):

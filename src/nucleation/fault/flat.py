@@ -9,7 +9,6 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..lengths.draws import SAMPLED, parse_range
 from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, law_class, law_declarations
@@ -164,6 +163,8 @@ def _value(key: str, value: Any, known: Mapping[str, Quantity]) -> Any:
         raise ParameterError(f"{key} = {value!r} is not allowed: unknown key; {suggestion}")
     entry = known[key]
     if isinstance(value, str) and not entry.worded:
+        from ..lengths.draws import SAMPLED, parse_range
+
         return parse_range(key, value, entry) if key in SAMPLED else parse(key, value, entry)
     check(key, value, entry)
     return value

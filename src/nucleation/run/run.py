@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from ..fault import Fault
 from ..fault.paper import PAPER
@@ -22,11 +22,13 @@ from ..model.quantities import ParameterError, plain
 from ..model.recording import Recording
 from ..model.start import Start
 from ..model.stepping import Stepping
-from ..theory.creep.patches import Patches
 from ..theory.evaluation import single_system
 from .complete import completed, flat
 from .estimates import growth_time, process_zone
 from .names import GROUPS, read, sections
+
+if TYPE_CHECKING:
+    from ..theory.creep.patches import Patches
 
 
 class Body(NamedTuple):
@@ -239,6 +241,8 @@ class Run:
 
         They begin at the edge that is pushed, or in the interior under a remote load.
         """
+        from ..theory.creep.patches import Patches
+
         fault = self.fault
         found = Patches(
             single_system(fault), self.law, fault.velocity, evolution=self.law.evolution
