@@ -35,10 +35,10 @@ def test_a_larger_drop_is_recorded_without_time_after_the_event():
     config = study(run | {"longest_step": 0.3, "time_after_event": 0.0}, length_over_critical=3.0)
     asked = configure(config | {"extraction": {"drop": 0.1}})
     (own,) = asked.runs
-    assert own.parameters.stepping.event_drop == 0.1
-    found = extract(simulate(own.parameters), asked.extraction)
+    assert own.run.stepping.event_drop == 0.1
+    found = extract(simulate(own.run), asked.extraction)
     assert 0.1 < found["length"] < own.critical_length
-    usual = simulate(own.parameters.replaced(event_drop=0.02))
+    usual = simulate(own.run.replaced(event_drop=0.02))
     with pytest.warns(UserWarning, match="before it fell by drop = 0.1: simulate with a larger"):
         assert np.isnan(extract(usual, asked.extraction)["length"])
     assert extract(usual)["length"] > 0.1

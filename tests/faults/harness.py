@@ -85,7 +85,7 @@ class Place:
 
     def key(self, id: str) -> str:
         """The key of a simulation."""
-        parameters = load(self.directory / "config.yaml").run(id).parameters
+        parameters = load(self.directory / "config.yaml").run(id).run
         values = {"parameters": parameters.to_dict()}
         return Recipe(id, [], "results", SIMULATE, plugins(parameters), values, {}, []).key
 

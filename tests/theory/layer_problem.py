@@ -75,7 +75,7 @@ def reference_compliance(k, body, side):
 def reference_stiffness(k, body):
     """``A_xx, A_xy, A_yy, det A``, ``(T, N) = -mu k A (U, W)``: the inverse of the compliance."""
     (xx, xy), (_, yy) = reference_compliance(k, body, "upper")
-    det, scale = xx * yy - xy * xy, -1 / (Decimal(body.fault.shear_modulus) * Decimal(k))
+    det, scale = xx * yy - xy * xy, -1 / (Decimal(body.material.shear_modulus) * Decimal(k))
     entries = scale * yy / det, scale * xy / det, scale * xx / det, scale * scale / det
     return tuple(float(x) for x in entries)
 

@@ -20,7 +20,7 @@ PAIRS = [
 
 def linear_dynamics(k, upper, lower, s):
     """Matrix of ``d/dt (slip, state)`` for ``f = f0 + a log v + b log phi`` and the aging law."""
-    mu = (upper if isinstance(upper, Body) else lower).fault.shear_modulus
+    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
     g1, g2 = transfer_functions(k, upper, lower)
     steady_state = s.slip_length / s.velocity
     by_rate = s.normal_stress * s.a / s.velocity
@@ -55,7 +55,7 @@ def test_growth_rates_are_eigenvalues_of_the_dynamics(upper, lower, zeta):
 def test_growth_rates_satisfy_the_spectrum_equation(upper, lower):
     """Eq. (5) as printed, at wavenumbers where the two roots differ by many orders."""
     s, k = INTERFACE, np.geomspace(1e-6, 1e6, 50)
-    mu = (upper if isinstance(upper, Body) else lower).fault.shear_modulus
+    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
     g1, g2 = transfer_functions(k, upper, lower)
     elastic = mu * k * (g1 - 1j * s.friction * g2)
     with warnings.catch_warnings():

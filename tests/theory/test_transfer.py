@@ -72,7 +72,7 @@ def test_thin_free_layer_is_a_plate():
 @pytest.mark.parametrize("k", [4e-7, 0.6, 45.0, -45.0, 900.0, 1e4])
 @pytest.mark.parametrize(("upper", "lower"), PAIRS)
 def test_transfer_functions_solve_the_layer_problem(upper, lower, k):
-    mu = (upper or lower).fault.shear_modulus
+    mu = (upper or lower).material.shear_modulus
     expected = reference_transfer(k, upper, lower, mu)
     g1, g2 = transfer_functions(k, or_rigid(upper), or_rigid(lower))
     assert g1 == pytest.approx(expected[0], rel=2e-14, abs=0.0)

@@ -8,7 +8,6 @@ from configurations import CONFIG, papers
 from nucleation.theory.creep import front
 from nucleation.theory.creep.front import advance
 from nucleation.theory.creep.front_onset import first_growing
-from nucleation.theory.creep.lengths import Patches
 from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"
@@ -75,7 +74,7 @@ def test_a_high_slip_rate_at_the_front_would_matter(monkeypatch):
 
 def test_slip_at_the_front_is_not_slower_than_the_scale_of_friction():
     """Below v0 contacts are at rest, and the law has no friction."""
-    parameters = RUNS["converged-aging-H0.1-phi1-seed1"].parameters
+    parameters = RUNS["converged-aging-H0.1-phi1-seed1"].run
     faster = parameters.replaced(regularisation_slip_rate=0.05 * parameters.fault.velocity)
     slowest = [
         advance(own.patches, [0.3], 1.0).creeps[0].slip_rate.min() for own in (parameters, faster)
@@ -84,7 +83,7 @@ def test_slip_at_the_front_is_not_slower_than_the_scale_of_friction():
 
 
 def test_the_older_the_interface_the_later():
-    patches = Patches.of(RUNS["converged-aging-H0.1-phi1-seed1"].parameters)
+    patches = RUNS["converged-aging-H0.1-phi1-seed1"].run.patches
     times = [advance(patches, [0.3], age).time[0] for age in (1.0, 100.0, 1e4)]
     assert times[0] < 0.97 * times[1] < 0.93 * times[2]
     loaded = advance(patches, [0.3], 1.0, initial_stress=0.2).time[0]
