@@ -68,35 +68,24 @@ SIMULATE = [
     (["there.nc"], ["there.nc exists already", "--force"]),
     (["file/run.nc"], ["can't be written", "no writable directory"]),
     (["no/where/run.nc"], ["there is no directory", "no/where; mkdir -p", "no/where"]),
-    (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
-    (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
-    (["new.nc", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
-    (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
-    (["new.nc", "--evolution", "ageing"], ["evolution = 'ageing'", "one of aging, slip"]),
+    (["new.nc", "--paper", "--height", "5 s"], ["--height", "m is needed", "[1e-12, inf] m"]),
+    (["new.nc", "--paper", "--height", "-5mm"], ["height = -0.005 m", "[1e-12, inf] m"]),
+    (["new.nc", "--paper", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
+    (["new.nc", "--paper", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
     (
-        ["new.nc", "--block-length", "1cm"],
-        ["block_length = 0.01 m", "nucleation specimen --length 0.01m"],
+        ["new.nc", "--paper", "--evolution", "ageing"],
+        ["evolution = 'ageing'", "one of aging, slip"],
     ),
-    (["new.nc", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
-    (["new.nc", "--seed", "3"], ["seed = 3", "none"]),
-    (["new.nc", "--strength", "1e-5"], ["strength = ", "none"]),
-    (["new.nc", "--length-over-critical", "0.5"], ["length_over_critical = 0.5", "(1, 1000)"]),
-    (["new.nc", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),
-    (["new.nc", "--memory", "1 GPa"], ["memory", "MB is needed"]),
-    (["new.nc", "--aging-coefficient", "0"], ["a + zeta = 0 is not positive"]),
-    (
-        ["new.nc", "--run", "x", "--config", CONFIG],
-        ["--run = 'x'", "no study x; studies: paper, conv"],
-    ),
-    (
-        ["new.nc", "--run", "paper-aging-H0.005", "--config", CONFIG],
-        ["did you mean paper-aging-H0"],
-    ),
-    (["new.nc", "--a", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
-    (["new.nc", "--a", "2"], ["a = 2.0", "(0, 1)"]),
-    (["new.nc", "--initial-shear-stress", "1kPa"], ["1000 Pa", "initial_stress"]),
-    (["new.nc", "--shortest-step", "0.5 s"], ["0.5 s is not allowed", "0.005 s"]),
-    (["new.nc", "--run", "x", "--config", "none.yaml"], ["none.yaml"]),
+    (["new.nc", "--paper", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
+    (["new.nc", "--paper", "--seed", "3"], ["seed = 3", "none"]),
+    (["new.nc", "--paper", "--strength", "1e-5"], ["strength = ", "none"]),
+    (["new.nc", "--paper", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),
+    (["new.nc", "--paper", "--memory", "1 GPa"], ["memory", "MB is needed"]),
+    (["new.nc", "--paper", "--aging-coefficient", "0"], ["a + zeta = 0 is not positive"]),
+    (["new.nc", "--paper", "--a", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
+    (["new.nc", "--paper", "--a", "2"], ["a = 2.0", "(0, 1)"]),
+    (["new.nc", "--paper", "--initial-shear-stress", "1kPa"], ["1000 Pa", "initial_stress"]),
+    (["new.nc", "--paper", "--shortest-step", "0.5 s"], ["0.5 s is not allowed", "0.005 s"]),
     (["new.nc", "--parameters", "none.yaml"], ["--parameters", "none.yaml", "does not exist"]),
     (["new.nc", "--parameters", "list.yaml"], ["list.yaml must hold a mapping"]),
     (["new.nc", "--parameters", "broken.yaml"], ["broken.yaml is not valid YAML"]),
@@ -105,7 +94,6 @@ SIMULATE = [
     (["new.nc", "--parameters", "bool.yaml"], ["bool.yaml: n_x = True", "integer"]),
     (["new.nc", "--parameters", "twice.yaml"], ["height is given twice"]),
     (["new.nc", "--parameters", "theory.nc"], ["theory.nc lacks the variables"]),
-    (["new.nc", "--parameters", "unit.yaml", "--run", "x"], ["can't be combined"]),
 ]
 
 SHOW = [
@@ -132,7 +120,7 @@ def directory(tmp_path_factory):
     texts = {
         "there.nc": "", "there.png": "", "file": "no netCDF", "list.yaml": "- 1\n",
         "broken.yaml": "a: [1\n", "unknown.yaml": "heigth: 5mm\n", "unit.yaml": "height: 5 s\n",
-        "bool.yaml": "mesh: {n_x: true}\n", "twice.yaml": "height: 1\ngeometry: {height: 2}\n",
+        "bool.yaml": "n_x: true\n", "twice.yaml": "height: 1\nheight: 2\n",
     }  # fmt: skip
     for name, text in texts.items():
         (folder / name).write_text(text)
@@ -155,8 +143,7 @@ def test_bad_command_lines(nucleation, directory, monkeypatch, words, said):
     assert ended.code == 2 and ended.out == ""
     assert "Error: " in message and "Traceback" not in message
     assert all(text in message for text in said), message
-    if "--config" not in words:  # nothing is said of a configuration that is not there
-        assert not re.search(r"configuration|limits\.|studies|runs\[", message)
+    assert not re.search(r"configuration|limits\.|studies|runs\[", message)
     assert sorted(directory.iterdir()) == before
 
 
@@ -167,12 +154,7 @@ def test_wrong_time_of_results_is_refused_by_every_command(nucleation, monkeypat
     assert ended.code == 2 and "Error: SOURCE_DATE_EPOCH = 'abc' is not allowed" in ended.err
 
 
-RUN = ["simulate", "x.nc", "--run", "paper-aging-H0.1-phi1"]
-
-
-@pytest.mark.parametrize(
-    ("words", "option"), [(length(), "--parameters"), (length(), "--samples"), (RUN, "--config")]
-)
+@pytest.mark.parametrize(("words", "option"), [(length(), "--parameters"), (length(), "--samples")])
 def test_a_pipe_that_nobody_writes_to_does_not_block(nucleation, tmp_path, words, option):
     os.mkfifo(tmp_path / "pipe.csv")
     ended = nucleation(*words, option, str(tmp_path / "pipe.csv"))

@@ -72,7 +72,7 @@ def test_summary_of_a_simulation(nucleation, files):
     found = show.extract(netcdf.read(files["run"]))
     assert f"L: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
     assert "status: completed: the event" in said
-    assert "normal_stress 1 MPa applied" in " ".join(said.split())
+    assert "normal_stress 1 MPa compressive" in " ".join(said.split())
     assert ", that of this installation" in said and "NOT that" not in said
     short = nucleation("show", files["short"]).out
     assert "no event" in short and ", NOT that of this installation" in short

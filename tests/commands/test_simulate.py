@@ -13,8 +13,6 @@ from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
 from nucleation.model.friction.law import Friction
-from nucleation.model.units import parse
-from nucleation.run.estimates import growth_time
 from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import simulate
@@ -40,7 +38,8 @@ def test_record_is_that_of_the_library(nucleation, tmp_path):
     dataset, expected = netcdf.read(output), simulate(PARAMETERS)
     for name in expected.variables:
         np.testing.assert_array_equal(dataset[name], expected[name])
-    assert parameters_of(output) == PARAMETERS
+    scale = parameters_of(output).perturbation.correlation_length
+    assert parameters_of(output) == PARAMETERS.replaced(correlation_length=scale)
     assert dataset.attrs["code_digest"] == simulation_code(PARAMETERS)
     assert [path.name for path in output.parent.iterdir()] == ["run.nc"]  # no checkpoint is left
 
@@ -55,7 +54,7 @@ def test_the_command_in_the_dataset_makes_it_again(nucleation, tmp_path):
     assert nucleation(*command[1:], "--force").code == 0
     again = netcdf.read(output)
     assert again.attrs["parameters"] == first.attrs["parameters"]
-    assert json.loads(first.attrs["parameters"])["loading"]["initial_state"] == 1200.0
+    assert json.loads(first.attrs["parameters"])["initial_state"] == 1200.0
     np.testing.assert_array_equal(again["slip_rate"], first["slip_rate"])
 
 
@@ -101,21 +100,10 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
     assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
-def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
-    six = nucleation("simulate", tmp_path / "run.nc", "--dry-run")
-    four = nucleation("simulate", tmp_path / "run.nc", "--dry-run", "--length-over-critical", "4")
-    entry = run_parameters()["block_length"]
-    lengths = [parse("length", planned(ended)["length"], entry) for ended in (four, six)]
-    ratio = lengths[0] / lengths[1]
-    assert ratio == pytest.approx(4 / 6, rel=1e-3)
-
-
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("flat.yaml", "height: 20 mm\nn_x: 80\nphi0: 1e3\nevolution: slip\n"),
-        ("groups.yaml", "geometry: {height: 2 cm}\nmesh: {n_x: 80}\nfriction: {evolution: slip}\n"
-                        "loading: {initial_state: 1000}\n"),
+        ("flat.yaml", "height: 20 mm\nn_x: 80\ninitial_state: 1e3\nevolution: slip\n"),
         ("flat.json", '{"height": 0.02, "n_x": 80, "initial_state": 1e3, "evolution": "slip"}'),
     ],
 )  # fmt: skip
@@ -129,31 +117,19 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
     assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
 
 
-@pytest.mark.slow
-def test_a_run_of_the_configuration(nucleation, tmp_path):
-    words = ["simulate", tmp_path / "run.nc", "--dry-run"]
-    run = ["--run", "converged-slip-H0.05-phi1-seed2"]
-    found = planned(nucleation(*words, *run))
-    assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "400", "20")
-    assert found == planned(nucleation(*words, *run, "--config", CONFIG))
-    beyond = planned(nucleation(*words, "--run", "convergence_quiet-aging-H0.005-phi1-n_x1600"))
-    assert beyond["n_x"] == "1600"
-    assert found["time_after_event"] == "0 s"
-
-
 def test_constants_of_friction_set_the_law(nucleation, tmp_path):
     """By options beside the law of a file, a run or the defaults; the expansion has them."""
     words = ["simulate", tmp_path / "run.nc", "--paper", *SMALL, "--a", "0.008"]
     nucleation(*words, "--zeta-over-a", "2", "--velocity", "2e-5")
-    friction = parameters_of(tmp_path / "run.nc").friction
+    friction = parameters_of(tmp_path / "run.nc").law
     f, a, zeta = friction.expansion(2e-5)
     assert (a, zeta) == pytest.approx((0.008, 0.016))
     assert f == pytest.approx(Friction().expansion(2e-5).f0)
     again = ["simulate", tmp_path / "more.nc", "--parameters", tmp_path / "run.nc"]
     nucleation(*again, "--friction", "0.5")
     more = parameters_of(tmp_path / "more.nc")
-    assert more.friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
-    assert (more.geometry, more.mesh) == (PARAMETERS.geometry, PARAMETERS.mesh)
+    assert more.law.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
+    assert more.block == PARAMETERS.block
 
 
 def test_every_parameter_has_an_option(nucleation):
@@ -202,13 +178,13 @@ def test_end_time_is_found_from_the_theory(nucleation, tmp_path):
     words = ["--height", "5mm", "--n-x", "16", "--n-y", "2", "--dry-run", "--json",
              "--second-body", "rigid"]  # fmt: skip
     found = json.loads(nucleation("simulate", tmp_path / "a.nc", *words).out)
-    end, after = (found["parameters"]["stepping"][n] for n in ("end_time", "time_after_event"))
+    end, after = (found["parameters"][n] for n in ("end_time", "time_after_event"))
     critical = found["theory"]["critical_length"]
-    assert end == pytest.approx(1.5 * growth_time(PAPER_RUN, critical), rel=0.05)
+    assert end == pytest.approx(1.5 * PAPER_RUN.growth_time(critical), rel=0.05)
     assert after == pytest.approx(10.0 * 0.05)
     given = [*words, "--end-time", "3 s"]
     kept = json.loads(nucleation("simulate", tmp_path / "a.nc", *given).out)["parameters"]
-    assert kept["stepping"]["end_time"] == 3.0
+    assert kept["end_time"] == 3.0
 
 
 @pytest.mark.slow
@@ -226,7 +202,7 @@ def test_a_run_without_an_end_time_has_its_event(nucleation, tmp_path):
 
 
 def test_a_strengthening_control_run_with_its_length(nucleation, tmp_path):
-    output, words = tmp_path / "run.nc", [*SMALL, "--zeta-over-a", "-0.5"]
+    output, words = tmp_path / "run.nc", [*SMALL, "--paper", "--zeta-over-a", "-0.5"]
     ended = nucleation("simulate", output, *words)
     assert ended.code == 0 and "no critical length" in ended.out and "no event" in ended.out
     assert "nothing will nucleate" in ended.err

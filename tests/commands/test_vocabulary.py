@@ -102,28 +102,29 @@ def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
         return json.loads(found.out)["parameters"]
 
     own = planned("--perturbation", "strength")
-    velocity, memory = own["loading"]["velocity"], 5e-6 / own["loading"]["velocity"]
-    friction = own["friction"]
-    assert friction["law"] == "dieterich_ruina"
-    assert friction["log_rate_coefficient"] == pytest.approx(0.010)
-    assert friction["log_state_coefficient"] == pytest.approx(0.015, rel=1e-6)
-    assert friction["reference_slip_rate"] == velocity
-    assert friction["regularisation_slip_rate"] == pytest.approx(1e-4 * velocity)
-    assert own["loading"]["initial_state"] == pytest.approx(20.0 * memory)
+    velocity, memory = own["velocity"], 5e-6 / own["velocity"]
+    assert own["friction_law"] == "dieterich_ruina"
+    assert own["log_rate_coefficient"] == pytest.approx(0.010)
+    assert own["log_state_coefficient"] == pytest.approx(0.015, rel=1e-6)
+    assert own["reference_slip_rate"] == velocity
+    assert own["regularisation_slip_rate"] == pytest.approx(1e-4 * velocity)
+    assert own["initial_state"] == pytest.approx(20.0 * memory)
     zone = 30e9 / 0.75 * 5e-6 / (0.015 * 50e6)
-    assert own["perturbation"]["correlation_length"] == pytest.approx(0.2 * zone)
-    product = planned("--friction-law", "product", "--state-scale", "1e3s")["friction"]
+    assert own["correlation_length"] == pytest.approx(0.2 * zone)
+    product = planned("--friction-law", "product", "--state-scale", "1e3s")
     assert product["slip_rate_scale"] == pytest.approx(1e-2 * velocity)
     assert product["state_scale"] == 1e3, "what is given stays"
+
+
+FOLLOWING = ("block_length", "end_time", "time_after_event", "correlation_length")
+"""Parameters of a run that follow from the fault."""
 
 
 def test_the_paper_fills_in_what_is_not_given(nucleation, tmp_path):
     usual = PAPER_RUN.to_dict()
     run = nucleation("simulate", tmp_path / "run.nc", "--paper", "--dry-run", "--json").out
     found = json.loads(run)["parameters"]
-    for group in ("material", "friction", "second_body", "perturbation"):
-        assert found[group] == usual[group]
-    assert found["loading"] == usual["loading"]
+    assert found == pytest.approx(usual | {name: found[name] for name in FOLLOWING})
     paper = nucleation("length", "--paper", "--height", "2cm", "--json")
     assert theory(paper) == pytest.approx(PAPER.replace(height=0.02).critical_length(), rel=1e-12)
     assert "Not given, so the paper's: shear_modulus" in nucleation("length", "--paper").out

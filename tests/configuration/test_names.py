@@ -39,7 +39,7 @@ BAD = {
         with_run(height=0.1, length=2.0), [f"{RUN}.length = 2.0", "did you mean block_length?"],
     ),
     "a full name": (
-        with_run(height=0.1, **{"mesh.n_x": 100}), [f"{RUN}.block.n_x = 100", "unknown key"],
+        with_run(height=0.1, **{"mesh.n_x": 100}), [f"{RUN}.mesh.n_x = 100", "unknown key"],
     ),
     "unknown": (with_run(zzz=0.1), [f"{RUN}.zzz = 0.1", "known keys: shear_modulus, poisson_r"]),
     "a law of friction as evolution": (

@@ -109,7 +109,7 @@ def command(
     ):
         lines.append(
             f"Half-spaces: computed as blocks {run.fault.height:.4g} m high and "
-            f"{run.block.length:.4g} m long, whose L_s is within 2 %."
+            f"{run.block.length:.4g} m long, and L_s changes by less than 2 %."
         )
     for topic, _, text in advice(run, run.critical_length):
         warn(f"{topic}: {text}")
