@@ -41,7 +41,15 @@ def _options() -> list[Decorator]:
     for key, entry in declarations_of_flat().items():
         read = None if entry.worded else parse_range
         called = f"--{key.replace('_', '-')}"
-        options.append(option(called, key=key, entry=entry, note=NOTES.get(key, ""), read=read))
+        options.append(
+            option(
+                called,
+                key=key,
+                entry=entry,
+                note=NOTES.get(key, ""),
+                read=read,
+            )
+        )
     return options
 
 

@@ -124,7 +124,14 @@ def command(
     lines = _lines(given.fault, mode, found)
     if patch:
         width, critical = of_patch["width"], found["critical_length"].value
-        lines[-1:-1] = [*patch_lines(patch, width, critical), ""]
+        lines[-1:-1] = [
+            *patch_lines(
+                patch,
+                width,
+                critical,
+            ),
+            "",
+        ]
     everything = {
         "system": system,
         "parameters": parameters_of(given.fault),
@@ -170,7 +177,15 @@ def _lines(fault: Fault, mode: Mapping[str, Any], found: Mapping[str, Answer]) -
     critical = found["critical_length"]
     lines = wrapped(f"Theory of homogeneous sliding, in {plane_in_words(fault.plane)}:")
     if critical.exists:
-        lines += [*_mode_lines(fault, critical, mode), "", *_patch_lines(fault, found)]
+        lines += [
+            *_mode_lines(
+                fault,
+                critical,
+                mode,
+            ),
+            "",
+            *_patch_lines(fault, found),
+        ]
     else:
         lines += wrapped(f"  no critical length: {critical.reason}")
     of_system: dict[str, list[Row]] = {}

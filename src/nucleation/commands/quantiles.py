@@ -46,11 +46,32 @@ def print_quantiles(
     """Print the quantiles of all lengths of an uncertain fault; returns the exit code."""
     drawn = given.drawn
     assert drawn is not None
-    found = [_quantiles(key, x) for key, x in _answers(given, perturbed, weakening_rate).items()]
+    found = [
+        _quantiles(key, x)
+        for key, x in _answers(
+            given,
+            perturbed,
+            weakening_rate,
+        ).items()
+    ]
     middle = median_fault(given.fault)
     system = system_of_fault(middle, given.names, given.papers)
     counts = _counts(drawn, found)
-    show(as_json, _described(system, drawn, counts, found), _lines(system, drawn, counts, found))
+    show(
+        as_json,
+        _described(
+            system,
+            drawn,
+            counts,
+            found,
+        ),
+        _lines(
+            system,
+            drawn,
+            counts,
+            found,
+        ),
+    )
     return DONE if found[0].share > 0.0 else CODE_OF_STABLE
 
 
@@ -91,7 +112,14 @@ def _quantiles(key: str, answer: Answer) -> _Quantiles:
     reasons = dict.fromkeys(str(reason) for reason in answer.reason[~there])
     values, errors = quantiles(counted), errors_of_quantiles(counted)
     why_not = "; ".join(list(reasons)[:_REASONS])
-    return _Quantiles(key, values, errors, float(there.mean()), answer.status, why_not)
+    return _Quantiles(
+        key,
+        values,
+        errors,
+        float(there.mean()),
+        answer.status,
+        why_not,
+    )
 
 
 def _counts(drawn: Draws, found: Sequence[_Quantiles]) -> dict[str, Any]:
@@ -116,7 +144,14 @@ def _described(
     for one in found:
         numbers = {"quantiles": one.values, "errors": one.errors}
         by_share = {
-            name: {f"{q:g}": x for q, x in zip(QUANTILES, values.tolist(), strict=True)}
+            name: {
+                f"{q:g}": x
+                for q, x in zip(
+                    QUANTILES,
+                    values.tolist(),
+                    strict=True,
+                )
+            }
             for name, values in numbers.items()
         }
         more = {"share": one.share, "why_not": one.why_not, "units": "m"}
@@ -134,7 +169,14 @@ def _lines(
     rows: list[Row] = [_HEAD]
     for one in found:
         if one.share > 0.0:
-            numbers = [as_sure(x, e) for x, e in zip(one.values, one.errors, strict=True)]
+            numbers = [
+                as_sure(x, e)
+                for x, e in zip(
+                    one.values,
+                    one.errors,
+                    strict=True,
+                )
+            ]
             rows.append([TITLES[one.key], *numbers, f"{one.share:.1%}"])
     lines = wrapped(*system, "", _counts_in_words(drawn, counts), "")
     lines += table(rows, range(1, len(_HEAD)))

@@ -29,7 +29,14 @@ _SHOWN_ROWS = 60
 
 
 @click.command("show", epilog=EXIT_CODES)
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument(
+    "file",
+    type=click.Path(
+        exists=True,
+        dir_okay=False,
+        path_type=Path,
+    ),
+)
 @click.option(
     "--plot",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -38,7 +45,12 @@ _SHOWN_ROWS = 60
 )
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
 @json_option
-def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
+def command(
+    file: Path,
+    plot: Path | None,
+    force: bool,
+    as_json: bool,
+) -> int:
     """Summarise a dataset of the project: its kind, origin and variables.
 
     \b

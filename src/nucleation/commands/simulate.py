@@ -57,7 +57,14 @@ def _run_options() -> Decorator:
             options.append(second_body_option)
             continue
         called = f"--{name.replace('_', '-')}"
-        options.append(option(called, key=name, entry=entry, note=notes.get(name, "")))
+        options.append(
+            option(
+                called,
+                key=name,
+                entry=entry,
+                note=notes.get(name, ""),
+            )
+        )
     return together(*options)
 
 
@@ -115,7 +122,11 @@ def command(
         warn(f"{topic}: {text}")
     lines += _plan_lines(run)
     if dry_run:
-        show(as_json, _described(run), [*parameter_lines(run), *wrapped(*lines)])
+        show(
+            as_json,
+            _described(run),
+            [*parameter_lines(run), *wrapped(*lines)],
+        )
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
@@ -202,5 +213,9 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         *event_lines(extract(dataset), run.critical_length),
         f"written to {output}",
     ]
-    show(as_json, {"output": str(output), **outcome(dataset), **_described(run)}, lines)
+    show(
+        as_json,
+        {"output": str(output), **outcome(dataset), **_described(run)},
+        lines,
+    )
     return DONE

@@ -171,7 +171,12 @@ class _Shares(NamedTuple):
     """Of the draws in which the length fits at the given value; NaN without a value."""
 
 
-def _shares(given: GivenFault, length: float, unknown: str, criterion: str) -> _Shares:
+def _shares(
+    given: GivenFault,
+    length: float,
+    unknown: str,
+    criterion: str,
+) -> _Shares:
     drawn, fault = given.drawn, given.fault
     assert drawn is not None
     arrays = {name: x for name, x in arrays_of(fault).items() if name != unknown}

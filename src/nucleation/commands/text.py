@@ -148,7 +148,13 @@ def _column_widths(rows: Sequence[Sequence[str]]) -> list[int]:
 
 def _table_line(parts: Iterable[str], widths: Sequence[int], right: Collection[int]) -> str:
     line = ""
-    for column, (part, width) in enumerate(zip(parts, widths, strict=True)):
+    for column, (part, width) in enumerate(
+        zip(
+            parts,
+            widths,
+            strict=True,
+        )
+    ):
         aligned = part.rjust(width) if column in right else part.ljust(width)
         line += " " * _GAP + aligned
     return line.rstrip()

@@ -182,7 +182,11 @@ def parse(content: bytes) -> _Source:
             own.append((level, module, name))
         elif root not in sys.stdlib_module_names:
             others.add(root)
-    return _Source(hashlib.sha256(words.encode()).hexdigest(), own, sorted(others))
+    return _Source(
+        hashlib.sha256(words.encode()).hexdigest(),
+        own,
+        sorted(others),
+    )
 
 
 def _counted(node: ast.AST) -> Iterator[ast.AST]:

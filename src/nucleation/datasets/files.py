@@ -53,7 +53,11 @@ def require_room(path: Path, size: int) -> None:
         os.posix_fallocate(descriptor, 0, size)
     except OSError as error:
         if error.errno in _NO_ROOM:
-            raise OSError(error.errno, os.strerror(error.errno), str(path)) from None
+            raise OSError(
+                error.errno,
+                os.strerror(error.errno),
+                str(path),
+            ) from None
     finally:
         os.close(descriptor)
 

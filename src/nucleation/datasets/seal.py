@@ -15,7 +15,13 @@ from typing import Any, BinaryIO, NamedTuple
 
 MARK = "nucleation seal 1\n"
 _LAST_LINE = "{file} {attributes} {size:012d} " + MARK
-LENGTH = len(_LAST_LINE.format(file="0" * 64, attributes="0" * 64, size=0))
+LENGTH = len(
+    _LAST_LINE.format(
+        file="0" * 64,
+        attributes="0" * 64,
+        size=0,
+    )
+)
 _BLOCK = 2**20
 
 

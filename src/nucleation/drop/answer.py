@@ -39,9 +39,18 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
     given = (fault.velocity, fault.slip_distance)
     age = np.nan if fault.initial_state is None else fault.initial_state
 
-    def points(systems: Systems, velocity: Array, distance: Array, age: Array) -> NDArray:
+    def points(
+        systems: Systems,
+        velocity: Array,
+        distance: Array,
+        age: Array,
+    ) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((2 * FIELDS, critical.size), np.nan, dtype=object)
+        found = np.full(
+            (2 * FIELDS, critical.size),
+            np.nan,
+            dtype=object,
+        )
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
             v, d = float(velocity[i]), float(distance[i])
@@ -60,7 +69,14 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
             found[:, i] = *runaway, *drop
         return found
 
-    rows = evaluate(fault, points, *given, age, rows=2 * FIELDS, dtype=object)
+    rows = evaluate(
+        fault,
+        points,
+        *given,
+        age,
+        rows=2 * FIELDS,
+        dtype=object,
+    )
     return {"runaway_length": _answer(rows[:FIELDS]), "drop_length": _answer(rows[FIELDS:])}
 
 
@@ -105,4 +121,11 @@ def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    return runaway, Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts))
+    return runaway, Answer(
+        known.length,
+        known.low,
+        known.high,
+        VALUE,
+        "",
+        "; ".join(doubts),
+    )

@@ -189,7 +189,11 @@ def _log_amplitude_of_roughness(
     declared: Perturbation,
 ) -> Array:
     """log(sigma / eps) under roughness of the strength, as the front passes over it."""
-    x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
+    x = np.arange(
+        0.0,
+        path.length[-1],
+        declared.correlation_length / SAMPLED,
+    )
     covariance = correlation(x[:, None] - x, declared.correlation_length)
     log_factors = []
     rows = []

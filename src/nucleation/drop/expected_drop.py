@@ -105,7 +105,16 @@ def expected_drop(
         runaway_status=status,
         runaway_reason=reason,
     )
-    return known._replace(doubt="; ".join(_doubts(history, known, critical, block)))
+    return known._replace(
+        doubt="; ".join(
+            _doubts(
+                history,
+                known,
+                critical,
+                block,
+            )
+        )
+    )
 
 
 def _stability_length(patches: Patches, critical: float) -> float:

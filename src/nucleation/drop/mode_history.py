@@ -93,7 +93,16 @@ def mode_history(
             "long enough around it to determine its growth"
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
-    rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
+    rows = [
+        _weights(
+            patches,
+            found,
+            int(i),
+            complex(rates[i]),
+            x,
+        )
+        for i in known
+    ]
     columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
     load, drive, strength, state = columns
     memory = patches.memory
@@ -188,7 +197,12 @@ def _weights(
 
     def along_x(weights: ComplexArray) -> ComplexArray:
         density = weights / spacing
-        along = np.interp(x, position[::-1], density[::-1], right=0.0)
+        along = np.interp(
+            x,
+            position[::-1],
+            density[::-1],
+            right=0.0,
+        )
         return along * (x[1] - x[0])
 
     load = complex(by_force @ friction.friction)

@@ -95,7 +95,11 @@ def find_onset(
     long_enough = always if long_enough is None else long_enough
 
     def falls(step: int) -> bool:
-        if not watch.dropped(time[step], force[step], fast[step]):
+        if not watch.dropped(
+            time[step],
+            force[step],
+            fast[step],
+        ):
             return False
         return bool(long_enough[np.searchsorted(time, watch.since)])
 

@@ -145,4 +145,10 @@ def _when_passing(
         return math.nan
     pair = [above[0] - 1, above[0]]
     measured = [measure(rates[i], states[i]) for i in pair]
-    return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), measured))
+    return float(
+        np.interp(
+            np.log(slip_rate),
+            np.log(fastest[pair]),
+            measured,
+        )
+    )

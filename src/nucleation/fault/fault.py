@@ -148,7 +148,12 @@ class Fault:
     density: Any = 1200.0
     second_density: Any = None
     initial_state: Any = None
-    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
+    registry: Any = dataclasses.field(
+        default=None,
+        init=False,
+        repr=False,
+        compare=False,
+    )
 
     def __new__(cls, **given: Any) -> Self:
         for name in given:
@@ -176,7 +181,11 @@ class Fault:
         if name in _OF_LAW and self.friction_law is not None and not np.ndim(self.velocity):
             law = self.friction_law
             own = dict(
-                zip(_OF_LAW, (*law.expansion(self.velocity), law.slip_distance), strict=True)
+                zip(
+                    _OF_LAW,
+                    (*law.expansion(self.velocity), law.slip_distance),
+                    strict=True,
+                )
             )
             return bool(np.all(getattr(self, name) == own[name]))
         return name in ("b", "registry")
@@ -264,7 +273,15 @@ class Fault:
         f, a, zeta, velocity, distance = (
             self.single(name) for name in ("friction", "a", "zeta", "velocity", "slip_distance")
         )
-        return law_of(self.friction_law, str(self.evolution), velocity, distance, f, a, zeta)
+        return law_of(
+            self.friction_law,
+            str(self.evolution),
+            velocity,
+            distance,
+            f,
+            a,
+            zeta,
+        )
 
     def single(self, name: str) -> float:
         """The number that a parameter of a single fault has, which is not missing (SI units).
@@ -531,7 +548,12 @@ class Fault:
             angular_frequency=named(omega, "critical_frequency", "rad/s", frequency, self),
         )
 
-    def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
+    def _at(
+        self,
+        wavenumber: Values,
+        function: Callable[..., Any],
+        dtype: type = float,
+    ) -> Any:
         """Two rows of a function of Systems and wavenumbers."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})

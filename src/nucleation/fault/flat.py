@@ -72,7 +72,14 @@ def second_body(text: str) -> dict[str, Any]:
         )
     try:
         pairs = zip(_SECOND, parts, strict=False)
-        return {key: parse(key, part, QUANTITIES[key]) for key, part in pairs}
+        return {
+            key: parse(
+                key,
+                part,
+                QUANTITIES[key],
+            )
+            for key, part in pairs
+        }
     except ParameterError as error:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: commas separate its values, which have a "
@@ -101,7 +108,12 @@ def _law(given: Any, own: dict[str, Any], fault: Mapping[str, Any]) -> Friction:
     if missing:
         raise ParameterError(f"{', '.join(missing)} is missing: the friction law {name} needs it")
     velocity, distance = (float(np.median(fault[key])) for key in ("velocity", "slip_distance"))
-    return own_law(velocity, distance, fault.get("evolution", "aging"), name).changed(own)
+    return own_law(
+        velocity,
+        distance,
+        fault.get("evolution", "aging"),
+        name,
+    ).changed(own)
 
 
 def _law_with(own: Collection[str]) -> str:
@@ -150,7 +162,14 @@ def read_parameters(
     known = {**declarations_of_flat(), **further}
     try:
         own = {str(key): value for key, value in content.items() if key not in ignored}
-        return {key: _value(key, value, known) for key, value in own.items()}
+        return {
+            key: _value(
+                key,
+                value,
+                known,
+            )
+            for key, value in own.items()
+        }
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
 
@@ -165,6 +184,18 @@ def _value(key: str, value: Any, known: Mapping[str, Quantity]) -> Any:
     if isinstance(value, str) and not entry.worded:
         from ..lengths.draws import SAMPLED, parse_range
 
-        return parse_range(key, value, entry) if key in SAMPLED else parse(key, value, entry)
+        return (
+            parse_range(
+                key,
+                value,
+                entry,
+            )
+            if key in SAMPLED
+            else parse(
+                key,
+                value,
+                entry,
+            )
+        )
     check(key, value, entry)
     return value

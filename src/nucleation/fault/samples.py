@@ -76,9 +76,22 @@ def read_samples(path: Path | str) -> dict[str, Array]:
             counts = f"{len(cells)} cells, but the header has {len(labels)}"
             raise ParameterError(f"{path}, line {number}: {counts}")
         where = f"{path}, line {number}"
-        rows.append([_number(where, *x) for x in zip(labels, cells, strict=True)][skipped:])
+        rows.append(
+            [
+                _number(where, *x)
+                for x in zip(
+                    labels,
+                    cells,
+                    strict=True,
+                )
+            ][skipped:]
+        )
     found = {}
-    for (name, unit), values in zip(columns, np.array(rows).T, strict=True):
+    for (name, unit), values in zip(
+        columns,
+        np.array(rows).T,
+        strict=True,
+    ):
         try:
             found[name] = rescaled(name, values, unit, SAMPLED[name])
         except ParameterError as error:

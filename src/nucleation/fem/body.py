@@ -42,7 +42,14 @@ class Body(Layers):
         They act on the far sides that are free, the shear stress in opposite directions.
         """
         shears = (shear, -shear)
-        loads = [layer.far_load(normal, x) for layer, x in zip(self.layers, shears, strict=False)]
+        loads = [
+            layer.far_load(normal, x)
+            for layer, x in zip(
+                self.layers,
+                shears,
+                strict=False,
+            )
+        ]
         return self.joined(*loads)
 
     def _of_the_first(self, field: Field) -> Field:
@@ -61,14 +68,29 @@ class Body(Layers):
         field = self._of_the_first(rates)
         return Motion(displacement, field, self.momentum_x(field))
 
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
         """``load + s M sum_i c_i f_i`` (N/m) of at most four terms; `s` in 1/s^2, f_i in m."""
         load = self.zero_field() if load is None else load
         found = Field(np.empty_like(load.modes), np.empty_like(load.edge))
         split = [(coefficient, self.parts(field)) for coefficient, field in terms]
-        outputs = zip(self.layers, self.parts(load), self.parts(found), strict=True)
+        outputs = zip(
+            self.layers,
+            self.parts(load),
+            self.parts(found),
+            strict=True,
+        )
         for i, (layer, own, out) in enumerate(outputs):
-            layer.add_inertia(s, [(c, parts[i]) for c, parts in split], own, out)
+            layer.add_inertia(
+                s,
+                [(c, parts[i]) for c, parts in split],
+                own,
+                out,
+            )
         return found
 
     def momentum_x(self, velocity: Field) -> float:
@@ -116,12 +138,21 @@ class Body(Layers):
         assert isinstance(self.modes, BlockModes)
         field = self.zero_field()
         level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
-        for part, up in zip(self.parts(field), (1.0, -1.0), strict=True):
+        for part, up in zip(
+            self.parts(field),
+            (1.0, -1.0),
+            strict=True,
+        ):
             part.modes[:, 1] = up * level
             part.edge[:] = up
         return field
 
-    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+    def settled(
+        self,
+        motions: Motions,
+        step: float,
+        slid: float,
+    ) -> Motions:
         """Remove a translation of two blocks along y that has grown from round-off.
 
         If no far side is held, no force acts on such a translation but round-off, which makes it

@@ -40,7 +40,16 @@ def diagonal_inverse(inverse, lower, out):
 
 
 @compiled_loop
-def respond(inverse, lower, diagonal, profiles, weights, scale, first, solution):
+def respond(
+    inverse,
+    lower,
+    diagonal,
+    profiles,
+    weights,
+    scale,
+    first,
+    solution,
+):
     """Displacement under the force of one edge value, interface held fixed.
 
     The force has `profiles` on the levels first - 1 .. first + 1; `diagonal` is that of
@@ -90,7 +99,12 @@ def respond(inverse, lower, diagonal, profiles, weights, scale, first, solution)
 
 
 @compiled_loop
-def edge_sums(weights, field, first, out):
+def edge_sums(
+    weights,
+    field,
+    first,
+    out,
+):
     """Sums over the modes ``w_0 u_x``, ``w_1 u_x``, ``w_2 u_y`` of a field, from a level on."""
     wa = weights[0]
     wb = weights[1]
@@ -111,7 +125,14 @@ def edge_sums(weights, field, first, out):
 
 
 @compiled_loop
-def edge_residual(matrices, weights, field, edge, load, levels):
+def edge_residual(
+    matrices,
+    weights,
+    field,
+    edge,
+    load,
+    levels,
+):
     """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the lowest edge values.
 
     s_0 to s_2 are the :func:`edge_sums` of the field and s_3 the edge values (m). Unless all levels
@@ -136,7 +157,14 @@ def edge_residual(matrices, weights, field, edge, load, levels):
 
 
 @compiled
-def add_edge_in_balance(w, felt, response, schur, tangential, normal):
+def add_edge_in_balance(
+    w,
+    felt,
+    response,
+    schur,
+    tangential,
+    normal,
+):
     """Add the forces of an edge in balance with w (m) to those on the interface (N/m)."""
     near = w[w.size - response.shape[1] :]
     edge = response @ near
@@ -145,7 +173,12 @@ def add_edge_in_balance(w, felt, response, schur, tangential, normal):
 
 
 @compiled
-def add_edge(edge, felt, tangential, normal):
+def add_edge(
+    edge,
+    felt,
+    tangential,
+    normal,
+):
     """Add the forces of given edge values (m) to those on the interface (N/m), in place.
 
     `felt` has the forces along x and y on the last nodes per edge value, (2, edge, nodes).
@@ -158,7 +191,14 @@ def add_edge(edge, felt, tangential, normal):
 
 
 @compiled_loop
-def interface_blocks(d, h, n, nodes, stiffness, coupling):
+def interface_blocks(
+    d,
+    h,
+    n,
+    nodes,
+    stiffness,
+    coupling,
+):
     """Fill ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)`` between sorted nodes.
 
     Half an element, and half of its force, belongs to the last node n; its normal force is the
@@ -184,12 +224,21 @@ def relative_error(found, first, second):
     for j in range(found.size):
         value = found[j]
         largest = max(largest, abs(value))
-        error = max(error, abs(first[j] - value), abs(second[j] - value))
+        error = max(
+            error,
+            abs(first[j] - value),
+            abs(second[j] - value),
+        )
     return error / largest if largest > 0.0 else np.inf
 
 
 @compiled_loop
-def work_on_a_level(level, modes, edges, norms):
+def work_on_a_level(
+    level,
+    modes,
+    edges,
+    norms,
+):
     """Work (J/m) of two loads between two displacements, by the trapezoidal rule."""
     l0, l1, u0, u1 = edges
     total = 0.5 * (l0[level] + l1[level]) * (u1[level] - u0[level])

@@ -51,7 +51,16 @@ class LayerFactors:
             self.inverse,
             self.lower,
         )
-        self.edge = RightEdge(layer, s, self.inverse, self.lower) if modes.has_edge else None
+        self.edge = (
+            RightEdge(
+                layer,
+                s,
+                self.inverse,
+                self.lower,
+            )
+            if modes.has_edge
+            else None
+        )
 
     @property
     def megabytes(self) -> float:
@@ -59,11 +68,23 @@ class LayerFactors:
         levels = self.layer.levels
         return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
 
-    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
+    def sweep_down(
+        self,
+        load: Field,
+        edge: Array,
+        out: Array,
+    ) -> None:
         """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
         profiles = np.zeros((3, edge.size)) if self.edge is None else self.edge.profiles(edge)
         modes = self.layer.modes
-        kernels.eliminate(self.lower, load.modes, profiles, modes.edge_weights, modes.scale, out)
+        kernels.eliminate(
+            self.lower,
+            load.modes,
+            profiles,
+            modes.edge_weights,
+            modes.scale,
+            out,
+        )
 
     def substitute(self, modes: Array) -> None:
         """Sweep a swept load back from the interface's displacement in level 0, in place.
@@ -71,10 +92,31 @@ class LayerFactors:
         At least the two lowest levels are given.
         """
         levels = len(modes)
-        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
+        kernels.substitute(
+            self.inverse[:levels],
+            self.lower[: levels - 1],
+            modes,
+        )
 
-    def move(self, before: Before, modes: Array, newest: Array, oldest: Array, rate: Array) -> None:
+    def move(
+        self,
+        before: Before,
+        modes: Array,
+        newest: Array,
+        oldest: Array,
+        rate: Array,
+    ) -> None:
         """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
         c1, c2 = before.coefficients
         beta = before.beta
-        kernels.move(self.inverse, self.lower, modes, c1, c2, beta, newest, oldest, rate)
+        kernels.move(
+            self.inverse,
+            self.lower,
+            modes,
+            c1,
+            c2,
+            beta,
+            newest,
+            oldest,
+            rate,
+        )

@@ -88,7 +88,14 @@ def factorise(
 
 
 @compiled_loop
-def eliminate(lower, load, profiles, weights, scale, out):
+def eliminate(
+    lower,
+    load,
+    profiles,
+    weights,
+    scale,
+    out,
+):
     """Sweep a load from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
 
     The right-hand side has the forces of edge values too: ``r = load - scale G^T e``, by the
@@ -127,7 +134,12 @@ def eliminate(lower, load, profiles, weights, scale, out):
 
 
 @compiled_loop
-def _up(q, t, below, here):
+def _up(
+    q,
+    t,
+    below,
+    here,
+):
     """The displacement of one level from that of the level below, in place of the swept load."""
     x = here[0]
     y = here[1]
@@ -148,16 +160,36 @@ def _up(q, t, below, here):
 def substitute(inverse, lower, rhs):
     """Sweep back from the interface, whose displacement (m) is in level 0, to the top, in place."""
     for j in range(1, rhs.shape[0]):
-        _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
+        _up(
+            inverse[j],
+            lower[j - 1],
+            rhs[j - 1],
+            rhs[j],
+        )
 
 
 @compiled_loop
-def move(inverse, lower, rhs, c1, c2, beta, u, u_past, rate):
+def move(
+    inverse,
+    lower,
+    rhs,
+    c1,
+    c2,
+    beta,
+    u,
+    u_past,
+    rate,
+):
     """As :func:`substitute`, and fill the rate (m/s) by ``rhs = c1 u + c2 u_past + beta rate``."""
     scale = 1.0 / beta
     for j in range(rhs.shape[0]):
         if j > 0:
-            _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
+            _up(
+                inverse[j],
+                lower[j - 1],
+                rhs[j - 1],
+                rhs[j],
+            )
         for c in range(2):
             x = rhs[j, c]
             u1 = u[j, c]
@@ -168,7 +200,14 @@ def move(inverse, lower, rhs, c1, c2, beta, u, u_past, rate):
 
 
 @compiled_loop
-def load_couple(compliance, forces, upper, lower, held, start):
+def load_couple(
+    compliance,
+    forces,
+    upper,
+    lower,
+    held,
+    start,
+):
     """The effect of two bodies' reduced loads r1, r2 (N/m) at zero slip, per mode.
 
     Fills `held` with ``S2 T^-1 r1 - S1 T^-1 r2`` (N/m), and `start` with the interface's

@@ -92,7 +92,11 @@ class Layer:
         load = self.zero_field()
         held_x, held_y = self.held
         normal, shear = (0.0 if held_y else normal), (0.0 if held_x else shear)
-        load.modes[-1], load.edge[-1] = self.modes.uniform_load(self.grid, normal, shear)
+        load.modes[-1], load.edge[-1] = self.modes.uniform_load(
+            self.grid,
+            normal,
+            shear,
+        )
         return load
 
     def translation_load(self, acceleration: float) -> Field:
@@ -103,7 +107,13 @@ class Layer:
         load.modes[:, 0] = per_level[:, None] * per_mode
         return load
 
-    def add_inertia(self, s: float, terms: Terms, load: Field, out: Field) -> None:
+    def add_inertia(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field,
+        out: Field,
+    ) -> None:
         """Fill `out` with ``load + s M sum_i c_i f_i`` (N/m), of at most four fields (m)."""
         nothing = (0.0, terms[0][1])
         missing = 4 - len(terms)  # the kernel takes four terms
@@ -185,7 +195,13 @@ class Layers:
         """Views of a field: each layer's, the lower one's mirrored."""
         if len(self.layers) == 1:
             return [field]
-        return list(map(Field, self.split(field.modes), self.split(field.edge)))
+        return list(
+            map(
+                Field,
+                self.split(field.modes),
+                self.split(field.edge),
+            )
+        )
 
     def joined(self, *parts: Field) -> Field:
         """The field of the fields of each layer."""

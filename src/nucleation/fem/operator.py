@@ -125,7 +125,12 @@ class Operator:
         modes = np.empty_like(load.modes)
         loads = self.body.parts(load)
         into = self.body.parts(Field(modes, edge))
-        for factors, own, part in zip(self.factors, loads, into, strict=True):
+        for factors, own, part in zip(
+            self.factors,
+            loads,
+            into,
+            strict=True,
+        ):
             factors.sweep_down(own, part.edge, part.modes)
         return modes
 
@@ -136,7 +141,14 @@ class Operator:
         held = np.empty_like(self.modal)
         start = np.empty_like(self.modal)
         lower = swept[self.body.layers[0].levels]
-        kernels.load_couple(self.compliance, self.forces, swept[0], lower, held, start)
+        kernels.load_couple(
+            self.compliance,
+            self.forces,
+            swept[0],
+            lower,
+            held,
+            start,
+        )
         return held, start
 
     def substitute_up(
@@ -162,11 +174,23 @@ class Operator:
         rate = np.empty_like(swept)
         split = self.body.split
         newest, oldest = split(before.newest.modes), split(before.oldest.modes)
-        for factors, *own in zip(self.factors, parts, newest, oldest, split(rate), strict=True):
+        for factors, *own in zip(
+            self.factors,
+            parts,
+            newest,
+            oldest,
+            split(rate),
+            strict=True,
+        ):
             factors.move(before, *own)
         return rate
 
-    def _move_interface(self, above: Array, amplitudes: Array, start: Array | float) -> None:
+    def _move_interface(
+        self,
+        above: Array,
+        amplitudes: Array,
+        start: Array | float,
+    ) -> None:
         """Put the displacement of the upper body's interface (m) into its level 0."""
         if len(self.factors) == 1:
             above[0, 0] = amplitudes
@@ -174,7 +198,12 @@ class Operator:
         else:
             above[0] = start + self.by_slip * amplitudes
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+    def respond(
+        self,
+        load: Field,
+        w: Array,
+        edge: Array | None = None,
+    ) -> Response:
         """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
 
         Edge values (m) that are given are assumed to be in balance; this saves half of the work.
@@ -192,7 +221,12 @@ class Operator:
             self._move_interface(lowest, amplitudes, start)
             self.factors[0].substitute(lowest)
             above = self.body.parts(load)[0]
-            corner = self.edge.rows[0].residual(above, lowest, edge[: above.edge.size], 1)
+            corner = self.edge.rows[0].residual(
+                above,
+                lowest,
+                edge[: above.edge.size],
+                1,
+            )
             normal[-1] = -corner[0]
             return Response(w, tangential, normal, load, edge, swept, start)
         self.substitute_up(swept, amplitudes, start)
@@ -222,14 +256,23 @@ class Operator:
         if modes is None:
             modes = self.swept_down(response.load, edge)
             _, start = self.reduced(modes)
-        rate = self.substitute_up(modes, self.body.modes.sine_amplitudes(w), start, before)
+        rate = self.substitute_up(
+            modes,
+            self.body.modes.sine_amplitudes(w),
+            start,
+            before,
+        )
         own = edge
         if self.edge is not None and not solved:
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
         error = np.inf if foreseen is None else edge_kernels.relative_error(own, foreseen, edge)
         if before is None:
-            return Balance(Field(modes, own), Field(rate, np.zeros_like(own)), error)
+            return Balance(
+                Field(modes, own),
+                Field(rate, np.zeros_like(own)),
+                error,
+            )
         (c1, c2), beta, newest, oldest = before
         edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
         return Balance(Field(modes, own), Field(rate, edge_rate), error)
@@ -241,7 +284,11 @@ class Operator:
     def apply(self, w: Array) -> Components:
         """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
         amplitudes = self.body.modes.sine_amplitudes(w)
-        tangential, normal = self.body.modes.forces(self.modal, amplitudes, self._no_load)
+        tangential, normal = self.body.modes.forces(
+            self.modal,
+            amplitudes,
+            self._no_load,
+        )
         if self.edge is not None:
             edge_kernels.add_edge_in_balance(
                 w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
@@ -313,7 +360,11 @@ class Operator:
         own = nodes[near:]
         tangential, normal = edge.to_interface
         tangential = tangential[:, own - 1]
-        normal = np.append(normal, edge.schur[:, :1], axis=1)[:, own]
+        normal = np.append(
+            normal,
+            edge.schur[:, :1],
+            axis=1,
+        )[:, own]
         response = edge.response[:, own - 1]
         stiffness[near:, near:] += tangential.T @ response
         coupling[near:, near:] += normal.T @ response

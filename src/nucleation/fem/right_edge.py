@@ -59,7 +59,13 @@ def elastic_energy(layer: Layer, displacement: Field) -> float:
 class RightEdge:
     """The rows of the edge values of one layer in ``K + s M``."""
 
-    def __init__(self, layer: Layer, s: float, inverse: Array, lower: Array) -> None:
+    def __init__(
+        self,
+        layer: Layer,
+        s: float,
+        inverse: Array,
+        lower: Array,
+    ) -> None:
         self._layer = layer
         self._inverse = inverse  # the factors of the bulk
         self._lower = lower
@@ -81,7 +87,13 @@ class RightEdge:
         """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
         return kernels.products(self._transposed, edge)
 
-    def residual(self, load: Field, modes: Array, edge: Array, levels: int | None = None) -> Array:
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+        levels: int | None = None,
+    ) -> Array:
         """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
         weights = self._layer.modes.edge_weights
         levels = levels or edge.size
@@ -99,7 +111,11 @@ class RightEdge:
         """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
         sums = self._sums_of_unit_values()
         rows = np.zeros_like(sums[0])
-        for matrix, by_value in zip(self._rows[:3], sums, strict=True):
+        for matrix, by_value in zip(
+            self._rows[:3],
+            sums,
+            strict=True,
+        ):
             rows += product(matrix, by_value.T).T
         # the sums begin at the level of each edge value: the other half follows by symmetry
         lower = np.tril(dense(self._rows[3]) - rows.T)
@@ -173,11 +189,28 @@ class EdgeValues:
         self._series = series
         self.round_off = max(rows.round_off for rows in self.rows)
 
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
         """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
         body = self._layers
-        parts = zip(self.rows, body.parts(load), body.parts(Field(modes, edge)), strict=True)
-        found = [rows.residual(own, part.modes, part.edge) for rows, own, part in parts]
+        parts = zip(
+            self.rows,
+            body.parts(load),
+            body.parts(Field(modes, edge)),
+            strict=True,
+        )
+        found = [
+            rows.residual(
+                own,
+                part.modes,
+                part.edge,
+            )
+            for rows, own, part in parts
+        ]
         return found[0] if len(found) == 1 else np.concatenate(found)
 
     def change(self, w: Array) -> Array:
@@ -218,7 +251,11 @@ class EdgeValues:
             return _inverse_within(self.schur, slice(1, None))
         layers = self._layers
         above = layers.layers[0].levels
-        independent = np.delete(np.eye(len(self.schur)), above, axis=1)
+        independent = np.delete(
+            np.eye(len(self.schur)),
+            above,
+            axis=1,
+        )
         independent[above, 0] = -1.0  # the corner, mirrored
         first = None if layers.is_held_along_y or self._moves else 1
         last = -1 if layers.is_held_along_y else None

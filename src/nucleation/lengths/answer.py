@@ -131,7 +131,14 @@ class Lengths(Mapping[str, Answer]):
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)][:-1]
         lines = []
         for *cells, last in rows:
-            padded = [cell.ljust(width) for cell, width in zip(cells, widths, strict=True)]
+            padded = [
+                cell.ljust(width)
+                for cell, width in zip(
+                    cells,
+                    widths,
+                    strict=True,
+                )
+            ]
             lines.append("  ".join([*padded, last]).rstrip())
         return "\n".join(lines)
 
@@ -170,7 +177,11 @@ def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
 def _critical_answer(fault: FaultLike) -> Answer:
     def points(systems: Systems) -> NDArray[np.object_]:
         lengths = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((3, systems.a.size), "", dtype=object)
+        found = np.full(
+            (3, systems.a.size),
+            "",
+            dtype=object,
+        )
         found[0] = lengths
         found[1] = VALUE
         for i in np.flatnonzero(np.isnan(lengths)):
@@ -202,7 +213,14 @@ def answers_of_literature(
     """The lengths of the literature, with W (Pa/m) of Uenishi and Rice's."""
     used = [one for one in LENGTHS if one.system != TWO_MATERIALS or _has_two_materials(fault)]
     values = values_of(fault, weakening_rate, used)
-    return {one.key: _literature_answer(one, values[one.key], fault) for one in used}
+    return {
+        one.key: _literature_answer(
+            one,
+            values[one.key],
+            fault,
+        )
+        for one in used
+    }
 
 
 def _has_two_materials(fault: FaultLike) -> bool:
@@ -233,7 +251,14 @@ def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer
     reason = _elementwise(reason_of, length, *facts.values())
     status = _elementwise(status_of, length, number(fault, "zeta"))
     if not labelled(status):
-        length, status, reason = (x[()] for x in np.broadcast_arrays(length, status, reason))
+        length, status, reason = (
+            x[()]
+            for x in np.broadcast_arrays(
+                length,
+                status,
+                reason,
+            )
+        )
     return Answer(length, length, length, status, reason)
 
 

@@ -38,7 +38,12 @@ class Range(float):
     low: float
     high: float
 
-    def __new__(cls, value: float, low: float, high: float) -> Range:
+    def __new__(
+        cls,
+        value: float,
+        low: float,
+        high: float,
+    ) -> Range:
         own = super().__new__(cls, value)
         own.low = low
         own.high = high
@@ -67,7 +72,14 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     value = parse(key, median.strip(), entry)
     number = NUMBER.fullmatch(median)
     unit = number[3] if number else ""
-    low, high = (parse(key, _with_default_unit(end, unit), entry) for end in ends)
+    low, high = (
+        parse(
+            key,
+            _with_default_unit(end, unit),
+            entry,
+        )
+        for end in ends
+    )
     in_order = low <= value <= high and low < high
     if not in_order or not np.isfinite([low, high]).all():
         raise ParameterError(
@@ -139,7 +151,15 @@ def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draw
         counts = ", ".join(f"{name} {len(sample)}" for name, sample in samples.items())
         raise ParameterError(f"samples must be equal in number, and one at least: {counts}")
     size = max(sizes, default=draws)
-    rows = np.linspace(0, size - 1, min(size, draws)).round().astype(int)
+    rows = (
+        np.linspace(
+            0,
+            size - 1,
+            min(size, draws),
+        )
+        .round()
+        .astype(int)
+    )
     drawn = {name: sample[rows] for name, sample in samples.items()}
     for name, own in ranges.items():
         position = list(SAMPLED).index(name)
@@ -205,7 +225,11 @@ def quantiles(values: Any, shares: Any = QUANTILES) -> Array:
     shares = np.asarray(shares)
     if not ordered.size:
         return np.full(shares.size, np.nan)
-    position = np.clip(shares * ordered.size - 0.5, 0.0, ordered.size - 1.0)
+    position = np.clip(
+        shares * ordered.size - 0.5,
+        0.0,
+        ordered.size - 1.0,
+    )
     below = np.floor(position).astype(int)
     above = np.ceil(position).astype(int)
     found = np.full(shares.size, np.inf)
@@ -227,7 +251,11 @@ def errors_of_quantiles(values: Array) -> Array:
     low = quantiles(values, shares - scatter)
     high = quantiles(values, shares + scatter)
     with np.errstate(invalid="ignore"):
-        return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
+        return np.where(
+            np.isinf(high),
+            np.inf,
+            0.5 * (high - low),
+        )
 
 
 def with_never(lengths: Any, statuses: Any) -> Array:

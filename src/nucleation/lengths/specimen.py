@@ -105,7 +105,13 @@ def specimen_fit(
         bounds.append(math.exp(brentq(excess, *around, xtol=1e-9)))
     if fits[-1]:
         bounds.append(high)
-    intervals = tuple(zip(bounds[::2], bounds[1::2], strict=True))
+    intervals = tuple(
+        zip(
+            bounds[::2],
+            bounds[1::2],
+            strict=True,
+        )
+    )
 
     exists = bool((found > 0.0).any())
     status, reason = VALUE, ""
@@ -128,7 +134,16 @@ def _require_choice(name: str, value: str, allowed: Collection[str]) -> None:
 def _range(unknown: str, within: Interval | None) -> Interval:
     """The range of the search, by default all known values."""
     entry = QUANTITIES[unknown]
-    low, high = (float(checked(unknown, end, entry)) for end in within or RANGES[unknown])
+    low, high = (
+        float(
+            checked(
+                unknown,
+                end,
+                entry,
+            )
+        )
+        for end in within or RANGES[unknown]
+    )
     if not low < high:
         raise ParameterError(f"within = ({low:g}, {high:g}) {entry.unit} is no range")
     return low, high
@@ -187,4 +202,10 @@ def at_share(
     edges = np.diff(np.concatenate([[0], enough.astype(int), [0]]))
     first = bounds[np.flatnonzero(edges > 0)]
     last = bounds[np.flatnonzero(edges < 0)]
-    return tuple(zip(first.tolist(), last.tolist(), strict=True))
+    return tuple(
+        zip(
+            first.tolist(),
+            last.tolist(),
+            strict=True,
+        )
+    )

@@ -32,7 +32,12 @@ _ROUGHNESS = 0.2
 """Correlation length along x over mu/(1 - nu) D/(b sigma0)."""
 
 
-def own_law(velocity: float, slip_distance: float, evolution: str, law: str = LAW) -> Friction:
+def own_law(
+    velocity: float,
+    slip_distance: float,
+    evolution: str,
+    law: str = LAW,
+) -> Friction:
     """The friction law of a fault of its own, with scales that follow from V (m/s) and D (m)."""
     scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY.get(law, {}).items()}
     if law == PAPERS_LAW:

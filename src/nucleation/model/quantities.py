@@ -134,7 +134,14 @@ def declared(description: str, allowed: str = "(-inf, inf)", **more: Any) -> Qua
         raise ValueError(f"{allowed!r} is no range: write it as [0.0, 1e6) m")
     left, low, high, right, unit = ends.groups()
     closed = {"[)": "low", "(]": "high", "[]": "both", "()": ""}[left + right]
-    return Quantity(description, unit or "1", _end(low), _end(high), closed, **more)
+    return Quantity(
+        description,
+        unit or "1",
+        _end(low),
+        _end(high),
+        closed,
+        **more,
+    )
 
 
 def _end(text: str) -> float:

@@ -50,26 +50,57 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     (s), ``length``, ``length_low`` and ``length_high`` (m); `symbol` is the length's.
     """
     Record(simulation).require("slip", "shear_stress")
-    figure, panels = style.panels(2, 2, 10.2, sharex="col", width_ratios=(2.1, 1.0))
+    figure, panels = style.panels(
+        2,
+        2,
+        10.2,
+        sharex="col",
+        width_ratios=(2.1, 1.0),
+    )
     panels[0, 1].sharey(panels[0, 0])
     ratio = simulation["shear_stress"] / parameters_of(simulation).fault.normal_stress
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
     norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
     time = simulation["time"].values
     start, peak, end = event_window(simulation, float(row["onset_time"]))
-    record = Window(time[0], time[-1], 0.0, *time_unit(time[-1]))
-    event = Window(start, end, peak, *time_unit(max(end - peak, peak - start)))
-    for (image, force), window in zip(panels.T, (record, event), strict=True):
+    record = Window(
+        time[0],
+        time[-1],
+        0.0,
+        *time_unit(time[-1]),
+    )
+    event = Window(
+        start,
+        end,
+        peak,
+        *time_unit(max(end - peak, peak - start)),
+    )
+    for (image, force), window in zip(
+        panels.T,
+        (record, event),
+        strict=True,
+    ):
         mesh = _draw_image(image, ratio, window, norm)
         _draw_force(force, simulation, window)
         _mark(image, force, row, window)
-    figure.colorbar(mesh, ax=panels[0, :], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
+    figure.colorbar(
+        mesh,
+        ax=panels[0, :],
+        label=r"$\tau/\sigma_0$",
+        pad=0.01,
+        extend="both",
+    )
     _label(panels, row, (record, event), symbol)
     panels[1, 0].set_ylabel(f"Applied force $-f_d$ ({_force_unit(simulation)[1]})")
     return figure
 
 
-def _draw_image(axes: Axes, ratio: xr.DataArray, window: Window, norm: Normalize) -> QuadMesh:
+def _draw_image(
+    axes: Axes,
+    ratio: xr.DataArray,
+    window: Window,
+    norm: Normalize,
+) -> QuadMesh:
     times = thin(ratio["time"].values, window.start, window.end, _PIXELS)
     part = ratio.isel(time=times).transpose("x", "time")
     return axes.pcolormesh(
@@ -117,14 +148,39 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     return start - margin, peak, end + margin
 
 
-def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
+def thin(
+    time: Array,
+    start: float,
+    end: float,
+    columns: int,
+) -> NDArray[np.intp]:
     """Indices of the times (s) that are drawn, at most one for each column of pixels.
 
     The first time in a column is kept, so that a fast event stays a step at its true time. One time
     beyond either end is kept to fill the panel.
     """
-    first = max(int(np.searchsorted(time, start, side="right")) - 1, 0)
-    last = min(int(np.searchsorted(time, end, side="left")) + 1, time.size)
+    first = max(
+        int(
+            np.searchsorted(
+                time,
+                start,
+                side="right",
+            )
+        )
+        - 1,
+        0,
+    )
+    last = min(
+        int(
+            np.searchsorted(
+                time,
+                end,
+                side="left",
+            )
+        )
+        + 1,
+        time.size,
+    )
     column = np.floor((time[first:last] - start) / (end - start) * columns)
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
 
@@ -139,7 +195,12 @@ def _draw_force(axes: Axes, record: xr.Dataset, window: Window) -> None:
     time = record["step_time"].values
     scale, _ = _force_unit(record)
     force = -scale * record["driving_force"].values
-    axes.plot(window.shown(time), force, color=style.BLUE, linewidth=1.2)
+    axes.plot(
+        window.shown(time),
+        force,
+        color=style.BLUE,
+        linewidth=1.2,
+    )
     seen = force[(time >= window.start) & (time <= window.end)]
     low = min(0.0, seen.min()) if window.origin == 0.0 else seen.min()
     high = seen.max()
@@ -150,7 +211,12 @@ def _draw_force(axes: Axes, record: xr.Dataset, window: Window) -> None:
         axes.set_xlim(*window.shown(np.array([window.start, window.end])))
 
 
-def _mark(image: Axes, force: Axes, row: xr.Dataset, window: Window) -> None:
+def _mark(
+    image: Axes,
+    force: Axes,
+    row: xr.Dataset,
+    window: Window,
+) -> None:
     """The onset, dotted; the length, dashed, and its error bar at the onset."""
     onset = (float(row["onset_time"]) - window.origin) * window.scale
     length = float(row["length"])
@@ -184,7 +250,14 @@ def _label(
     if np.isfinite(row["length"]):
         place = (0.0, float(row["length"]))
         across = image.get_yaxis_transform()
-        image.annotate(symbol, place, (5.0, 1.0), across, color="white", **beside)
+        image.annotate(
+            symbol,
+            place,
+            (5.0, 1.0),
+            across,
+            color="white",
+            **beside,
+        )
     if np.isfinite(row["onset_time"]):
         place = (float(record.shown(row["onset_time"].values)), 0.0)
         up = force.get_xaxis_transform()

@@ -160,7 +160,15 @@ def key(
     label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **options: Any
 ) -> Line2D:
     """An entry of a legend for several sets of data."""
-    return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **options)
+    return Line2D(
+        [],
+        [],
+        marker=marker,
+        linestyle=line,
+        color=colour,
+        label=label,
+        **options,
+    )
 
 
 def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
@@ -200,9 +208,21 @@ def vertical(axes: Axes, x: float, line: Any = "--", width: float = 0.9, **optio
     axes.axvline(x, **usual | options)
 
 
-def band(axes: Axes, low: float, high: float, label: str) -> None:
+def band(
+    axes: Axes,
+    low: float,
+    high: float,
+    label: str,
+) -> None:
     """Draw a horizontal band of agreement."""
-    axes.axhspan(low, high, color=GUIDE, alpha=0.15, linewidth=0.0, label=label)
+    axes.axhspan(
+        low,
+        high,
+        color=GUIDE,
+        alpha=0.15,
+        linewidth=0.0,
+        label=label,
+    )
 
 
 def arrow(

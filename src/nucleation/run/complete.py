@@ -175,7 +175,15 @@ def _as_blocks(
 def _rows(height: float, element: float) -> tuple[int, float]:
     """Number of elements along y and grading, so that those at the interface have a size (m)."""
     for rows in _ROWS:
-        for grading in np.geomspace(1.0, _GRADING, 60).round(1).tolist():
+        for grading in (
+            np.geomspace(
+                1.0,
+                _GRADING,
+                60,
+            )
+            .round(1)
+            .tolist()
+        ):
             if element_height(height, rows, grading) <= element:
                 return rows, grading
     return _ROWS[-1], _GRADING

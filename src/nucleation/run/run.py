@@ -276,7 +276,13 @@ def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
     if found["loading"] == "edge":
         return Fault(**found, friction_law=law)
     f, a, zeta = law.expansion(found["velocity"])
-    return Fault(**found, friction=f, a=a, zeta=zeta, slip_distance=law.slip_distance)
+    return Fault(
+        **found,
+        friction=f,
+        a=a,
+        zeta=zeta,
+        slip_distance=law.slip_distance,
+    )
 
 
 def _paper_run() -> Run:

@@ -9,7 +9,14 @@ from ..run.run import Run
 
 def grid_of(body: runs.Body, periodic: bool = False) -> Grid:
     """The mesh of a block."""
-    return Grid(body.length, body.height, body.n_x, body.n_y, body.grading, periodic)
+    return Grid(
+        body.length,
+        body.height,
+        body.n_x,
+        body.n_y,
+        body.grading,
+        periodic,
+    )
 
 
 def body_of(run: Run) -> Body:
@@ -31,4 +38,8 @@ def _of(run: Run, periodic: bool) -> Body:
     first = grid_of(upper, periodic), upper.material
     if below is None:
         return Body(first)
-    return Body(first, (grid_of(below, periodic), below.material), below.far_side)
+    return Body(
+        first,
+        (grid_of(below, periodic), below.material),
+        below.far_side,
+    )

@@ -18,7 +18,12 @@ RESOLVED = 16.0  # shortest step over the round-off of the time
 class SimulationFailure(RuntimeError):
     """The time integration cannot continue after a state."""
 
-    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
+    def __init__(
+        self,
+        outcome: Outcome,
+        state: State,
+        reason: str,
+    ) -> None:
         super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 

@@ -31,7 +31,12 @@ class Energy:
         self._next_rate = 0
         self._last: tuple[State, StepReport] | None = None
 
-    def take(self, state: State, report: StepReport, fastest: float) -> None:
+    def take(
+        self,
+        state: State,
+        report: StepReport,
+        fastest: float,
+    ) -> None:
         """Take in the initial state or a step, with the largest slip rate (m/s)."""
         if self._last is not None:
             self._add_works(*self._last, state, report)
@@ -43,7 +48,13 @@ class Energy:
             self._next_rate = exceeded
             self._rows.append(self._row(state, report))
 
-    def _add_works(self, before: State, old: StepReport, state: State, new: StepReport) -> None:
+    def _add_works(
+        self,
+        before: State,
+        old: StepReport,
+        state: State,
+        new: StepReport,
+    ) -> None:
         moved = new.imposed.displacement - old.imposed.displacement
         self._friction += passes.friction_work(
             new.interface.tangential,

@@ -100,7 +100,11 @@ class Interface:
         normal = response.normal + self.extra_normal
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
-            found = self._friction(rates[:anew], past.log_state[:anew], beta)
+            found = self._friction(
+                rates[:anew],
+                past.log_state[:anew],
+                beta,
+            )
             if anew == rates.size:
                 psi, coefficient, slope = found
             else:
@@ -131,7 +135,13 @@ class Interface:
             linear = residual, elastic, damping, active, solved
             if law.asinh_of_rate:
                 change = passes.direction(*linear)
-                v = _updated_by_asinh(rates[1:], change, damping, elastic, least[1:])
+                v = _updated_by_asinh(
+                    rates[1:],
+                    change,
+                    damping,
+                    elastic,
+                    least[1:],
+                )
             else:
                 v = passes.updated(rates, *linear, law.regularisation_slip_rate)
             rates, w, change_of_w, reach = passes.moved(
@@ -162,7 +172,12 @@ class Interface:
     def _compiled(self) -> compiled_laws.CompiledFriction:
         return compiled_laws.friction(self.friction)
 
-    def _friction(self, v: Array, past_log_state: Array, beta: float) -> tuple[Array, Array, Array]:
+    def _friction(
+        self,
+        v: Array,
+        past_log_state: Array,
+        beta: float,
+    ) -> tuple[Array, Array, Array]:
         """Log state at the end of the step, friction coefficient, and its total slope (s/m)."""
         law = self.friction
         v0 = law.regularisation_slip_rate
@@ -186,7 +201,12 @@ def _solved(
     if active.size:
         stiffness, coupling = operator.tangent(active + 1, np.float32)
         matrix = passes.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
-        *_, solved, info = lapack.sgesv(matrix.T, solved, overwrite_a=True, overwrite_b=True)
+        *_, solved, info = lapack.sgesv(
+            matrix.T,
+            solved,
+            overwrite_a=True,
+            overwrite_b=True,
+        )
         if info:
             raise NewtonFailure("the interface's tangent is singular")
     return solved

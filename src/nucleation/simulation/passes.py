@@ -61,7 +61,14 @@ def balance(
 
 
 @compiled
-def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
+def newton_matrix(
+    stiffness,
+    coupling,
+    coefficient,
+    damping,
+    active,
+    beta,
+):
     """``beta (D + f N) + R df/dv`` between the active nodes, transposed, in single precision."""
     step = np.float32(beta)
     matrix = np.empty_like(stiffness)
@@ -74,7 +81,13 @@ def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
 
 
 @compiled
-def direction(residual, elastic, damping, active, solved):
+def direction(
+    residual,
+    elastic,
+    damping,
+    active,
+    solved,
+):
     """Newton's direction (m/s): of the coupled system at active nodes, node by node elsewhere."""
     change = np.empty(residual.size)
     for i in range(residual.size):
@@ -85,7 +98,15 @@ def direction(residual, elastic, damping, active, solved):
 
 
 @compiled
-def updated(before, residual, elastic, damping, active, solved, v0):
+def updated(
+    before,
+    residual,
+    elastic,
+    damping,
+    active,
+    solved,
+    v0,
+):
     """Slip rates (m/s) after a step of Newton's method, at the nodes 1..n_x.
 
     A slip rate that shrinks does so in asinh(v / v0). Friction is concave in v > 0: from above,
@@ -106,7 +127,17 @@ def updated(before, residual, elastic, damping, active, solved, v0):
 
 
 @compiled
-def moved(v, before, velocity, periodic, beta, past, start, tolerated, least):
+def moved(
+    v,
+    before,
+    velocity,
+    periodic,
+    beta,
+    past,
+    start,
+    tolerated,
+    least,
+):
     """Slip rates at all nodes (m/s), ``w = past + beta (v - V)`` (m), and ``w - start``.
 
     Also the number of nodes up to the last one whose slip rate has changed by more than the part
@@ -131,7 +162,13 @@ def moved(v, before, velocity, periodic, beta, past, start, tolerated, least):
 
 
 @compiled
-def expected(rates, log_states, weights, scale, largest):
+def expected(
+    rates,
+    log_states,
+    weights,
+    scale,
+    largest,
+):
     """Extrapolated asinh(v / scale), slip rates (m/s) and log(phi), by weights, newest first."""
     past, n = rates.shape
     scaled = np.empty(n)
@@ -158,7 +195,13 @@ def changed(rate, scaled, scale):
 
 
 @compiled
-def distance(scaled, log_state, rate, psi, scale):
+def distance(
+    scaled,
+    log_state,
+    rate,
+    psi,
+    scale,
+):
     """Largest distance of slip rates, in asinh(v / scale), and log(phi) from expected ones."""
     largest = changed(rate, scaled, scale)
     for i in range(psi.size):
@@ -183,7 +226,14 @@ def largest(values):
 
 
 @compiled
-def friction_work(tangential, before, w, w_before, moved, periodic):
+def friction_work(
+    tangential,
+    before,
+    w,
+    w_before,
+    moved,
+    periodic,
+):
     """Work (J/m) that friction dissipates in a step, by forces (N/m), w and the edge's way (m)."""
     first = 1 if periodic else 0
     total = 0.0

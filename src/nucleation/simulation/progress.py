@@ -63,7 +63,12 @@ class Progress:
         self._pause = PAUSE
         if terminal or stream.isatty():
             style = "{l_bar}{bar}|{postfix}"
-            self._bar = tqdm(total=100, file=stream, bar_format=style, leave=False)
+            self._bar = tqdm(
+                total=100,
+                file=stream,
+                bar_format=style,
+                leave=False,
+            )
             self._pause = PAUSE_ON_TERMINAL
         self._began = time.monotonic()
         self._first_step: int | None = None  # a resumed run does not begin at step 0
@@ -124,7 +129,12 @@ class Progress:
     def _reached(self, slip_rate: Array) -> float:
         """Largest length (m) of the patch so far, with the slip rates (m/s) of this step."""
         edge = SLIPPING * self._fault.velocity
-        (now,) = patch_lengths(self._fault.loading, self._x, slip_rate[None], edge)
+        (now,) = patch_lengths(
+            self._fault.loading,
+            self._x,
+            slip_rate[None],
+            edge,
+        )
         self._length = max(self._length, float(now))
         return self._length
 

@@ -42,7 +42,14 @@ def fastest_elsewhere(
 ) -> Burst | None:
     """Find the fastest slip outside the patch before a given time."""
     bursts = PatchBursts(run)
-    steps = list(zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True))
+    steps = list(
+        zip(
+            times.tolist(),
+            rates.tolist(),
+            positions.tolist(),
+            strict=True,
+        )
+    )
     own = np.array([bursts.at(*step) for step in steps], dtype=bool)
     fast = rates > FAST * run.fault.velocity
     counts = fast & ~own & (times < until)

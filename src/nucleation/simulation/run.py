@@ -157,7 +157,11 @@ def simulate(
     position = None
     if start is not None:
         recorder.restore(start)
-        control = Control(float(start["wanted"]), recorder.steps, int(start["rejected"]))
+        control = Control(
+            float(start["wanted"]),
+            recorder.steps,
+            int(start["rejected"]),
+        )
         position = State.from_arrays(start), control
         earlier = float(start["wall_seconds"])
     outcome = Outcome.END_TIME

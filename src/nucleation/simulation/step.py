@@ -50,9 +50,21 @@ class State:
     edge_error: float = np.inf  # relative, of the right edge's values as foreseen
 
     @classmethod
-    def beginning(cls, motion: Motion, slip_rate: Array, log_state: Array, w: Array) -> State:
+    def beginning(
+        cls,
+        motion: Motion,
+        slip_rate: Array,
+        log_state: Array,
+        w: Array,
+    ) -> State:
         """The state at time zero, without a past."""
-        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None])
+        return cls(
+            (motion,),
+            np.zeros(1),
+            slip_rate[None],
+            log_state[None],
+            w[None],
+        )
 
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
@@ -155,7 +167,12 @@ class Dynamics:
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
         fields = [motion.displacement for motion in state.motions]
-        before = Before(step.body.past, step.body.beta, fields[0], fields[-1])
+        before = Before(
+            step.body.past,
+            step.body.beta,
+            fields[0],
+            fields[-1],
+        )
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
@@ -171,12 +188,22 @@ class Dynamics:
         error = step.error(guess.distance(solution))
         return new, StepReport(solution, force, error, imposed, external)
 
-    def _past(self, state: State, step: Step, imposed: Imposed) -> Past:
+    def _past(
+        self,
+        state: State,
+        step: Step,
+        imposed: Imposed,
+    ) -> Past:
         formula = step.interface
         log_state = formula.from_past(state.past_log_states)
         if imposed.state_forcing is not None:
             log_state = log_state + formula.beta * imposed.state_forcing
-        return Past(formula.from_past(state.past_w), log_state, formula.beta, step.first)
+        return Past(
+            formula.from_past(state.past_w),
+            log_state,
+            formula.beta,
+            step.first,
+        )
 
     def operator(self, s: float) -> Operator:
         """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
@@ -199,10 +226,19 @@ class Dynamics:
         """Force (N/m) by which the driven edge accelerates the whole body with it."""
         return self.body.total_mass * imposed.acceleration
 
-    def _load_with_past(self, state: State, step: Step, load: Field) -> Field:
+    def _load_with_past(
+        self,
+        state: State,
+        step: Step,
+        load: Field,
+    ) -> Field:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
-        for c, motion in zip(step.body.past, state.motions, strict=False):
+        for c, motion in zip(
+            step.body.past,
+            state.motions,
+            strict=False,
+        ):
             terms.append((c, motion.displacement))
             terms.append((c * step.body.beta, motion.velocity))
         return self.body.inertia_load(step.s, terms, load)

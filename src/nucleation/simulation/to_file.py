@@ -25,7 +25,12 @@ def run_to_file(
     The record of a failed run is in `output` with the suffix ``.failed.nc``. A signal raises
     Stopped and leaves the checkpoint.
     """
-    dataset = simulate(run, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    dataset = simulate(
+        run,
+        progress=progress,
+        start=checkpoint.load(),
+        keep=checkpoint.keep,
+    )
     failed = output.with_suffix(".failed.nc")
     path = output if dataset.attrs["completed"] else failed
     write(dataset, path)

@@ -55,7 +55,14 @@ def _half_space_crossings(systems: Systems) -> Array:
 def _ends(systems: Systems) -> tuple[Array, Array]:
     """Wavenumbers (1/m) below which all layers are thin, and above which sliding is stable."""
     heights = systems.pair.thicknesses
-    finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
+    finite = [
+        np.where(
+            np.isfinite(height),
+            height,
+            np.nan,
+        )
+        for height in heights
+    ]
     bottom = LONG_WAVES * systems.pair.contrast / np.fmax.reduce(finite)
     high = SATURATION / np.fmin.reduce(finite)
     g, _ = systems.load_and_coupling(high)
@@ -71,8 +78,16 @@ def _brackets(systems: Systems) -> Array:
     margin = _margins(systems, k)
     unstable = margin < 0.0
     has_any = unstable.any(axis=1)
-    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
-    bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
+    last = np.where(
+        has_any,
+        POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1),
+        0,
+    )
+    bracket = np.where(
+        has_any,
+        [k[rows, last], k[rows, last + 1]],
+        np.nan,
+    )
 
     before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
     dips = (middle > 0.0) & (middle < before) & (middle < after)

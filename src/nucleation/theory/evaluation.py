@@ -15,7 +15,12 @@ from .stiffness import Layers
 from .values import ZONE, FaultLike, Values, labelled
 from .zone import Zone
 
-_USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+_USUAL = np.errstate(
+    divide="warn",
+    over="warn",
+    under="ignore",
+    invalid="warn",
+)
 """NumPy's own settings, whatever the caller's are."""
 
 _OF_SYSTEMS = (
@@ -70,7 +75,12 @@ def evaluate(
         return np.moveaxis(core(*values, *arrays), -1, 0)
     import xarray as xr
 
-    result = xr.apply_ufunc(core, *values, *arrays, output_core_dims=[["row"]])
+    result = xr.apply_ufunc(
+        core,
+        *values,
+        *arrays,
+        output_core_dims=[["row"]],
+    )
     return result.transpose("row", ...)
 
 

@@ -82,4 +82,11 @@ def marginal_frequencies(
     def misfit(w: Array) -> Array:
         return np.abs(b * w**2 / (1.0 + w**2) - g)
 
-    return np.where(misfit(large) <= misfit(small), large, small) * systems.rate
+    return (
+        np.where(
+            misfit(large) <= misfit(small),
+            large,
+            small,
+        )
+        * systems.rate
+    )

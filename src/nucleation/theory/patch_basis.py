@@ -63,8 +63,16 @@ def patch_basis(number: int) -> _PatchBasis:
     wavenumber = np.concatenate([wavenumber, beyond])
     weights = np.concatenate([weights, share[:, None] * missing])
     # i^(n - m) is real where n - m is even, and i times a real number where it is odd
-    even = np.where(power % 2 == 0, (-1.0) ** (power // 2), 0.0)
-    odd = np.where(power % 2 == 1, (-1.0) ** (power // 2), 0.0)
+    even = np.where(
+        power % 2 == 0,
+        (-1.0) ** (power // 2),
+        0.0,
+    )
+    odd = np.where(
+        power % 2 == 1,
+        (-1.0) ** (power // 2),
+        0.0,
+    )
     return _PatchBasis(
         wavenumber,
         weights * even.ravel(),
@@ -98,7 +106,11 @@ def _beyond() -> tuple[Array, Array]:
 
 def _gauss(begin: float, end: float) -> tuple[Array, Array]:
     """Points and weights of an integral over an interval, dense enough for Bessel functions."""
-    edges = np.linspace(begin, end, 1 + max(1, round((end - begin) / SPACING)))
+    edges = np.linspace(
+        begin,
+        end,
+        1 + max(1, round((end - begin) / SPACING)),
+    )
     half = 0.5 * np.diff(edges)[:, None]
     middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
     nodes, weights = np.polynomial.legendre.leggauss(GAUSS)

@@ -72,7 +72,12 @@ class WeakeningPatch:
         turned += turned if mirrored else self._turn(width, number, -1.0)
         return round(turned / (2.0 * math.pi))
 
-    def factors(self, width: float, number: int, frequency: Array) -> ComplexArray:
+    def factors(
+        self,
+        width: float,
+        number: int,
+        frequency: Array,
+    ) -> ComplexArray:
         """Factors of the determinant for a patch of one width.
 
         They are its diagonal entries, and the determinant of the matrix with rows divided by these:
@@ -109,7 +114,12 @@ class WeakeningPatch:
         """c, how friction changes per slip, over sigma0/ell."""
         return rate * (systems.a * rate - systems.zeta) / (1.0 + rate)
 
-    def _turn(self, width: float, number: int, sign: float) -> float:
+    def _turn(
+        self,
+        width: float,
+        number: int,
+        sign: float,
+    ) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
         stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
         scale = 1.0 + float(np.max(stiffest / np.minimum(self.inside.a, self.outside.a)))

@@ -82,7 +82,11 @@ class Zone(NamedTuple):
         share = layer.height / thick
         soft = 1.0 / (1.0 + share * (self.ratio - 1.0))
         stiff = 1.0 + share * (1.0 / self.ratio - 1.0)
-        changed = self.body.shear_modulus * np.where(self.ratio > 1.0, soft, stiff)
+        changed = self.body.shear_modulus * np.where(
+            self.ratio > 1.0,
+            soft,
+            stiff,
+        )
         modulus = np.where(share < 1.0, changed, layer.shear_modulus)
         added = np.minimum(thick - layer.height, 0.5 * self.body.height)
         return Zone(

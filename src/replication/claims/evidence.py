@@ -83,9 +83,20 @@ class Evidence:
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(self, role: str, law: str, height: float, age: float = 1.0) -> Row:
+    def row(
+        self,
+        role: str,
+        law: str,
+        height: float,
+        age: float = 1.0,
+    ) -> Row:
         """The fault of a role with an evolution law, height (m) and initial age (s)."""
-        return self.rows(role, evolution=law, height=height, initial_state=age)[0]
+        return self.rows(
+            role,
+            evolution=law,
+            height=height,
+            initial_state=age,
+        )[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""

@@ -35,7 +35,16 @@ def _with_range(row: Row, column: str, unit: float = 1.0) -> Estimate:
 
 def _of_figure_s2(column: str) -> Computation:
     """A number of the run of Fig. S2."""
-    return on_both(lambda e, role: _with_range(e.row(role, "aging", _SHOWN), column))
+    return on_both(
+        lambda e, role: _with_range(
+            e.row(
+                role,
+                "aging",
+                _SHOWN,
+            ),
+            column,
+        )
+    )
 
 
 def _onset_time(evidence: Evidence) -> Result:
@@ -65,7 +74,14 @@ def _length_shown(evidence: Evidence) -> Result:
 @on_both
 def _over_theory(evidence: Evidence, role: str) -> list[Estimate]:
     """Length over L_c of the theory at all heights."""
-    return [_with_range(row, "length", row["critical_length"]) for row in evidence.series(role)]
+    return [
+        _with_range(
+            row,
+            "length",
+            row["critical_length"],
+        )
+        for row in evidence.series(role)
+    ]
 
 
 def _theory_agreement(evidence: Evidence) -> Result:
@@ -82,7 +98,18 @@ def _theory_agreement(evidence: Evidence) -> Result:
 def _heights(evidence: Evidence, role: str) -> list[Row]:
     """The rows of all heights; raises Missing if there are fewer than two."""
     rows = evidence.series(role)
-    return rows if len(rows) > 1 else [evidence.row(role, "aging", _SHOWN), *rows]
+    return (
+        rows
+        if len(rows) > 1
+        else [
+            evidence.row(
+                role,
+                "aging",
+                _SHOWN,
+            ),
+            *rows,
+        ]
+    )
 
 
 @on_both
@@ -100,14 +127,28 @@ def _length_increases(evidence: Evidence, role: str) -> float:
 def _relative_change(varied: Row, base: Row) -> Estimate:
     """Relative change of the length between two runs; its range is that of the definitions."""
     changes = [varied[column] / base[column] - 1.0 for column in BY_DEFINITION]
-    return between(varied["length"] / base["length"] - 1.0, min(changes), max(changes))
+    return between(
+        varied["length"] / base["length"] - 1.0,
+        min(changes),
+        max(changes),
+    )
 
 
 def _change_from_aging(height: float, law: str, age: float = 1.0) -> Computation:
     """Relative change of the length by another law or age (s), at one height (m)."""
     return on_both(
         lambda e, role: _relative_change(
-            e.row(role, law, height, age), e.row(role, "aging", height)
+            e.row(
+                role,
+                law,
+                height,
+                age,
+            ),
+            e.row(
+                role,
+                "aging",
+                height,
+            ),
         )
     )
 
@@ -253,7 +294,11 @@ def _shortest_step(evidence: Evidence) -> Estimate:
     rows = evidence.rows(PAPERS)
     with_rupture = [row for row in rows if _has_rupture(row)]
     steps = [row["shortest_step"] / 1e-6 for row in with_rupture or rows]
-    return between(float(np.median(steps)), min(steps), max(steps))
+    return between(
+        float(np.median(steps)),
+        min(steps),
+        max(steps),
+    )
 
 
 NUMBERS: dict[str, Computation] = {

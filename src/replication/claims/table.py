@@ -168,7 +168,14 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
+    parts[::2] = [
+        re.sub(
+            r"([|*_])",
+            r"\\\1",
+            part,
+        )
+        for part in parts[::2]
+    ]
     return "$".join(parts)
 
 

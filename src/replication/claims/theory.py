@@ -110,7 +110,11 @@ def _eta_over_largest(evidence: Evidence) -> Result:
         r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ our number is "
         f"{without:.4g} (results: The factor pi)."
     )
-    return Result(0.75 * _eta(evidence), formula(math.pi, r"$\pi$"), explained=(without, sentence))
+    return Result(
+        0.75 * _eta(evidence),
+        formula(math.pi, r"$\pi$"),
+        explained=(without, sentence),
+    )
 
 
 def _uncoupled_frequency(evidence: Evidence) -> Result:
@@ -222,7 +226,12 @@ def _thin_over_curve(evidence: Evidence) -> xr.DataArray:
 
 def _response_error(q: float, nu: float, expected: ComplexArray) -> float:
     """Difference of the matrix M of a layer from `expected`, over its largest entry."""
-    layer = Layers(np.array(1.0), np.array(nu), np.array(q), "velocity")
+    layer = Layers(
+        np.array(1.0),
+        np.array(nu),
+        np.array(q),
+        "velocity",
+    )
     found = layer.stiffness(1.0)
     stiffness = np.array([[found.xx, 1j * found.xy], [-1j * found.xy, found.yy]])
     difference = np.abs(-np.linalg.inv(stiffness) - expected)
@@ -235,12 +244,23 @@ def _block_field(evidence: Evidence) -> list[float]:
     lame = 2.0 * nu / (1.0 - 2.0 * nu)
     differences = []
     for q in LAYER_NUMBERS[1:]:
-        below, at, above = printed.block_field(q, np.array([-step, 0.0, step]), nu).T
+        below, at, above = printed.block_field(
+            q,
+            np.array([-step, 0.0, step]),
+            nu,
+        ).T
         u, w = at[0].real, at[1].imag
         du, dw = (above - below) / (2.0 * step * q)
         stresses = -(du.real + w), (lame + 2.0) * dw.imag - lame * u
         expected = block_transfer(evidence, q)
-        differences += [abs(one / u / g - 1.0) for one, g in zip(stresses, expected, strict=True)]
+        differences += [
+            abs(one / u / g - 1.0)
+            for one, g in zip(
+                stresses,
+                expected,
+                strict=True,
+            )
+        ]
     return differences
 
 
@@ -295,7 +315,12 @@ NUMBERS: dict[str, Computation] = {
     "thin-agreement": lambda e: _thin_over_curve(e)[0],
     "thin-deviation": lambda e: _thin_over_curve(e).interp(height=0.1) - 1.0,
     "response-matrix": lambda e: [
-        _response_error(q, e.nu, printed.response_matrix(q, e.nu)) for q in LAYER_NUMBERS[1:]
+        _response_error(
+            q,
+            e.nu,
+            printed.response_matrix(q, e.nu),
+        )
+        for q in LAYER_NUMBERS[1:]
     ],
     "response-matrix-limit": lambda e: _response_error(
         HALF_SPACE, e.nu, printed.half_space_response(e.nu)

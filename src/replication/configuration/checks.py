@@ -73,7 +73,11 @@ def _read(value: Any, entries: Mapping[str, Quantity], entry: Quantity | None = 
         found = {}
         for key, own in value.items():
             known = RANGE.get(key) if entry else None
-            found[key] = _read(own, entries, known or entries.get(key) or entry)
+            found[key] = _read(
+                own,
+                entries,
+                known or entries.get(key) or entry,
+            )
         return found
     if isinstance(value, list):
         return [_read(own, entries, entry) for own in value]

@@ -117,9 +117,18 @@ class Configuration(Settings):
         simulated = [run.run.fault.height for run in self.runs_for(PAPERS)]
         low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
         if low < min(heights):
-            heights[:0] = np.geomspace(low, min(heights), 20, endpoint=False).tolist()
+            heights[:0] = np.geomspace(
+                low,
+                min(heights),
+                20,
+                endpoint=False,
+            ).tolist()
         if high > max(heights):
-            heights += np.geomspace(max(heights), high, 21)[1:].tolist()
+            heights += np.geomspace(
+                max(heights),
+                high,
+                21,
+            )[1:].tolist()
         return dataclasses.replace(self.curves, heights=tuple(heights))
 
     def problems_of(self, study: str) -> list[str]:
@@ -173,7 +182,12 @@ class Configuration(Settings):
         raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
 
 
-def _found(kind: str, name: str, known: Mapping[str, _Named], study: str) -> _Named:
+def _found(
+    kind: str,
+    name: str,
+    known: Mapping[str, _Named],
+    study: str,
+) -> _Named:
     """The run or the batch of a study with a name."""
     if name in known:
         return known[name]

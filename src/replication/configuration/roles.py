@@ -36,7 +36,12 @@ class _Need(NamedTuple):
     allowed: Callable[[Any], bool]
     rule: str  # the allowed values, in words
 
-    def refusal(self, key: str, value: object, role: str) -> str:
+    def refusal(
+        self,
+        key: str,
+        value: object,
+        role: str,
+    ) -> str:
         """The message for a value at a key that does not fulfil the requirement."""
         return f"{key} = {value} is not allowed with role = {role}: it must be {self.rule}"
 

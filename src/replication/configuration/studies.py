@@ -69,7 +69,12 @@ def study_runs(name: str, settings: Settings) -> Iterator[tuple[_Place, StudyRun
     faults = [one.theory for one in prepared if isinstance(one, _Prepared)]
     lengths = iter(critical_lengths(faults))
     batches = _batches(name, len(given), settings.studies[name].runs_per_job)
-    for (key, *_), one, batch in zip(given, prepared, batches, strict=True):
+    for (key, *_), one, batch in zip(
+        given,
+        prepared,
+        batches,
+        strict=True,
+    ):
         if isinstance(one, ParameterError):
             yield key, str(one)
             continue

@@ -79,7 +79,12 @@ def draw_simulated(table: xr.Dataset, theory: xr.Dataset) -> Figure:
     panels[0].set(ylim=(0.0, None), ylabel=r"Length over $L_c^{\mathcal{M}}$")
     entries = style.entries(*panels)
     below: style.Options = {"loc": "outside lower center", "handlelength": HANDLE}
-    figure.legend(entries.values(), entries, ncols=max(simulated.size, 1), **below)
+    figure.legend(
+        entries.values(),
+        entries,
+        ncols=max(simulated.size, 1),
+        **below,
+    )
     return figure
 
 
@@ -106,5 +111,11 @@ def _draw_lengths(
         unknown = own["f_beta"].values[np.isnan(own[name].values)]
         if unknown.size:
             label = f"{weakening}, no length found"
-            axes.plot(unknown, np.full(unknown.size, _UNKNOWN), "x", color=colour, label=label)
+            axes.plot(
+                unknown,
+                np.full(unknown.size, _UNKNOWN),
+                "x",
+                color=colour,
+                label=label,
+            )
     axes.set_xlim(_CONTRAST[0], _CONTRAST[-1])

@@ -37,9 +37,19 @@ def draw(
     height = theory["height"]
     axes.plot(height, theory["critical_length"], color=style.THEORY, label="theory")
     thin: style.Options = {"label": r"theory, $Hk\to 0$", "linewidth": 1.1}
-    axes.plot(height, theory["thin_limit_length"], "--", color=style.THEORY, **thin)
+    axes.plot(
+        height,
+        theory["thin_limit_length"],
+        "--",
+        color=style.THEORY,
+        **thin,
+    )
     means = over_realisations(lengths)
-    drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
+    drawn = laws.where(
+        means,
+        np.isfinite(means["length"]),
+        role="paper",
+    )
     _draw_points(axes, drawn)
     # from zero to slightly more than the highest simulated block
     simulated = drawn if drawn.sizes["run"] else theory
@@ -58,7 +68,12 @@ def draw(
     return figure
 
 
-def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+def draw_run(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
     """The figure with one run of the table in the inset."""
     return draw(theory, lengths, simulation, row(lengths, id))
 
@@ -109,10 +124,22 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     labels += [f"$t_c+{1e3 * (time[i] - start):.3g}$ ms" for i in event]
     looks = [*((shade, "-") for shade in style.shades(creep.size)), *_EVENT_LOOKS]
     shown = np.concatenate([creep, event])
-    for i, (colour, dashes), label in zip(shown, looks, labels, strict=False):
+    for i, (colour, dashes), label in zip(
+        shown,
+        looks,
+        labels,
+        strict=False,
+    ):
         rate = simulation["slip_rate"].values[i]
         moving = np.where(rate > 0.0, rate, np.nan)  # a gap where nothing slips
-        axes.plot(x, moving, dashes, color=colour, linewidth=1.1, label=label)
+        axes.plot(
+            x,
+            moving,
+            dashes,
+            color=colour,
+            linewidth=1.1,
+            label=label,
+        )
     highest = float(simulation["slip_rate"].isel(time=shown).max())
     top = 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE)))
     axes.set(yscale="log", ylim=(LOWEST_RATE, top))
@@ -126,10 +153,23 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
         ends = (0.0, 0.12), (length, 0.12)
         style.arrow(axes, *ends, kind="<->", xycoords=up, textcoords=up)
         # the first snapshots of the patch end right of this text
-        axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
+        axes.text(
+            0.2 * length,
+            0.15,
+            "$L_c$",
+            transform=up,
+            ha="center",
+            fontsize=8.5,
+        )
     small: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
     place: style.Options = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
-    axes.legend(title="time $t$", handlelength=1.8, labelspacing=0.35, **place, **small)
+    axes.legend(
+        title="time $t$",
+        handlelength=1.8,
+        labelspacing=0.35,
+        **place,
+        **small,
+    )
 
 
 def _number(value: float) -> str:

@@ -63,7 +63,11 @@ def draw(
     _draw_panel(right, *(_over_theory(own) for own in drawn))
     _finish_lengths(left, theory, drawn[1], bool(stronger.sizes["run"]))
     heights = drawn[1]["height"]
-    right.set(xscale="log", xlim=(0.8 * heights.min(), 1.3 * heights.max()), ylim=(0.4, 1.2))
+    right.set(
+        xscale="log",
+        xlim=(0.8 * heights.min(), 1.3 * heights.max()),
+        ylim=(0.4, 1.2),
+    )
     right.set_ylabel("Length over theory $L/L_c$")
     handles = []
     for kind, runs in laws.kinds(lengths):
@@ -102,14 +106,26 @@ def _draw_panel(
     """Theory, half of it, the band under stronger perturbations, and all sets of lengths."""
     for part, dashes in ((1.0, "-"), (0.5, "--")):
         length = part * theory["critical_length"]
-        axes.plot(theory["height"], length, dashes, color=style.THEORY, linewidth=1.2)
+        axes.plot(
+            theory["height"],
+            length,
+            dashes,
+            color=style.THEORY,
+            linewidth=1.2,
+        )
     if stronger.sizes["run"]:
         quiet = laws.where(lengths, role=_JUDGED)
         quiet = laws.where(quiet, laws.usual(quiet))
         both = (stronger["height"], quiet["height"])
         heights, first, second = np.intersect1d(*both, return_indices=True)
         ends = (stronger["length"][first], quiet["length"][second])
-        axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
+        axes.fill_between(
+            heights,
+            *ends,
+            color=style.AGING,
+            alpha=0.2,
+            linewidth=0.0,
+        )
     _draw_series(axes, lengths, _PAPERS)
     _draw_series(axes, lengths, _STEADY)
     stability = _STABILITY
@@ -121,7 +137,11 @@ def _draw_panel(
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: _Series) -> None:
     """One set of lengths, a marker for each law and initial state."""
-    known = laws.where(table, np.isfinite(table[series.column]), role=series.role)
+    known = laws.where(
+        table,
+        np.isfinite(table[series.column]),
+        role=series.role,
+    )
     for kind, runs in laws.kinds(known):
         if runs.sizes["run"]:
             label = f"{series.label}, {kind.name}"
@@ -129,11 +149,20 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: _Series) -> None:
             laws.draw(axes, "height", runs, series.column, **look)
 
 
-def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:
+def _finish_lengths(
+    axes: Axes,
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    band: bool,
+) -> None:
     """Limits, and the legend of all sets."""
     highest = _ABOVE * float(lengths["height"].max())
     top = np.interp(highest, theory["height"], theory["critical_length"])
-    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.6 * float(top)), ylabel="Length $L$ (m)")
+    axes.set(
+        xlim=(0.0, highest),
+        ylim=(0.0, 1.6 * float(top)),
+        ylabel="Length $L$ (m)",
+    )
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
     handles = [
@@ -142,6 +171,26 @@ def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: b
     ]
     for series in (_STEADY, _PAPERS, _STABILITY):
         look = series.look(usual)
-        handles.append(style.key(series.label, colour=look.pop("color"), **look))
-    bands = [Patch(color=style.AGING, alpha=0.2, label=_BAND)] if band else []
-    axes.legend(handles=[*handles, *bands], loc="upper left", labelspacing=0.3)
+        handles.append(
+            style.key(
+                series.label,
+                colour=look.pop("color"),
+                **look,
+            )
+        )
+    bands = (
+        [
+            Patch(
+                color=style.AGING,
+                alpha=0.2,
+                label=_BAND,
+            )
+        ]
+        if band
+        else []
+    )
+    axes.legend(
+        handles=[*handles, *bands],
+        loc="upper left",
+        labelspacing=0.3,
+    )

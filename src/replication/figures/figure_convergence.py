@@ -66,7 +66,14 @@ def draw(table: xr.Dataset) -> Figure:
     style.letters(onset, length, meshes, steps)
     handles = onset.get_legend_handles_labels()[0]
     look = _SIZE | style.OPEN
-    handles.append(style.key("open: coarsest mesh", "o", colour=style.VERMILLION, **look))
+    handles.append(
+        style.key(
+            "open: coarsest mesh",
+            "o",
+            colour=style.VERMILLION,
+            **look,
+        )
+    )
     figure.legend(handles=handles, loc="outside upper center", ncols=6)
     return figure
 
@@ -106,7 +113,13 @@ def _draw_differences(
     """Difference of each run from the finest of its sequence."""
     found = places(perturbed)
     usual_age = min(perturbed["initial_state"].values.tolist(), default=0.0)
-    axes.axhspan(LEAST / 2.0, goal, color="0.93", zorder=0, label="goal")
+    axes.axhspan(
+        LEAST / 2.0,
+        goal,
+        color="0.93",
+        zorder=0,
+        label="goal",
+    )
     for i, (refined, meaning) in enumerate(_REFINED.items()):
         marker, colour = style.look(i)
         look: style.Options = {"color": colour, "ls": "none", **_SIZE}
@@ -116,13 +129,30 @@ def _draw_differences(
                 shown = np.maximum(differences, LEAST)
                 at = np.full(shown.size, place + 0.17 * (i - 1.5))
                 coarse = shown.size - 1 if refined == "n_x" else 0
-                axes.plot(at[:coarse], shown[:coarse], marker, **style.OPEN, **look)
+                axes.plot(
+                    at[:coarse],
+                    shown[:coarse],
+                    marker,
+                    **style.OPEN,
+                    **look,
+                )
                 axes.plot(at[coarse:], shown[coarse:], marker, **look)
         axes.plot([], [], marker, label=meaning, **look)
-    axes.set(yscale="log", ylim=(LEAST / 2.0, 30.0), xlim=(-0.6, len(found) - 0.4), ylabel=label)
+    axes.set(
+        yscale="log",
+        ylim=(LEAST / 2.0, 30.0),
+        xlim=(-0.6, len(found) - 0.4),
+        ylabel=label,
+    )
     axes.set_yticks([LEAST, 0.1, 10.0], [f"\u2264 {LEAST:g}", "0.1", "10"])
     names = [_name(key, usual_age) for key in found]
-    axes.set_xticks(range(len(found)), names, rotation=40.0, ha="right", rotation_mode="anchor")
+    axes.set_xticks(
+        range(len(found)),
+        names,
+        rotation=40.0,
+        ha="right",
+        rotation_mode="anchor",
+    )
     axes.xaxis.set_minor_locator(NullLocator())
     axes.tick_params(axis="x", length=0)
 
@@ -130,7 +160,11 @@ def _draw_differences(
 def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
     """The sequences of one refined parameter, each from coarse to fine."""
     others = [name for name in _REFINED if name != refined]
-    return laws.groups(laws.where(rows, refinement=refined), *_FAULT, *others)
+    return laws.groups(
+        laws.where(rows, refinement=refined),
+        *_FAULT,
+        *others,
+    )
 
 
 def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
@@ -157,11 +191,24 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
         axes.plot(size, ratio, **look)
         if is_quiet and refined == "longest_step":  # quiet runs of one height differ in the mesh
             mesh = f"$N={within[0]:g}$"
-            style.note(axes, mesh, (size[0], ratio[0]), (3, -10), color=colour)
+            style.note(
+                axes,
+                mesh,
+                (size[0], ratio[0]),
+                (3, -10),
+                color=colour,
+            )
         elif is_quiet and height == heights[-1]:
             step = f"{float(sequence['longest_step'][0]):g} $D/V$"
             end = (size[-1], ratio[-1])
-            style.note(axes, step, end, (-3, -9), ha="right", color=colour)
+            style.note(
+                axes,
+                step,
+                end,
+                (-3, -9),
+                ha="right",
+                color=colour,
+            )
     axes.margins(y=0.16)  # room for labels below the lowest curve
     axes.set(xscale="log", xlabel=_ALONG[refined])
     axes.set_xticks(sorted(sizes), [f"{size:g}" for size in sorted(sizes)])
@@ -174,6 +221,24 @@ def _keys(heights: list[float]) -> list[Line2D]:
     keys = []
     for i, height in enumerate(heights):
         marker, colour = style.look(i)
-        keys.append(style.key(f"$H={height:g}$ m", marker, "-", colour, **_SIZE, lw=1.0))
-    keys.append(style.key("quiet", "o", "--", linewidth=1.0, **_SIZE, **style.OPEN))
+        keys.append(
+            style.key(
+                f"$H={height:g}$ m",
+                marker,
+                "-",
+                colour,
+                **_SIZE,
+                lw=1.0,
+            )
+        )
+    keys.append(
+        style.key(
+            "quiet",
+            "o",
+            "--",
+            linewidth=1.0,
+            **_SIZE,
+            **style.OPEN,
+        )
+    )
     return keys

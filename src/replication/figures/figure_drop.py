@@ -37,7 +37,11 @@ _ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
     """Draw lengths at the drop against strength, and the law beside them."""
-    figure, ((load, state), (ratio, spread)) = style.panels(2, 2, 13.0)
+    figure, ((load, state), (ratio, spread)) = style.panels(
+        2,
+        2,
+        13.0,
+    )
     _draw_strengths(load, table, "normal_load")
     _draw_strengths(state, table, "state")
     load.set_ylabel("Length over theory $L/L_c$")
@@ -48,7 +52,14 @@ def draw(table: xr.Dataset) -> Figure:
     entries: style.Options = dict(style.entries(load, state))
     if _LAW in entries:
         line = style.key("", "", "-", style.THEORY)
-        entries[_LAW] = (Patch(color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0), line)
+        entries[_LAW] = (
+            Patch(
+                color=style.GUIDE,
+                alpha=_BAND_ALPHA,
+                linewidth=0.0,
+            ),
+            line,
+        )
     entries[_MEAN] = style.key(_MEAN, "o", "-", **style.OPEN)
     figure.legend(
         entries.values(),
@@ -77,11 +88,25 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     if own.sizes["run"]:
         _draw_law(axes, table, own, theory)
         ratio = own["length"] / theory
-        axes.plot(own["strength"], ratio, ".", color=colour, alpha=0.35, ms=3.0, mew=0.0)
+        axes.plot(
+            own["strength"],
+            ratio,
+            ".",
+            color=colour,
+            alpha=0.35,
+            ms=3.0,
+            mew=0.0,
+        )
     look: style.Options = {"marker": marker, "ms": 4.0, "color": colour, **style.OPEN}
     for runs in ensembles(own):
         lengths = runs["length"].values / theory
-        laws.draw_range(axes, runs["strength"].values[0], lengths, elinewidth=0.9, **look)
+        laws.draw_range(
+            axes,
+            runs["strength"].values[0],
+            lengths,
+            elinewidth=0.9,
+            **look,
+        )
     _draw_floors(axes, fault, f"floor_{kind}", theory)
     stability = fault["stability_length"].values[0] / theory
     unstable: style.Options = {"color": style.STABILITY, "label": "patch turns unstable, $L_s$"}
@@ -98,7 +123,12 @@ def _shown_fault(table: xr.Dataset) -> xr.Dataset:
     return laws.where(runs, fault=runs["fault"].values[0])  # of one material
 
 
-def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> None:
+def _draw_law(
+    axes: Axes,
+    table: xr.Dataset,
+    own: xr.Dataset,
+    theory: float,
+) -> None:
     """The law's median and range, and its closed form, up to the strongest of some runs."""
     same_fault = table["curve_fault"].values == own["fault"].values[0]
     cases = np.flatnonzero(same_fault & (table["curve_kind"].values == own["kind"].values[0]))
@@ -109,8 +139,19 @@ def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> 
     law = table.isel(case=cases[0], curve=known)
     strength = law["curve_strength"]
     ends = (law["curve_low"] / theory, law["curve_high"] / theory)
-    axes.fill_between(strength, *ends, color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0)
-    axes.plot(strength, law["curve_length"] / theory, color=style.THEORY, label=_LAW)
+    axes.fill_between(
+        strength,
+        *ends,
+        color=style.GUIDE,
+        alpha=_BAND_ALPHA,
+        linewidth=0.0,
+    )
+    axes.plot(
+        strength,
+        law["curve_length"] / theory,
+        color=style.THEORY,
+        label=_LAW,
+    )
     axes.plot(
         strength,
         law["curve_closed_form"] / theory,
@@ -121,7 +162,12 @@ def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> 
     )
 
 
-def _draw_floors(axes: Axes, fault: xr.Dataset, floor: str, theory: float) -> None:
+def _draw_floors(
+    axes: Axes,
+    fault: xr.Dataset,
+    floor: str,
+    theory: float,
+) -> None:
     """Quiet runs, each at the strength for which the law's median is its length."""
     quiet = laws.where(fault, kind="none").sortby([floor, "length", "n_x"])
     inside = (2.0 * _STRENGTHS[0] < quiet[floor]) & (quiet[floor] < _STRENGTHS[1])
@@ -130,7 +176,15 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, floor: str, theory: float) -> No
     ratio = shown["length"].values / theory
     elements = np.rint(shown["n_x"].values * theory / shown["block_length"].values).astype(int)
     label = "nothing perturbed, with its elements within $L_c$"
-    axes.plot(strength, ratio, "x", label=label, color=style.BLACK, ms=4.0, mew=0.8)
+    axes.plot(
+        strength,
+        ratio,
+        "x",
+        label=label,
+        color=style.BLACK,
+        ms=4.0,
+        mew=0.8,
+    )
     first = 0
     while first < strength.size:  # close ones share one label
         end = int(np.searchsorted(strength, _CLOSE * strength[first]))
@@ -157,7 +211,12 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
     style.band(axes, 1.0 - _GOAL, 1.0 + _GOAL, f"within {100 * _GOAL:g} %")
     entries = style.entries(axes)
     if "slip" in evolutions:
-        entries["open: slip law"] = style.key("", "o", markersize=4.0, **style.OPEN)
+        entries["open: slip law"] = style.key(
+            "",
+            "o",
+            markersize=4.0,
+            **style.OPEN,
+        )
     axes.set(xscale="log", xlim=_STRENGTHS, xlabel=r"Relative strength $\epsilon$")
     axes.set_ylabel("Simulated mean over the law")
     axes.legend(entries.values(), entries, loc="upper left", **style.BOXED)
@@ -179,11 +238,22 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         look: style.Options = {"where": "mid", "label": label, "linewidth": 1.1}
         axes.step(lengths, parts, dashes, color=colour, **look)
         law = [float(first[name]) / theory for name in _QUANTILES]
-        axes.plot(law, [*_QUANTILES.values()], marker, color=colour, ms=3.5, **style.OPEN)
+        axes.plot(
+            law,
+            [*_QUANTILES.values()],
+            marker,
+            color=colour,
+            ms=3.5,
+            **style.OPEN,
+        )
     axes.set(ylim=(0.0, 1.0), xlabel="Length over theory $L/L_c$", ylabel="Part that has dropped")
     handles = axes.get_legend_handles_labels()[0]
     if handles:
         law_key = style.key("law: 16, 50, 84 %", "o", markersize=3.5, **style.OPEN)
         low, high = axes.get_xlim()
         axes.set_xlim(low - _ROOM * (high - low), high)  # for the legend
-        axes.legend(handles=[*handles, law_key], loc="upper left", **style.BOXED)
+        axes.legend(
+            handles=[*handles, law_key],
+            loc="upper left",
+            **style.BOXED,
+        )

@@ -25,13 +25,24 @@ _TICKS = (0.1, 0.2, 0.5, 1.0, 2.0)
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
     """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate."""
-    figure, (left, right) = style.panels(1, 2, 7.6, sharey=True)
+    figure, (left, right) = style.panels(
+        1,
+        2,
+        7.6,
+        sharey=True,
+    )
     table = laws.where(table, np.isfinite(table["simulated_length"]))
     for name, (label, marker, colour) in KINDS.items():
         rows = laws.where(table, name=name)
         at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
         look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
-        left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
+        left.plot(
+            at["a_over_b"],
+            at["difference"] + 1.0,
+            linestyle="none",
+            label=label,
+            **look,
+        )
         _draw_growth(right, rows, look)
     left.axvspan(LOCALISED_LIMIT, CRACK_LIMIT, color="0.9", lw=0, label="neither formula holds")
     left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
@@ -57,8 +68,21 @@ def _draw_growth(axes: Axes, rows: xr.Dataset, look: style.Options) -> None:
         y = first["difference"].values + 1.0
         axes.plot(x, y, **look)
         at_this_rate = first["finite_speed_length"].values / first["formula_length"].values
-        axes.plot(x, at_this_rate, color=look["color"], linestyle="--", lw=0.8)
+        axes.plot(
+            x,
+            at_this_rate,
+            color=look["color"],
+            linestyle="--",
+            lw=0.8,
+        )
         if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
             ratio = float(same["ratio"][0])
             place = "bottom" if ratio < 0.5 else "top"
-            style.note(axes, f"{ratio:.2g}", (x[-1], y[-1]), (5, 0), va=place, color=look["color"])
+            style.note(
+                axes,
+                f"{ratio:.2g}",
+                (x[-1], y[-1]),
+                (5, 0),
+                va=place,
+                color=look["color"],
+            )

@@ -34,7 +34,11 @@ def draw(grid: xr.Dataset) -> Figure:
     The images show stability, and the drop at the weakest and the strongest perturbation. Lengths
     over height are drawn for a few weakenings.
     """
-    figure, ((stable, quiet), (noisy, slices)) = style.panels(2, 2, 13.0)
+    figure, ((stable, quiet), (noisy, slices)) = style.panels(
+        2,
+        2,
+        13.0,
+    )
     stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)
     drop = mean_over_seeds(grid, "length_ratio")
     _draw_ratio(stable, stability, r"(a) patch turns unstable, $L_s/L_c$")
@@ -43,7 +47,12 @@ def draw(grid: xr.Dataset) -> Figure:
         title = rf"({letter}) drop, load $10^{{{exponent:.0f}}}$, $L/L_c$"
         image = _draw_ratio(axes, drop.isel(strength=i), title)
     label = "(a) to (c): length over theory"
-    figure.colorbar(image, ax=[quiet, slices], label=label, extend="both")
+    figure.colorbar(
+        image,
+        ax=[quiet, slices],
+        label=label,
+        extend="both",
+    )
     _draw_slices(slices, grid, stability, drop.isel(strength=0))
     return figure
 
@@ -70,7 +79,12 @@ def _draw_ratio(axes: Axes, ratio: xr.DataArray, title: str) -> QuadMesh:
     return image
 
 
-def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -> None:
+def _draw_contours(
+    axes: Axes,
+    height: Array,
+    weakening: Array,
+    values: Array,
+) -> None:
     """Contours of the ratio, smoothed over neighbours, without short pieces."""
     smooth = _smoothed(_smoothed(values).T).T
     look: style.Options = {"levels": _CONTOURS, "colors": "white", "linewidths": 0.7}
@@ -82,9 +96,23 @@ def _draw_contours(axes: Axes, height: Array, weakening: Array, values: Array) -
 def _smoothed(values: Array) -> Array:
     """Weighted means of neighbours in a column, of those that are known; NaN stays NaN."""
     known = np.isfinite(values)
-    total = convolve1d(np.where(known, values, 0.0), _WEIGHTS, axis=0, mode="constant")
+    total = convolve1d(
+        np.where(
+            known,
+            values,
+            0.0,
+        ),
+        _WEIGHTS,
+        axis=0,
+        mode="constant",
+    )
     share = convolve1d(known.astype(float), _WEIGHTS, axis=0, mode="constant")
-    return np.divide(total, share, out=np.full(values.shape, np.nan), where=known)
+    return np.divide(
+        total,
+        share,
+        out=np.full(values.shape, np.nan),
+        where=known,
+    )
 
 
 def _long(path: Path) -> Path:
@@ -94,19 +122,47 @@ def _long(path: Path) -> Path:
     return Path.make_compound_path(*[Path(piece) for piece in pieces if len(piece) >= _SHORTEST])
 
 
-def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray) -> None:
+def _draw_slices(
+    axes: Axes,
+    grid: xr.Dataset,
+    stability: xr.DataArray,
+    drop: xr.DataArray,
+) -> None:
     """Theory, stability and drop over height for a few weakenings."""
     weakenings = grid["zeta_over_a"].values
     height = grid["height"].values
-    places = np.linspace(0, weakenings.size - 1, len(_SLICES) + 2)[1:-1]
+    places = np.linspace(
+        0,
+        weakenings.size - 1,
+        len(_SLICES) + 2,
+    )[1:-1]
     shown = np.unique(places.round().astype(int))
     for i, (marker, colour) in zip(shown, _SLICES, strict=False):
         theory = grid["critical_length"].values[:, i]
         axes.plot(height, theory, color=colour)
-        axes.plot(height, theory * drop[:, i], marker, color=colour, markersize=3.5)
-        axes.plot(height, theory * stability[:, i], "--", color=colour, linewidth=0.9)
+        axes.plot(
+            height,
+            theory * drop[:, i],
+            marker,
+            color=colour,
+            markersize=3.5,
+        )
+        axes.plot(
+            height,
+            theory * stability[:, i],
+            "--",
+            color=colour,
+            linewidth=0.9,
+        )
         name = rf"$\zeta/a = {weakenings[i]:.2g}$"
-        style.note(axes, name, (height[-1], theory[-1]), (5.0, 0.0), va="center", color=colour)
+        style.note(
+            axes,
+            name,
+            (height[-1], theory[-1]),
+            (5.0, 0.0),
+            va="center",
+            color=colour,
+        )
     axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
     axes.set_title("(d) lengths over height")
     low, high = axes.get_ylim()

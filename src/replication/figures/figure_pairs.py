@@ -48,8 +48,19 @@ def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     theory = rows["critical_length"].values
     connected = {"": {"x": height, "length": theory}}
     for curve in (curves or connected).values():
-        axes.plot(curve["x"], curve["length"], color=style.THEORY, label=_THEORY)
-    axes.plot(height, rows["length"], "o", color=style.VERMILLION, label="at the drop")
+        axes.plot(
+            curve["x"],
+            curve["length"],
+            color=style.THEORY,
+            label=_THEORY,
+        )
+    axes.plot(
+        height,
+        rows["length"],
+        "o",
+        color=style.VERMILLION,
+        label="at the drop",
+    )
     low = theory * rows["length_ratio_low"]
     high = theory * rows["length_ratio_high"]
     axes.vlines(height, low, high, color=style.VERMILLION)
@@ -58,7 +69,13 @@ def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     axes.plot(height, rows["stability_length"], "D", label=label, **look)
     if height.size:
         for part, line, label in _HALF_SPACES:
-            style.level(axes, part * theory[-1], line, 0.8, label=label)
+            style.level(
+                axes,
+                part * theory[-1],
+                line,
+                0.8,
+                label=label,
+            )
     axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     style.plain_numbers(axes.yaxis)
@@ -75,8 +92,22 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
         axes.plot(thickness, own["stability_ratio"], marker, mfc="none", **look)
         ends = (own["length_ratio_low"], own["length_ratio_high"])
         axes.vlines(thickness, *ends, color=colour, linewidth=0.9)
-    style.level(axes, 1.0, "-", 1.2, color=style.THEORY, label="theory $L_c$")
-    style.level(axes, 0.5, "--", 1.2, color=style.THEORY, label="theory $L_c/2$")
+    style.level(
+        axes,
+        1.0,
+        "-",
+        1.2,
+        color=style.THEORY,
+        label="theory $L_c$",
+    )
+    style.level(
+        axes,
+        0.5,
+        "--",
+        1.2,
+        color=style.THEORY,
+        label="theory $L_c/2$",
+    )
     axes.set(xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$")
     axes.set_ylabel("Length / theory for the same pair")
     axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)")

@@ -44,8 +44,16 @@ def draw_stability(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
         _draw_properties((growth, frequency), patch, row, colour)
         _draw_mode(shape, patch, row, colour)
     memory_time = max(parameters_of(patch).memory_time for patch in patches)
-    for axes, (_, limits, label) in zip((growth, frequency), _PANELS, strict=True):
-        axes.set(xlim=(0.3, 0.8), ylim=np.array(limits) / memory_time, ylabel=label)
+    for axes, (_, limits, label) in zip(
+        (growth, frequency),
+        _PANELS,
+        strict=True,
+    ):
+        axes.set(
+            xlim=(0.3, 0.8),
+            ylim=np.array(limits) / memory_time,
+            ylabel=label,
+        )
         axes.set_xlabel("Patch length over theory $L/L_c$")
     style.level(growth, 0.0)
     look: style.Options = {"color": style.THEORY}
@@ -53,9 +61,23 @@ def draw_stability(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     look |= {"transform": growth.get_xaxis_transform(), "fontsize": style.SMALL}
     growth.text(0.49, 0.9, "$L_c/2$", ha="right", **look)
     number = min(_LEGEND_HEIGHTS, heights.size)
-    named = np.linspace(0, heights.size - 1, number).round().astype(int)
+    named = (
+        np.linspace(
+            0,
+            heights.size - 1,
+            number,
+        )
+        .round()
+        .astype(int)
+    )
     for height in heights[named]:
-        frequency.plot([], [], "-", color=colours[float(height)], label=f"$H={height:g}$ m")
+        frequency.plot(
+            [],
+            [],
+            "-",
+            color=colours[float(height)],
+            label=f"$H={height:g}$ m",
+        )
     late = style.key(f"last {_LATE:g} periods", "x", markersize=3.0)
     growth.legend(handles=[late], loc="lower right", handletextpad=0.2)
     frequency.legend(loc="lower left", labelspacing=0.3)
@@ -80,30 +102,70 @@ def _draw_properties(
     ratio = patch["patch_length"].values / float(row["critical_length"])
     time = patch["instant_time"].values
     late = time > time.max() - _LATE * 2.0 * np.pi / float(patch["stability_frequency"])
-    for axes, (name, _, _) in zip(panels, _PANELS, strict=True):
+    for axes, (name, _, _) in zip(
+        panels,
+        _PANELS,
+        strict=True,
+    ):
         values = patch[f"oscillation_{name}"].values
         look: style.Options = {"rasterized": True, "color": colour, "linestyle": "none"}
-        axes.plot(ratio[~late], values[~late], marker=".", ms=1.8, **look)
-        axes.plot(ratio[late], values[late], marker="x", ms=2.4, mew=0.6, **look)
+        axes.plot(
+            ratio[~late],
+            values[~late],
+            marker=".",
+            ms=1.8,
+            **look,
+        )
+        axes.plot(
+            ratio[late],
+            values[late],
+            marker="x",
+            ms=2.4,
+            mew=0.6,
+            **look,
+        )
 
 
-def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colour: Array) -> None:
+def _draw_mode(
+    axes: Axes,
+    patch: xr.Dataset,
+    row: xr.Dataset,
+    colour: Array,
+) -> None:
     """Modulus of the mode where it begins to grow."""
     length = float(row["stability_length"])
     if np.isfinite(length):
         modulus = np.hypot(patch["mode_real"].values, patch["mode_imaginary"].values)
-        axes.plot(patch["x"].values / length, modulus, linewidth=1.0, color=colour)
+        axes.plot(
+            patch["x"].values / length,
+            modulus,
+            linewidth=1.0,
+            color=colour,
+        )
 
 
 def _finish_mode(axes: Axes) -> None:
     """The homogeneous mode of the theory, a whole wave of constant modulus, and texts."""
     x = np.linspace(0.0, 1.0, 201)
-    axes.plot(x, np.sin(2.0 * np.pi * x), "--", color=style.THEORY, linewidth=1.1)
+    axes.plot(
+        x,
+        np.sin(2.0 * np.pi * x),
+        "--",
+        color=style.THEORY,
+        linewidth=1.1,
+    )
     style.level(axes, 0.0)
     text: style.Options = {"fontsize": style.SMALL, "va": "top"}
     axes.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", **text)
     theory = "theory, $L=L_c$: one wavelength"
-    axes.text(0.95, -1.08, theory, color=style.THEORY, ha="right", **text)
+    axes.text(
+        0.95,
+        -1.08,
+        theory,
+        color=style.THEORY,
+        ha="right",
+        **text,
+    )
     axes.set(xlim=(0.0, 1.0), ylim=(-1.35, 1.15))
     axes.set(xlabel="Position over patch length $x/L$", ylabel="Slip in the mode")
 
@@ -152,7 +214,14 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
         measured = own["stability_length"] / own["critical_length"]
         difference = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
         label = str(own["study"].values[0]).replace("_", " ")
-        axes.plot(measured, difference, marker, color=colour, markersize=2.8, label=label)
+        axes.plot(
+            measured,
+            difference,
+            marker,
+            color=colour,
+            markersize=2.8,
+            label=label,
+        )
     style.band(axes, -100.0 * _BAND, 100.0 * _BAND, f"within {100 * _BAND:g} %")
     axes.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
     axes.figure.legend(
@@ -171,7 +240,17 @@ def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
     for i, colour in enumerate(style.shades(table.sizes["case"])):
         case = table.isel(case=i)
         label = rf"$f\beta = {float(case['shown_beta']):.2g}$"
-        axes.plot(case["shown_x"], case["shown_stress"], color=colour, label=label)
-        axes.plot(case["shown_x"], case["shown_rate"], color=colour, linestyle="--")
+        axes.plot(
+            case["shown_x"],
+            case["shown_stress"],
+            color=colour,
+            label=label,
+        )
+        axes.plot(
+            case["shown_x"],
+            case["shown_rate"],
+            color=colour,
+            linestyle="--",
+        )
     axes.set(xlabel="$x/L_s$", ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)", ylim=(0.0, 2.2))
     axes.legend(fontsize=style.SMALL)

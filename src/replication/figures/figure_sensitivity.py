@@ -37,7 +37,12 @@ def draw(table: xr.Dataset) -> Figure:
     shown = laws.where(table, table["variation"].values != "base")
     variations = list(dict.fromkeys(shown["variation"].values.tolist()))
     rows = len(variations)
-    figure, panels = style.panels(1, 2, 0.47 * (rows + 4), sharey=True)
+    figure, panels = style.panels(
+        1,
+        2,
+        0.47 * (rows + 4),
+        sharey=True,
+    )
     for axes, (name, title) in zip(panels, _PANELS, strict=True):
         _draw_changes(axes, shown, variations, name)
         axes.set(title=title, xlabel="Change against the base (%)")
@@ -61,7 +66,12 @@ def label(variation: str) -> str:
     return rf"${typeset}{sign}{value}$"
 
 
-def _draw_changes(axes: Axes, shown: xr.Dataset, variations: list[str], name: str) -> None:
+def _draw_changes(
+    axes: Axes,
+    shown: xr.Dataset,
+    variations: list[str],
+    name: str,
+) -> None:
     for i in range(0, len(variations), 2):
         axes.axhspan(i - 0.5, i + 0.5, color="0.95", zorder=0)
     heights = list(laws.groups(shown.sortby("height"), "height"))

@@ -55,7 +55,11 @@ def draw(
             words = [other]
     if len(numbers) == 1:
         rows = _rows(table, varied[numbers[0]], varied, words, declared)
-        return _draw(rows, theory, label_of(numbers[0], declared[numbers[0]]))
+        return _draw(
+            rows,
+            theory,
+            label_of(numbers[0], declared[numbers[0]]),
+        )
     words += _distinguishing(varied, words, numbers)
     rows = _rows(table, table["critical_length"].values, varied, words, declared)
     title = f"varied: {', '.join(map(named, declared))}" if declared else ""
@@ -69,7 +73,14 @@ def _rows(
     kinds = []
     for i in range(table.sizes["run"]):
         values = {name: varied[name][i] for name in words}
-        texts = [_value_text(name, value, entries[name]) for name, value in values.items()]
+        texts = [
+            _value_text(
+                name,
+                value,
+                entries[name],
+            )
+            for name, value in values.items()
+        ]
         kinds.append(", ".join(filter(None, texts)))
     return table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
 
@@ -83,7 +94,12 @@ def _value_text(name: str, value: float | str | None, entry: Quantity) -> str:
     return text if entry.unit == "1" else f"{text} {entry.unit}"
 
 
-def _draw(rows: xr.Dataset, theory: Curves | None, label: str, title: str = "") -> Figure:
+def _draw(
+    rows: xr.Dataset,
+    theory: Curves | None,
+    label: str,
+    title: str = "",
+) -> Figure:
     """Lengths over one number, or over the theory's lengths if `theory` is None."""
     figure = style.new_figure(7.31, style.SINGLE_COLUMN)
     axes, strip = _axes(figure, rows)
@@ -95,7 +111,13 @@ def _draw(rows: xr.Dataset, theory: Curves | None, label: str, title: str = "") 
     _draw_runs(axes, strip, rows)
     if theory is None and lengths.size:
         ends = [0.95 * lengths.min(), 1.05 * lengths.max()]
-        axes.plot(ends, ends, color=style.GUIDE, linewidth=0.8, label="equality")
+        axes.plot(
+            ends,
+            ends,
+            color=style.GUIDE,
+            linewidth=0.8,
+            label="equality",
+        )
     axes.set_title(textwrap.fill(title, 48), fontsize=style.SMALL)
     axes.set_ylabel("Length at the drop $L$ (m)")
     figure.axes[-1].set_xlabel(label)
@@ -119,7 +141,12 @@ def _axes(figure: Figure, rows: xr.Dataset) -> tuple[Axes, Axes | None]:
     lost = int(np.isnan(rows["length"]).sum())
     if not lost:
         return figure.subplots(), None
-    axes, strip = figure.subplots(2, 1, sharex=True, height_ratios=[1.0, _STRIP])
+    axes, strip = figure.subplots(
+        2,
+        1,
+        sharex=True,
+        height_ratios=[1.0, _STRIP],
+    )
     label = f"no event\n({lost} of {rows.sizes['run']})"
     strip.set_yticks([0.0], [label], fontsize=style.SMALL)
     strip.set_ylim(-1.0, 1.0)
@@ -137,10 +164,24 @@ def _draw_runs(axes: Axes, strip: Axes | None, rows: xr.Dataset) -> None:
         known = np.isfinite(same["length"].values)
         if known.any():
             happened = laws.where(same, known)
-            laws.draw(axes, "x", happened, "length", ms=4.0, label=label, **look)
+            laws.draw(
+                axes,
+                "x",
+                happened,
+                "length",
+                ms=4.0,
+                label=label,
+                **look,
+            )
         if strip is not None:
             lost = same["x"].values[~known]
-            strip.plot(lost, np.zeros(lost.size), linestyle="none", **look, **style.OPEN)
+            strip.plot(
+                lost,
+                np.zeros(lost.size),
+                linestyle="none",
+                **look,
+                **style.OPEN,
+            )
 
 
 def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
@@ -187,7 +228,13 @@ def _draw_maps(
     x = np.asarray(varied[along], dtype=float)
     y = np.asarray(varied[up], dtype=float)
     at = np.searchsorted(grid[up], y), np.searchsorted(grid[along], x)
-    figure, (left, right) = style.panels(1, 2, 7.476, sharex=True, sharey=True)
+    figure, (left, right) = style.panels(
+        1,
+        2,
+        7.476,
+        sharex=True,
+        sharey=True,
+    )
     length = table["length"].values
     ratio = length / table["critical_length"].values
     lost = ~np.isfinite(length)
@@ -198,8 +245,19 @@ def _draw_maps(
     ):
         image = np.full((grid[up].size, grid[along].size), np.nan)
         image[at] = values
-        mesh = axes.pcolormesh(edges(grid[along]), edges(grid[up]), image, cmap=colours)
-        axes.plot(x[lost], y[lost], "x", color=style.VERMILLION, label=label)
+        mesh = axes.pcolormesh(
+            edges(grid[along]),
+            edges(grid[up]),
+            image,
+            cmap=colours,
+        )
+        axes.plot(
+            x[lost],
+            y[lost],
+            "x",
+            color=style.VERMILLION,
+            label=label,
+        )
         figure.colorbar(mesh, ax=axes, pad=0.02)
         axes.set_title(title)
         axes.set_xlabel(label_of(along, entries[along]))

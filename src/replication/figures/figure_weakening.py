@@ -65,7 +65,13 @@ def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset:
 def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
     """The lengths of one base and height."""
     for name, (label, colour, dashes) in _LINES.items():
-        axes.plot(curves["curve_ratio"], curves[name], dashes, color=colour, label=label)
+        axes.plot(
+            curves["curve_ratio"],
+            curves[name],
+            dashes,
+            color=colour,
+            label=label,
+        )
     for fault in laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"):
         simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
@@ -95,8 +101,19 @@ APART = 0.08  # log of zeta/a over that of r, by which marks of one zeta/a are d
 def draw_patches(table: xr.Dataset) -> Figure:
     """Draw outcomes of patches over zeta/a and W/W_c, one panel for each V, the largest first."""
     velocities = np.unique(table["velocity"])[::-1]
-    figure, panels = style.panels(1, velocities.size, 8.0, sharey=True, squeeze=False)
-    for axes, letter, velocity in zip(panels[0], "abcdefgh", velocities, strict=False):
+    figure, panels = style.panels(
+        1,
+        velocities.size,
+        8.0,
+        sharey=True,
+        squeeze=False,
+    )
+    for axes, letter, velocity in zip(
+        panels[0],
+        "abcdefgh",
+        velocities,
+        strict=False,
+    ):
         rows = laws.where(table, velocity=velocity)
         _draw_outcomes(axes, rows)
         rate = float(rows["dynamic_rate"][0])
@@ -107,7 +124,12 @@ def draw_patches(table: xr.Dataset) -> Figure:
         for label, marker, colour in LOOKS.values()
     }
     entries["other $a$"] = style.key("other $a$", "o", colour=style.GUIDE)
-    figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside upper center",
+        ncols=len(entries),
+    )
     return figure
 
 
@@ -118,6 +140,13 @@ def _draw_outcomes(axes: Axes, rows: xr.Dataset) -> None:
         for varies, face in (("zeta", "none"), ("a", colour)):
             own = laws.where(rows, outcome=name, varies=varies)
             place = own["zeta_over_a"] * own["strengthening"] ** APART
-            axes.plot(place, own["width_ratio"], marker, color=colour, mfc=face, ls="none")
+            axes.plot(
+                place,
+                own["width_ratio"],
+                marker,
+                color=colour,
+                mfc=face,
+                ls="none",
+            )
     axes.set(xscale="log", xlabel=r"Weakening of the patch $\zeta/a$")
     style.plain_numbers(axes.xaxis, TICKS)

@@ -39,9 +39,29 @@ class Look(NamedTuple):
 
 PAPERS = {
     ("aging", False): Look("o", 4.6, style.AGING, "aging law"),
-    ("slip", False): Look("^", 7.2, style.SLIP, "slip law", -4.0),
-    ("aging", True): Look("s", 6.6, style.OLD_AGE, "aging law", 4.0, True),
-    ("slip", True): Look("v", 7.2, style.SLIP, "slip law", 8.0, True),
+    ("slip", False): Look(
+        "^",
+        7.2,
+        style.SLIP,
+        "slip law",
+        -4.0,
+    ),
+    ("aging", True): Look(
+        "s",
+        6.6,
+        style.OLD_AGE,
+        "aging law",
+        4.0,
+        True,
+    ),
+    ("slip", True): Look(
+        "v",
+        7.2,
+        style.SLIP,
+        "slip law",
+        8.0,
+        True,
+    ),
 }
 
 _OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
@@ -56,7 +76,13 @@ def looks(laws: Iterable[str]) -> dict[Kind, Look]:
         for i, law in enumerate(others):
             marker, colour = _OTHERS[i % len(_OTHERS)]
             name = f"{law.replace('_', ' ')} law"
-            found[law, old] = Look(marker, 6.6, style.OLD_AGE if old else colour, name, old=old)
+            found[law, old] = Look(
+                marker,
+                6.6,
+                style.OLD_AGE if old else colour,
+                name,
+                old=old,
+            )
     return found
 
 
@@ -115,7 +141,11 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
     middle = table[name].values
     low = table.get(f"{name}_low", table[name]).values
     high = table.get(f"{name}_high", table[name]).values
-    bars = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
+    bars = np.clip(
+        np.nan_to_num([middle - low, high - middle]),
+        0.0,
+        None,
+    )
     usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
     axes.errorbar(table[x].values, middle, bars, **usual | look)
 
@@ -123,4 +153,9 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
 def draw_range(axes: Axes, x: float, values: Array, **look: Any) -> None:
     """Draw the mean of realisations as a point, with a bar from the least to the largest."""
     mean = values.mean()
-    axes.errorbar(x, mean, [[mean - values.min()], [values.max() - mean]], **look)
+    axes.errorbar(
+        x,
+        mean,
+        [[mean - values.min()], [values.max() - mean]],
+        **look,
+    )

@@ -46,11 +46,29 @@ def figure_s1(theory: xr.Dataset) -> Figure:
     full = theory["steady_friction"].values
     logarithmic = theory["steady_friction_logarithmic"].values
     velocity = float(theory["velocity"])
-    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
-    axes.semilogx(rate, logarithmic, color=style.BLUE, linewidth=1.1, label="logarithmic law")
+    axes.semilogx(
+        rate,
+        full,
+        color=style.FULL_LAW,
+        linewidth=2.2,
+        label="full law",
+    )
+    axes.semilogx(
+        rate,
+        logarithmic,
+        color=style.BLUE,
+        linewidth=1.1,
+        label="logarithmic law",
+    )
     style.vertical(axes, velocity)
     across = axes.get_xaxis_transform()
-    axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
+    axes.annotate(
+        "$V$",
+        (velocity, 0.0),
+        (4.0, 5.0),
+        across,
+        "offset points",
+    )
     axes.set_xlabel(r"Slip rate $v$ (m/s)")
     axes.set_ylabel(r"Steady-state friction coefficient $f_{\mathrm{ss}}$")
     axes.set_xlim(rate.min(), rate.max())

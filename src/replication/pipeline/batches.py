@@ -43,7 +43,12 @@ class Inputs(Sequence[Any]):
 class Batch:
     """The results of a batch, each made from its recipe by a function, on some cores."""
 
-    def __init__(self, result: Callable[[Recipe], Any], parts: Sequence[Recipe], cores: int):
+    def __init__(
+        self,
+        result: Callable[[Recipe], Any],
+        parts: Sequence[Recipe],
+        cores: int,
+    ):
         self._result = result
         self._parts = parts
         self._cores = cores
@@ -55,7 +60,11 @@ class Batch:
         them once all were tried.
         """
         names = [part.name for part in self._parts]
-        made = side_by_side(lambda i: self._one(i, function), names, self._cores)
+        made = side_by_side(
+            lambda i: self._one(i, function),
+            names,
+            self._cores,
+        )
         failures = [failure for failure, _ in made if failure]
         if failures and len(names) == 1:
             sys.exit(failures[0])

@@ -152,7 +152,13 @@ def main(command: str, results: str, expected_file: str) -> None:
     try:
         expected = json.loads(Path(expected_file).read_text("utf-8"))
         if command == "prune":
-            print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
+            print(
+                prune(
+                    Path(results),
+                    expected,
+                    os.environ.get("PRUNE") == "yes",
+                )
+            )
             return
         findings = check_results(Path(results), expected)
     except (DatasetError, OSError) as error:

@@ -28,7 +28,12 @@ _ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 Snakemake sets the first to the threads of the rule."""
 
 
-def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
+def main(
+    recipe_file: str,
+    rule: str,
+    threads: str,
+    log: str,
+) -> None:
     """Make the result of a recipe and show it; SystemExit if that fails, with the reason logged."""
     began = time.monotonic()
     os.environ |= dict.fromkeys(_ONE_CORE, "1")

@@ -40,7 +40,12 @@ _OF_MACHINE = {"wall_seconds", "peak_megabytes", "created", "versions", "command
 """Variables that differ between any two results of one recipe."""
 
 
-def make(recipe: Recipe, rule: str, threads: int, forced: bool) -> None:
+def make(
+    recipe: Recipe,
+    rule: str,
+    threads: int,
+    forced: bool,
+) -> None:
     """Make the result of a recipe and put it into the store; SystemExit with the reason if not.
 
     The parts of a batch are made on `threads` cores. If it is `forced`, a result that the store has
@@ -73,7 +78,12 @@ def verify(recipe: Recipe) -> None:
 class _Maker:
     """Makes the results of one rule."""
 
-    def __init__(self, rule: str, store: Store, forced: bool) -> None:
+    def __init__(
+        self,
+        rule: str,
+        store: Store,
+        forced: bool,
+    ) -> None:
         self._rule = rule
         self._store = store
         self._forced = forced
@@ -184,7 +194,11 @@ class _Maker:
             LOGGER.info(f"{recipe.name}, made again: {compared}")
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
-        self._store.put(recipe.key, write, {**about, "rule": self._rule, "name": recipe.name})
+        self._store.put(
+            recipe.key,
+            write,
+            {**about, "rule": self._rule, "name": recipe.name},
+        )
         give_all(self._store.entry(recipe.key), self._others)
 
     def _compared(self, key: str, write: Callable[[Path], None]) -> str:

@@ -40,7 +40,12 @@ Paths = Any
 class Plan:
     """The recipes of a workflow: its rules by name, Snakemake's workflow, and where results go."""
 
-    def __init__(self, rules: Any, workflow: Any, results: str) -> None:
+    def __init__(
+        self,
+        rules: Any,
+        workflow: Any,
+        results: str,
+    ) -> None:
         self._rules = rules  # each is read when it is used, so its definition may come later
         self._workflow = workflow
         self._configured = results
@@ -263,7 +268,12 @@ class Plan:
             self._write(rule, recipe, file)
         return str(file)
 
-    def _write(self, rule: str, recipe: Recipe, file: Path) -> None:
+    def _write(
+        self,
+        rule: str,
+        recipe: Recipe,
+        file: Path,
+    ) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
         if self.runs:
             self._update_views(recipe)

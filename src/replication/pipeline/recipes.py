@@ -120,7 +120,14 @@ class Recipe(_Ingredients):
     def obtained(self, store: Store, others: list[Store]) -> list[Path]:
         """Copy what a store lacks from others; return the stores that had it."""
         lacking = [one for one in self.needed if not store.has(one.key, one.names)]
-        found = (store.take(one.key, one.names, others) for one in lacking)
+        found = (
+            store.take(
+                one.key,
+                one.names,
+                others,
+            )
+            for one in lacking
+        )
         return [source for source in found if source is not None]
 
     def stored(self, file: str) -> str:

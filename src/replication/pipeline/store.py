@@ -135,7 +135,12 @@ class Store:
         """Keys of all entries, right or wrong."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
 
-    def put(self, key: str, make: Callable[[Path], None], about: Mapping[str, Any]) -> None:
+    def put(
+        self,
+        key: str,
+        make: Callable[[Path], None],
+        about: Mapping[str, Any],
+    ) -> None:
         """Make an entry by a function that writes its files into a directory.
 
         `about` has further values of the note. After a crash the entry is complete or missing.
@@ -146,10 +151,22 @@ class Store:
             for path in sorted(place.iterdir()):
                 files[path.name] = {"size": path.stat().st_size, "sha256": digest_of_file(path)}
             note = {"key": key, "files": files, **about}
-            (place / NOTE).write_text(json.dumps(note, indent=1, sort_keys=True) + "\n")
+            (place / NOTE).write_text(
+                json.dumps(
+                    note,
+                    indent=1,
+                    sort_keys=True,
+                )
+                + "\n"
+            )
             self._publish(place, key)
 
-    def take(self, key: str, names: Collection[str], others: "list[Store]") -> Path | None:
+    def take(
+        self,
+        key: str,
+        names: Collection[str],
+        others: "list[Store]",
+    ) -> Path | None:
         """Copy an entry from the first store elsewhere that has it right; return that store.
 
         A store that is out of reach is reported and removed from the list.

@@ -145,7 +145,11 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
     cases = [(name, kind) for name in laws for kind in QUIET_KINDS]
     values = [[laws[name].lengths(kind, x) for x in CURVE_STRENGTHS] for name, kind in cases]
     shape = len(cases), CURVE_STRENGTHS.size, 4
-    length, low, high, closed_form = np.moveaxis(np.reshape(values, shape), -1, 0)
+    length, low, high, closed_form = np.moveaxis(
+        np.reshape(values, shape),
+        -1,
+        0,
+    )
     along = ("case", "curve")
     found = xr.Dataset(
         {

@@ -57,7 +57,12 @@ class LayerPair(NamedTuple):
             "second_poisson_ratio": self.second_poisson_ratio,
         }
 
-    def run(self, base: Run, height: float, second_height: float) -> Run:
+    def run(
+        self,
+        base: Run,
+        height: float,
+        second_height: float,
+    ) -> Run:
         """Run of layers of these heights (m), with friction and loading of `base`."""
         further = {
             "plane": "strain",

@@ -28,7 +28,14 @@ def measured_runs(
     runs: Sequence[Row], records: _Records, settings: ExtractionSettings, measure: str
 ) -> xr.Dataset:
     """The rows of a batch's runs, without those that have no record."""
-    rows = records.map(lambda i, record: _measured(runs[i], record, settings, measure))
+    rows = records.map(
+        lambda i, record: _measured(
+            runs[i],
+            record,
+            settings,
+            measure,
+        )
+    )
     return lengths.join(rows) if rows else xr.Dataset()  # an empty one is not kept
 
 

@@ -85,11 +85,24 @@ def variation(run: Row, base: Row) -> Varied:
         varied.remove("initial_stress")
         varied.add("initial_shear_stress")
     known = parameters()
-    words = [_words(known[name], name, values[name], usual.get(name)) for name in sorted(varied)]
+    words = [
+        _words(
+            known[name],
+            name,
+            values[name],
+            usual.get(name),
+        )
+        for name in sorted(varied)
+    ]
     return ", ".join(sorted(varied)) or BASE, ", ".join(words) or BASE
 
 
-def _words(entry: Quantity, name: str, value: float | str | None, usual: float | str | None) -> str:
+def _words(
+    entry: Quantity,
+    name: str,
+    value: float | str | None,
+    usual: float | str | None,
+) -> str:
     """A changed value in words: a multiple of the usual one where there is one."""
     symbol = entry.symbol or name
     if value is None:

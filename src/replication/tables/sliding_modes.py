@@ -63,7 +63,12 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     return State.beginning(motion, rates, log_state, response.w)
 
 
-def one_wavelength(run: Run, height: float, wavenumber: float, nodes: int = NODES) -> Run:
+def one_wavelength(
+    run: Run,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
+) -> Run:
     """The block one wavelength ``2 pi / k`` long and H (m) high; elements about as high as long."""
     length = 2.0 * math.pi / wavenumber
     rows, grading = _mesh(height, length, nodes)
@@ -118,13 +123,22 @@ def _fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
     last = amplitude[1:-1]
     before = amplitude[:-2]
     past = np.stack([last, before], axis=1)
-    (p, q), *_ = np.linalg.lstsq(past, amplitude[2:], rcond=None)
+    (p, q), *_ = np.linalg.lstsq(
+        past,
+        amplitude[2:],
+        rcond=None,
+    )
     growth = np.roots([1.0, -p, -q])
     rates = np.log(growth) / interval
     return rates[np.argsort(-rates.real)]
 
 
-def measured_rates(run: Run, height: float, wavenumber: float, nodes: int = NODES) -> ComplexArray:
+def measured_rates(
+    run: Run,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
+) -> ComplexArray:
     """Both growth rates (1/s) of a wavenumber (1/m) at H (m), the faster growing one first."""
     period = one_wavelength(run, height, wavenumber, nodes)
     interval, amplitude = _follow_mode(period)

@@ -152,6 +152,14 @@ def _evenly_over_contrast(rows: list[Row]) -> list[Row]:
     """Up to :data:`PROFILES` rows with different contrasts, in their order."""
     ordered = sorted(rows, key=lambda row: row["f_beta"])
     different = list({round(row["f_beta"], 6): row for row in ordered}.values())
-    places = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
+    places = (
+        np.linspace(
+            0,
+            len(different) - 1,
+            PROFILES,
+        )
+        .round()
+        .astype(int)
+    )
     shown = {different[i]["id"]: different[i] for i in places}
     return list(shown.values())

@@ -128,7 +128,11 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = CURVE) -> xr
         high.append(is_high)
         lengths.append([_over_critical(parameters, ratio) for ratio in ratios])
     studies, bases, heights = zip(*systems, strict=True)
-    stability, runaway, law = np.moveaxis(np.array(lengths), -1, 0)
+    stability, runaway, law = np.moveaxis(
+        np.array(lengths),
+        -1,
+        0,
+    )
     along = ("system", "curve")
     found = xr.Dataset(
         {
@@ -194,7 +198,11 @@ def gather_other_faults(drops: xr.Dataset, runs: Iterable[Row]) -> xr.Dataset:
 
 def _of_fault(own: xr.Dataset, theory: Row) -> Row:
     """One fault's row, of the lengths (m) of its realisations and its :data:`EXPECTED`."""
-    (row,) = rows_of(own, [0], (*OF_FAULT, "zeta", "a"))
+    (row,) = rows_of(
+        own,
+        [0],
+        (*OF_FAULT, "zeta", "a"),
+    )
     lengths = own["length"].values
     is_inside = (lengths >= theory["expected_low"]) & (lengths <= theory["expected_high"])
     simulated = {

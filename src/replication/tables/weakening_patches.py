@@ -149,7 +149,15 @@ def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
     found = []
     for key, rows in sorted(groups.items()):
         names = ("varies", "zeta_over_a", "strengthening", "slow_slip_up_to", "events_from")
-        found.append(dict(zip(names, (*key, *bounds_of(rows)), strict=True)))
+        found.append(
+            dict(
+                zip(
+                    names,
+                    (*key, *bounds_of(rows)),
+                    strict=True,
+                )
+            )
+        )
     return table(found, BOUNDS)
 
 

@@ -56,7 +56,13 @@ def constants(friction: Friction, velocity: float) -> dict[str, float]:
     dict of float
     """
     f, a, zeta = friction.expansion(velocity)
-    return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
+    return dict(
+        zip(
+            CONSTANTS,
+            (f, a, zeta / a, zeta, a + zeta),
+            strict=True,
+        )
+    )
 
 
 def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any]) -> Friction:
@@ -100,7 +106,13 @@ def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any
     return full_law(friction, velocity, f, a, zeta)
 
 
-def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: float) -> Friction:
+def full_law(
+    friction: Friction,
+    velocity: float,
+    f: float,
+    a: float,
+    zeta: float,
+) -> Friction:
     """The law with these constants about steady sliding at one slip rate.
 
     Parameters

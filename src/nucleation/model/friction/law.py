@@ -190,7 +190,13 @@ class Friction(Checked):
         """Slip rate (m/s) below which friction is linear in it: about its scale of change there."""
         return self.regularisation_slip_rate
 
-    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
+    def with_expansion(
+        self,
+        velocity: float,
+        f: float,
+        a: float,
+        zeta: float,
+    ) -> Self:
         """The law with other :attr:`set_by_expansion`, so that :meth:`expansion` is (f, a, zeta).
 
         Parameters

@@ -72,7 +72,14 @@ class _Front:
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
         self.length = length
         self.responses = [
-            [response(patches.one, one, number) for one in length * np.exp(step)]
+            [
+                response(
+                    patches.one,
+                    one,
+                    number,
+                )
+                for one in length * np.exp(step)
+            ]
             for step in (-STEP, 0.0, STEP)
         ]
         steady_friction = self.law.expansion(self.velocity).f0
@@ -125,7 +132,14 @@ class _Front:
             log_state = _stepped(law, log_state, steps[:, j], speed)
             along.append(log_state)
         self.log_states = np.array(
-            [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
+            [
+                np.interp(
+                    own.theta,
+                    theta,
+                    of_length,
+                )
+                for of_length in np.transpose(along)
+            ]
         )
         slip_rate = self._slip_rate(own.values)
         self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)

@@ -46,7 +46,12 @@ def first_growing(
         before, after = fastest(advanced(around))
         if before < 0.0 < after:
             return onset
-    return bisected(lambda length: bool(fastest(advanced([length]))[0] > 0.0), low, high, NARROW)
+    return bisected(
+        lambda length: bool(fastest(advanced([length]))[0] > 0.0),
+        low,
+        high,
+        NARROW,
+    )
 
 
 def _bracket(

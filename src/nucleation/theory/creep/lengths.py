@@ -148,10 +148,18 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any, Any]:
         velocity: Array,
     ) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((5, critical.size), np.nan, dtype=object)
+        found = np.full(
+            (5, critical.size),
+            np.nan,
+            dtype=object,
+        )
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
-            patches = Patches(one, velocity=float(velocity[i]), loading=fault.loading)
+            patches = Patches(
+                one,
+                velocity=float(velocity[i]),
+                loading=fault.loading,
+            )
             if law is not None:
                 patches = _with_law(patches, law)
             try:

@@ -186,7 +186,11 @@ def _thickened(
     if not np.isfinite(by_normal):
         by_normal = 0.0
     found = _resolved(thicker, length, number, even)
-    return dataclasses.replace(found, shear=by_shear * found.shear, normal=by_normal * found.normal)
+    return dataclasses.replace(
+        found,
+        shear=by_shear * found.shear,
+        normal=by_normal * found.normal,
+    )
 
 
 def _with_heights_times(

@@ -187,7 +187,11 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
 
     def points(systems: Systems) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((4, critical.size), np.nan, dtype=object)
+        found = np.full(
+            (4, critical.size),
+            np.nan,
+            dtype=object,
+        )
         for i, length in enumerate(critical):
             patches = Patches(systems.at(np.array([i])), evolution=fault.evolution)
             try:

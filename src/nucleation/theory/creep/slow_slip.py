@@ -46,7 +46,15 @@ def cohesive_wavenumber(patches: Patches, critical: float) -> float:
     one = patches.one
     k = 2.0 * np.pi / critical * np.geomspace(0.1, 1e4, 500)
     load = one.load_and_coupling(k)[0]
-    return float(np.exp(np.interp(math.log(one.b[0]), np.log(load), np.log(k))))
+    return float(
+        np.exp(
+            np.interp(
+                math.log(one.b[0]),
+                np.log(load),
+                np.log(k),
+            )
+        )
+    )
 
 
 def modes_that_resolve(
@@ -163,10 +171,18 @@ def _integrated(
         after, error = _step(slow, logs, stages, step)
         accepted = error < 1.0
         logs = np.where(accepted[..., None], after, logs)
-        stages[0] = np.where(accepted[..., None], stages[-1], stages[0])
+        stages[0] = np.where(
+            accepted[..., None],
+            stages[-1],
+            stages[0],
+        )
         time = time + accepted * step
         fast = logs[0].max(axis=-1) > math.log(FAST)
-        found[rows] = np.where(fast, np.minimum(time, found[rows]), found[rows])
+        found[rows] = np.where(
+            fast,
+            np.minimum(time, found[rows]),
+            found[rows],
+        )
         lasting = ~fast & (time < duration)
         growth = 0.85 * (error + 1e-9) ** (-1.0 / ORDER)
         step = lasting * step * np.clip(growth, 0.2, 3.0)
