@@ -40,6 +40,15 @@ from nucleation import api
 fault = api.Fault(**{WEAK})
 print(fault.runaway_length())
 """
+RUN = """
+try:
+    from replication.configuration.load import load
+except ImportError:
+    from nucleation.configuration.load import load
+from nucleation.simulation.run import simulate
+found = load("config/config.yaml").run("converged-aging-H0.02-phi1-seed1")
+simulate(getattr(found, "run", None) or found.parameters)
+"""
 PLAN = """
 studies:
   large:
@@ -48,7 +57,6 @@ studies:
       - height: {start: 0.01, stop: 0.1, num: 5000}
 """
 NOTHING = "git clean -fdxq results; rm -rf .snakemake"
-RUN = "converged-aging-H0.02-phi1-seed1"
 
 PARTS = {
     "install": ("make clean-venv", "make install"),
@@ -56,13 +64,13 @@ PARTS = {
     "workflow": (NOTHING, "make paper"),
     "length": ("", f".venv/bin/nucleation length {FAULT}"),
     "runaway": ("", "PYTHONPATH=src .venv/bin/python runaway.py"),
-    "step": ("", f".venv/bin/nucleation simulate --force run.nc --run {RUN}"),
+    "run": ("", "PYTHONPATH=src .venv/bin/python run.py"),
     "plan": ("", ".venv/bin/snakemake -n lengths --quiet all --configfile plan.yaml"),
     "test": ("", "make test"),
 }
 """Commands that are not timed, and the command that is."""
 
-USUAL = ("length", "runaway", "step", "plan", "workflow", "paper")
+USUAL = ("length", "runaway", "run", "plan", "workflow", "paper")
 
 
 class Times(NamedTuple):
@@ -104,6 +112,7 @@ def clone_of(commit: str, folder: Path) -> Path:
     run(f"git clone --quiet . {shlex.quote(str(folder))}", CHECKOUT)
     run(f"git checkout --quiet {shlex.quote(commit)}", folder)
     (folder / "runaway.py").write_text(RUNAWAY)
+    (folder / "run.py").write_text(RUN)
     (folder / "plan.yaml").write_text(PLAN)
     run("make install", folder)
     return folder
