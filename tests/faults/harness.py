@@ -85,9 +85,9 @@ class Place:
 
     def key(self, id: str) -> str:
         """The key of a simulation."""
-        parameters = load(self.directory / "config.yaml").run(id).run
-        values = {"parameters": parameters.to_dict()}
-        return Recipe(id, [], "results", SIMULATE, plugins(parameters), values, {}, []).key
+        run = load(self.directory / "config.yaml").run(id).run
+        values = {"parameters": run.to_dict()}
+        return Recipe(id, [], "results", SIMULATE, plugins(run.law), values, {}, []).key
 
     def simulation(self, id: str) -> Path:
         """The dataset of one simulation."""

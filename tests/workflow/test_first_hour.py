@@ -13,7 +13,7 @@ studies:
   granite:
     description: granite layers of two heights
     length_over_critical: 3
-    defaults: {slip_distance: 5 um, a: 0.008, f: 0.47, zeta_over_a: 2, n_x: 60, n_y: 4}
+    defaults: {slip_distance: 5 um, a: 0.008, friction: 0.47, zeta_over_a: 2, n_x: 60, n_y: 4}
     runs:
       - height: [2 cm, 5 cm]
       - {height: 4 cm, end_time: 20 s}
