@@ -140,7 +140,7 @@ def test_coarse_meshes_are_one_line_and_a_list(workflow):
 
 
 def test_other_warnings_are_printed_in_full(workflow):
-    runs = [{"height": 0.01, "n_x": 400, "length": 0.4, "end_time": 100.0}]
+    runs = [{"height": 0.01, "n_x": 400, "block_length": 0.4, "end_time": 100.0}]
     study = {"interface": "main_text", "runs": runs}
     done = workflow.configured({"studies": {"short": study}})("lengths", "--dry-run")
     (warning,) = re.findall("Warning: .*", done.stdout)
@@ -153,7 +153,7 @@ def test_other_warnings_are_printed_in_full(workflow):
     [
         ("lengths", "own", "no study with table: lengths, which this target needs"),
         ("figure_sensitivity", "own", "no study with role: sensitivity, which this target needs"),
-        ("figure_3", "lengths", "no study with role: paper has a run with height 0.1 m"),
+        ("figure_3", "lengths", "no study with role: paper has a run with evolution = aging"),
     ],
 )
 def test_target_without_its_studies_says_which(workflow, target, table, missing):
