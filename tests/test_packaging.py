@@ -248,7 +248,7 @@ def test_library_alone_has_the_help_of_every_command(light, tmp_path):
 @pytest.mark.slow
 def test_pages_are_cited_by_an_address_that_is_there(light, tmp_path):
     """Far from a checkout too: by the path of the page that the wheel has brought."""
-    said = outside(light, tmp_path, "-m", "nucleation", "drop", "--paper", "--height", "2cm")
+    said = outside(light, tmp_path, "-m", "nucleation", "length", "--paper", "--height", "2cm")
     said += outside(light, tmp_path, *LENGTH)
     pages = re.findall(r"[^\s(]*doc[^\s(]*\.md", said)
     assert {Path(page).name for page in pages} == {"drop.md", "creeping_patch.md"}

@@ -133,7 +133,7 @@ def test_lost_job_and_node_are_made_up_for(disturbed):
     assert states.pop(on["n2"][0]) == "CANCELLED"
     assert set(states.values()) == {"COMPLETED"}
     assert {job["Restarts"] for job in jobs if job["JobId"] in on["n1"]} == {"1"}
-    assert len(states) == 1 + len(RUNS)  # the theory as well
+    assert len(states) == 2 + len(RUNS)  # the theory and the lengths as well
     assert sum(AGAIN in log for log in logs(made).values()) == 1  # the cancelled, not the lost
 
 
