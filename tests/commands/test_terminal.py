@@ -58,17 +58,14 @@ def test_the_help_fits(nucleation, monkeypatch, command):
 
 
 @pytest.mark.slow
-def test_lines_of_the_drop_a_picture_and_a_dataset_fit(nucleation, monkeypatch, tmp_path):
+def test_lines_of_the_lengths_and_a_dataset_fit(nucleation, monkeypatch, tmp_path):
     monkeypatch.setenv("COLUMNS", "80")
-    drop = nucleation("drop", *GRANITE, *STRESS)
-    plot = tmp_path / "p.png"
-    over = ("--over", "height=1:2m", "--points", "3", "--criterion", "critical")
-    picture = nucleation("plot", plot, *GRANITE[:-2], *STRESS, *over)
-    size = ("--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2")
+    lengths = nucleation("length", *GRANITE, *STRESS)
+    size = ("--height", "5mm", "--block-length", "90cm", "--n-x", "16", "--n-y", "2")
     run = ("simulate", tmp_path / "x.nc", "--second-body", "rigid", *size, "--end-time", "20ms")
     assert nucleation(*run).code == 0
     dataset = nucleation("show", tmp_path / "x.nc")
-    for ended in (drop, picture, dataset):
+    for ended in (lengths, dataset):
         lines = [line for line in said(ended) if str(tmp_path) not in line]
         assert ended.code == 0 and 70 < max(map(len, lines)) <= 80, ended
 

@@ -48,6 +48,7 @@ TEXTS = {
     "loading",
     "name",
     "definition",
+    "varies",
     "doubt",
 }
 

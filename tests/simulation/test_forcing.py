@@ -96,7 +96,7 @@ def test_state_is_forced_as_declared():
     # of a fault at rest in the slip law nothing changes but by the source
     parameters = perturbed("state").replaced(evolution="slip", longest_step=0.02)
     record = simulate(parameters)
-    even = simulate(parameters.replaced())
+    even = simulate(parameters.replaced(perturbation="none", strength=0.0))
     x, time = record["x"].values, record["time"].values
     drive, far = composed(parameters).drive, x > 0.6
     fine = np.linspace(0.0, time[-1], 4001)

@@ -85,7 +85,7 @@ def test_the_body_meets_the_boundary_conditions():
 def test_the_regularised_law_nucleates(evolution):
     """The interface slips under its strength, also where it is stuck far ahead."""
     changes = {"friction_law": "dieterich_ruina", "evolution": evolution, "height": 0.02}
-    parameters = COARSE.replaced(**(changes | {"length": 1.8, "time_after_event": 0.0}))
+    parameters = COARSE.replaced(**(changes | {"block_length": 1.8, "time_after_event": 0.0}))
     record = simulate(parameters)
     assert record.attrs["completed"] and "event" in record.attrs["status"]
     assert record.attrs["rejected_steps"] < 0.5 * record.attrs["steps"]
