@@ -41,10 +41,10 @@ fault = api.Fault(**{WEAK})
 print(fault.runaway_length())
 """
 RUN = """
-try:
-    from replication.configuration.load import load
-except ImportError:
-    from nucleation.configuration.load import load
+from importlib import import_module
+from importlib.util import find_spec
+package = "replication" if find_spec("replication") else "nucleation"
+load = import_module(package + ".configuration.load").load
 from nucleation.simulation.run import simulate
 found = load("config/config.yaml").run("converged-aging-H0.02-phi1-seed1")
 simulate(getattr(found, "run", None) or found.parameters)

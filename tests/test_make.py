@@ -108,7 +108,7 @@ INSTALL = ["-P", "workflow/install.py"]
         ("paper", ["environment.txt"]),
         ("report", ["environment.txt"]),
         ("quick", ["environment.txt"]),
-        ("replication", ["environment.txt", "environment-dev.txt"]),
+        ("replication", ["environment.txt"]),
         ("test-quick", ["environment.txt", "environment-dev.txt"]),
         ("docs", ["environment.txt", "environment-dev.txt"]),
     ],

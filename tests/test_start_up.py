@@ -16,9 +16,8 @@ HEAVY = ("xarray", "netCDF4", "matplotlib", "pint")  # a second in all, on a goo
 SCIENCE = ("scipy", "pandas", "jsonschema")
 
 CONFIGURATION = """
-from replication.configuration import advice, load, schema
+from replication.configuration import advice, load
 settings = load.load()
-schema.build()
 advice.advise(settings.runs)
 """
 LAZY = """
@@ -33,7 +32,7 @@ assert code in (0, None), code
 LENGTHS = """
 from nucleation import api
 fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.01, b=0.015)
-asked.critical_mode(**fault, slip_distance=5e-6, velocity=1.0, height=[0.1, 1.0])
+api.Fault(**fault, slip_distance=5e-6, velocity=1.0, height=[0.1, 1.0]).critical_mode()
 """
 PLAN = """
 from snakemake.cli import main
