@@ -169,7 +169,7 @@ RUN = PAPER_RUN.replaced(
 def test_a_patch_nucleates_where_the_law_of_the_drop_says():
     critical = RUN.critical_length
     found = expected_drop(RUN)
-    assert found.stability_length == stability_length_of(RUN, critical)
+    assert found.stability_length == stability_length_of(RUN.patches, critical)
     measured = float(extract(simulate(RUN))["length"])
     assert measured == pytest.approx(found.law.length, rel=0.04)
     assert 0.6 * critical < measured < 0.7 * critical
