@@ -27,7 +27,7 @@ def run(arguments, checkout):
 
 
 ADDED = ["src/nucleation/model/friction/evolutions/halfway.py"]
-ADDED += ["src/replication/figures/figure_laws.py", "src/nucleation/extraction/by_law.py"]
+ADDED += ["src/replication/figures/figure_laws.py", "src/replication/tables/by_law.py"]
 
 
 @pytest.fixture(scope="module")
