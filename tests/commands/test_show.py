@@ -105,3 +105,45 @@ def test_plot_as_pdf_and_refused_plots(nucleation, files, tmp_path):
     assert ended.code == 2 and "must end in .png or .pdf" in ended.err
     ended = nucleation("show", files["theory"], "--plot", tmp_path / "theory.png")
     assert ended.code == 2 and "plot of simulations alone, and this is a theory" in ended.err
+
+
+@pytest.mark.parametrize("parameters", [{}, {"shear_modulus": "a text"}, {"shear_modulus": None}])
+def test_a_sealed_file_with_other_parameters_is_refused(
+    nucleation, simulation, tmp_path, parameters
+):
+    """Such files ended in tracebacks."""
+    path = kept(tmp_path, "run", simulation, parameters)
+    for words in ((), ("--json",), ("--plot", tmp_path / "plot.png")):
+        ended = nucleation("show", path, *words)
+        assert ended.code == 2 and ended.out == ""
+        assert ended.err.startswith("Error: ") and "Traceback" not in ended.err
+
+
+@pytest.mark.parametrize("name", ["wall_seconds", "steps", "status", "parameters"])
+def test_a_sealed_file_without_an_attribute_is_refused(nucleation, simulation, tmp_path, name):
+    run = PAPER_RUN.to_dict()
+    path = tmp_path / "run.nc"
+    dataset = annotate(simulation, VARIABLES)
+    netcdf.write(dataset, path, **provenance.attributes(run, "0" * 64, "make"))
+    dataset = netcdf.read(path)
+    for value in (None, "a text"):
+        dataset.attrs.pop(name, None)
+        if value and name != "status":
+            dataset.attrs[name] = value
+        attributes = {n: dataset.attrs.pop(n) for n in list(dataset.attrs)}
+        netcdf.write(dataset, path, **attributes)
+        dataset.attrs.update(attributes)
+        ended = nucleation("show", path)
+        assert ended.code == 2 and ended.err.startswith("Error: "), ended
+
+
+def test_escapes_of_a_file_do_not_reach_the_terminal(nucleation, simulation, tmp_path):
+    escape = "\x1b]0;owned\x07"
+    dataset = annotate(simulation.assign_attrs(status=f"completed{escape}"), VARIABLES)
+    dataset["slip_rate"].attrs["long_name"] = f"rate{escape}"
+    path = tmp_path / "run.nc"
+    origin = provenance.attributes(PAPER_RUN.to_dict(), "0" * 64, f"make{escape}")
+    netcdf.write(dataset, path, **origin)
+    said = nucleation("show", path)
+    assert said.code == 0 and "\\x1b]0;owned\\x07" in said.out
+    assert not set(said.out + said.err) & {"\x1b", "\x07"}

@@ -174,6 +174,16 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
 
 
+def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tmp_path):
+    """It was refused; whether it has an event is what one asks the simulation."""
+    words = ["--height", "10cm", "--plane", "stress", "--second-body", "same", "--n-x", "100"]
+    ended = nucleation(
+        "simulate", tmp_path / "run.nc", *words, "--block-length", "25cm", "--dry-run"
+    )
+    assert ended.code == 0 and "critical length 0.3" in ended.out
+    assert "it may have an event all the same" in " ".join(ended.err.split())
+
+
 def test_end_time_is_found_from_the_theory(nucleation, tmp_path):
     words = ["--height", "5mm", "--n-x", "16", "--n-y", "2", "--dry-run", "--json",
              "--second-body", "rigid"]  # fmt: skip

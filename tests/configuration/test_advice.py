@@ -138,8 +138,8 @@ WARNED = {
     ),
     "block below L_c": (
         GOOD | {"block_length": 0.2, "end_time": 20.0},
-        "block shorter than L_c (s-aging-H0.005-phi1-block_length0.2-n_x400-end_time20): length = "
-        "0.2 m is not above the theory's critical length, 0.235 m",
+        "block shorter than L_c (s-aging-H0.005-phi1-block_length0.2-n_x400-end_time20): "
+        "block_length = 0.2 m is not above the theory's critical length, 0.235 m",
     ),
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},

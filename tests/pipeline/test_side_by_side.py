@@ -1,12 +1,14 @@
 """Work on several cores: the same values in the same order, and each end of a process is told."""
 
 import os
+import re
 import signal
 import subprocess
 import time
 
 import pytest
 
+from replication.pipeline import batches
 from replication.pipeline.batches import side_by_side
 
 NAMES = ["first", "second", "third", "fourth"]
@@ -71,3 +73,14 @@ def test_a_signal_reaches_every_process(tmp_path, number):
         side_by_side(work, NAMES, 2)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["first", "second"]
     assert signal.getsignal(number) == before
+
+
+@pytest.mark.parametrize("cores", [1, 2])
+def test_a_batch_tells_how_far_it_is(monkeypatch, capsys, cores):
+    """Runs done of all, and the time left by those that were made; it showed nothing."""
+    monkeypatch.setattr(batches, "PAUSE", 0.0)
+    tally = batches.Tally(4, kept={0})
+    side_by_side(lambda number: time.sleep(0.1 * (number > 0)), NAMES, cores, tally)
+    told = capsys.readouterr().err.splitlines()
+    assert [line.split(", ")[0] for line in told] == [f"{n} of 4 runs done" for n in (2, 3)]
+    assert all(re.search(r", about \d+ s left$", line) for line in told)

@@ -64,6 +64,20 @@ def test_terminal_gets_a_bar_that_goes_away(monkeypatch):
     assert shown.endswith("\r") and shown.split("\r")[-2].strip() == ""
 
 
+def test_a_simulation_of_the_library_shows_itself_on_a_terminal(monkeypatch):
+    """It showed nothing for minutes; a file gets nothing, and False silences it."""
+    short = COARSE.replaced(end_time=0.02, n_x=16)
+    for stream, words, shows in (
+        (Terminal(), {}, True),
+        (Terminal(), {"progress": False}, False),
+        (io.StringIO(), {}, False),
+        (io.StringIO(), {"progress": True}, True),
+    ):
+        monkeypatch.setattr("sys.stderr", stream)
+        progress.simulate(short, **words)
+        assert ("max v = " in stream.getvalue()) == shows
+
+
 def test_part_done_is_by_the_patch_or_the_end_time():
     def part(time, length):
         return Progress(COARSE, io.StringIO()).part_done(time, length)

@@ -80,11 +80,13 @@ _EXTRAS = {
 """The extras of functions that need one."""
 
 
-def _simulate(self: Fault, **settings: Any) -> Any:
+def _simulate(self: Fault, *, progress: bool | None = None, **settings: Any) -> Any:
     """Simulate this fault, a single one with `velocity` and `friction`.
 
     Parameters
     ----------
+    progress : bool, optional
+        Whether a bar shows how far the run is; by default on a terminal and in a notebook.
     **settings
         Of the run by name, in SI units: ``n_x``, ``perturbation``, ``block_length``, ... By default
         the block is 6 L_c long; half-spaces become blocks that are 4 L_c high and 35 L_c long,
@@ -99,7 +101,7 @@ def _simulate(self: Fault, **settings: Any) -> Any:
     from ..run.run import Run
     from ..simulation.progress import simulate
 
-    return simulate(Run(self, **settings))
+    return simulate(Run(self, **settings), progress=progress)
 
 
 Fault.simulate = _simulate  # type: ignore[attr-defined]  # here, since a fault knows no simulation

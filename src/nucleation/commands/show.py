@@ -156,11 +156,11 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
         theory_text = f"no critical length: {error}"
     duration = float(dataset["step_time"][-1])
     seconds, megabytes = (float(attributes[key]) for key in ("wall_seconds", "peak_megabytes"))
+    steps, rejected = (int(attributes[key]) for key in ("steps", "rejected_steps"))
     return [
         *text.parameter_lines(run),
         f"status: {attributes['status']}",
-        f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, "
-        f"{seconds:.4g} s of wall time, {megabytes:.0f} MB",
+        f"steps: {steps}, {rejected} rejected, {seconds:.4g} s of wall time, {megabytes:.0f} MB",
         f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points",
         f"theory: {theory_text}",
         *text.event_lines(extract(dataset), theory),

@@ -193,14 +193,15 @@ def _block(run: Run, critical: float) -> Iterator[Advice]:
         yield (
             BELOW_CRITICAL,
             critical / length,
-            f"length = {length:g} m is not above the theory's critical length, {critical:.3g} m: "
-            "in unbounded bodies nothing nucleates there; near its far end the patch may run away",
+            f"block_length = {length:g} m is not above the theory's critical length, "
+            f"{critical:.3g} m; it may have an event all the same, as a creeping patch turns "
+            "unstable at less than that, but the block's far end changes it",
         )
     elif length < _SHORT_BLOCK * critical:
         yield (
             _SHORT,
             critical / length,
-            f"length = {length:g} m is {length / critical:.3g} times the theory's "
+            f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
             f"critical length, {critical:.3g} m; recommended are 4 to 6 times",
         )
 

@@ -161,7 +161,7 @@ class Progress:
 def simulate(
     run: Run,
     *,
-    progress: bool | Callable[[Instant], object] = False,
+    progress: bool | Callable[[Instant], object] | None = None,
     **more: Any,
 ) -> xr.Dataset:
     """Run one simulation until it ends or the user interrupts it, and return its record.
@@ -170,7 +170,8 @@ def simulate(
     ----------
     run : Run
     progress : bool or callable
-        True shows a bar on a terminal or in a notebook; a callable is called with every step.
+        True shows a bar on a terminal or in a notebook, and lines elsewhere; by default there are
+        no lines, and False shows nothing. A callable is called with every step.
     **more
         `start` and `keep` of :func:`nucleation.simulation.run.simulate`.
 
@@ -190,8 +191,10 @@ def simulate(
     """
     bar = None
     watch = progress if callable(progress) else None
-    if progress is True:
-        bar = watch = Progress(run, sys.stderr, terminal="ipykernel" in sys.modules)
+    notebook = "ipykernel" in sys.modules
+    shown = sys.stderr is not None and (notebook or sys.stderr.isatty())
+    if progress is True or (progress is None and shown):
+        bar = watch = Progress(run, sys.stderr, terminal=notebook)
     interrupts: list[int] = []
 
     def after_step(instant: Instant) -> None:

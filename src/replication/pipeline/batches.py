@@ -4,21 +4,24 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
+from functools import partial
 from threading import Thread
 from types import FrameType
 from typing import Any
 
 from nucleation.simulation.checkpoints import SIGNALS
 
-from .messages import LOGGER
+from .messages import LOGGER, PROGRESS
 from .recipes import Recipe
 from .views import show
 
+PAUSE = 60.0  # s between two lines of progress
 _TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
 
 
@@ -60,10 +63,12 @@ class Batch:
         them once all were tried.
         """
         names = [part.name for part in self._parts]
+        kept = {i for i, part in enumerate(self._parts) if part.is_in(part.store)}
         made = side_by_side(
             lambda i: self._one(i, function),
             names,
             self._cores,
+            Tally(len(names), kept),
         )
         failures = [failure for failure, _ in made if failure]
         if failures and len(names) == 1:
@@ -85,14 +90,52 @@ class Batch:
         return "", None if function is None else function(number, result)
 
 
-def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -> list[Any]:
+class Tally:
+    """Tells now and then how many parts of a batch are done, and about how long the others take.
+
+    Parts that were `kept` before take no time.
+    """
+
+    def __init__(self, number: int, kept: Collection[int] = ()) -> None:
+        self._waiting = set(range(number))
+        self._number = number
+        self._kept = frozenset(kept)
+        self._made = 0
+        self._began = time.monotonic()
+        self._next = self._began + PAUSE
+
+    def __call__(self, part: int) -> None:
+        """Count a part that is done."""
+        self._waiting.discard(part)
+        self._made += part not in self._kept
+        now = time.monotonic()
+        if now < self._next or not self._made or not self._waiting:
+            return
+        self._next = now + PAUSE
+        left = (now - self._began) / self._made * len(self._waiting - self._kept)
+        done = self._number - len(self._waiting)
+        text = f"{left / 60.0:.0f} min" if left > 90.0 else f"{left:.0f} s"
+        LOGGER.log(PROGRESS, f"{done} of {self._number} runs done, about {text} left")
+
+
+def side_by_side(
+    work: Callable[[int], Any],
+    names: Sequence[str],
+    cores: int,
+    done: Callable[[int], object] = bool,
+) -> list[Any]:
     """The values of a function of 0, 1, ..., computed by a forked process for each core.
 
     If a call fails, those that have begun are finished, no other one begins, and SystemExit has the
-    reasons. Signals that stop a job are passed on to its processes.
+    reasons. Signals that stop a job are passed on to its processes. After each call this process
+    calls `done` with the number.
     """
     if min(len(names), cores) < 2:
-        return [work(i) for i in range(len(names))]
+        values = []
+        for i in range(len(names)):
+            values.append(work(i))
+            done(i)
+        return values
     context = multiprocessing.get_context("fork")
     pool = ProcessPoolExecutor(
         min(len(names), cores), context, initializer=_begin, initargs=(work, context.Event())
@@ -107,6 +150,8 @@ def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -
     try:
         with pool:
             calls = [pool.submit(_call, i) for i in range(len(names))]
+            for i, call in enumerate(calls):
+                call.add_done_callback(partial(_tell, done, i))
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -122,6 +167,10 @@ def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -
     if reasons:
         sys.exit("\n".join(filter(None, dict.fromkeys(reasons))))
     return [call.result() for call in calls]
+
+
+def _tell(done: Callable[[int], object], number: int, _call: Any) -> None:
+    done(number)
 
 
 def _begin(work: Callable[[int], Any], ended: Any) -> None:

@@ -1,7 +1,7 @@
 """Messages of the workflow: one line each, on standard error.
 
 A job redirects its standard error to its log, with the messages and everything that libraries
-print. Warnings and errors of a job also appear on the terminal.
+print. Progress, warnings and errors of a job also appear on the terminal.
 """
 
 import logging
@@ -11,6 +11,8 @@ from types import FrameType
 from typing import Any
 
 LOGGER = logging.getLogger("replication.pipeline")
+PROGRESS = (logging.INFO + logging.WARNING) // 2
+"""Level of messages that appear on the terminal, too, though nothing is wrong."""
 
 
 class _StandardError(logging.Handler):
