@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from nucleation.datasets import DatasetError
 
-from .planning import RECIPES
+from .planning import PLACES, RECIPES
 from .recipes import key_in, read
 from .store import DAMAGED, Store, read_note
 from .views import shows_expected
@@ -68,9 +68,21 @@ def check_results(results: Path, expected: Expected) -> list[Finding]:
 def unused(store: Store, expected: Expected) -> list[str]:
     """Keys that neither the configuration nor any directory of results refers to."""
     used = {key_in(path) for path in expected.values()}
-    for file in store.directory.glob(f"{RECIPES}/**/*.json"):
-        used.update(_keys(file))
+    for place in store.directory.glob(f"{RECIPES}/*"):
+        if _is_gone(store, place):
+            continue
+        for file in place.rglob("*.json"):
+            used.update(_keys(file))
     return [key for key in store.listed() if key not in used]
+
+
+def _is_gone(store: Store, place: Path) -> bool:
+    """Whether recipes are of a directory of results or of work that is not there any more."""
+    try:
+        places = (place / PLACES).read_text("utf-8").splitlines()
+    except (OSError, ValueError):
+        return False  # unknown: they count
+    return not all((store.directory.resolve() / one).is_dir() for one in places)
 
 
 def _keys(file: Path) -> Iterator[str | None]:

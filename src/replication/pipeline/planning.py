@@ -31,6 +31,7 @@ from .views import is_broken, is_linked, is_shown, show, withdraw, write
 
 RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
 _PLANNED = "planned"  # file beside recipes with the names and keys of the jobs of the latest run
+PLACES = "places"  # file beside recipes with the two directories that they are of
 _LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 
 Paths = Any
@@ -104,11 +105,15 @@ class Plan:
         return Store(f"{self.results}/store")
 
     @cached_property
+    def _places(self) -> list[str]:
+        """The directories of the results and of the work, relative to the store."""
+        store = os.path.realpath(self.store.directory)
+        return [os.path.relpath(os.path.realpath(place), store) for place in (self.results, ".")]
+
+    @cached_property
     def _place(self) -> str:
         """The directory of the recipes in the store; directories of results may share a store."""
-        store = os.path.realpath(self.store.directory)
-        places = [os.path.relpath(os.path.realpath(place), store) for place in (self.results, ".")]
-        mark = hashlib.sha256("\n".join(places).encode()).hexdigest()[:8]
+        mark = hashlib.sha256("\n".join(self._places).encode()).hexdigest()[:8]
         return f"{self.store.directory}/{RECIPES}/{mark}"
 
     @cached_property
@@ -126,6 +131,7 @@ class Plan:
         os.environ[FORCED] = "*" if asked.forceall else "\n".join(map(str, forced))
         Path(self._place).mkdir(parents=True, exist_ok=True)
         write(Path(self._place, _PLANNED), "")
+        write(Path(self._place, PLACES), "\n".join(self._places))
         return True
 
     @cached_property
