@@ -150,6 +150,7 @@ $(STAMP): environment.txt
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
+	$(BIN)/python -P -m replication.pipeline.bytecode
 	@touch $(ENVIRONMENT)/environment.stamp
 
 $(DEV_STAMP): environment-dev.txt $(STAMP)

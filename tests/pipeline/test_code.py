@@ -161,3 +161,18 @@ def test_what_numba_keeps_is_named_by_content(tmp_path):
         names.add(bytecode.cache_of_numba(tmp_path))
     (tmp_path / "other.py").write_text("X = 1\n")
     assert len(names | {bytecode.cache_of_numba(tmp_path)}) == 2
+
+
+def test_what_jobs_load_has_bytecode(tmp_path):
+    """Also where Python is not allowed to write it in a job."""
+    package = tmp_path / "house"
+    package.mkdir()
+    (package / "__init__.py").write_text("import quarry\n")
+    (package / "room.py").write_text("")
+    (tmp_path / "quarry.py").write_text("")
+    program = "from replication.pipeline.bytecode import compile_imports; compile_imports('house')"
+    given = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
+    given["PYTHONPATH"] = os.pathsep.join([str(tmp_path), SOURCE])
+    subprocess.run([sys.executable, "-c", program], env=given, check=True)
+    kept = {path.name.partition(".")[0] for path in tmp_path.rglob("*.pyc")}
+    assert kept == {"quarry", "__init__", "room"}

@@ -8,7 +8,9 @@ executed before any other module of the package, so it imports none of them.
 import contextlib
 import hashlib
 import importlib.util
+import pkgutil
 import py_compile
+import sys
 from pathlib import Path
 
 CHECKED = (0b11).to_bytes(4, "little")
@@ -42,3 +44,21 @@ def cache_of_numba(root: Path) -> Path:
         if uses_numba or "friction" in source.parts:  # friction laws are compiled too
             digest.update(content)
     return root / "__pycache__" / f"numba-{digest.hexdigest()[:16]}"
+
+
+def compile_imports(*packages: str) -> None:
+    """Import all modules of packages, so that Python keeps bytecode of all that they load.
+
+    uv makes no bytecode, and where PYTHONDONTWRITEBYTECODE is set each job would compile 1600
+    modules again, for two seconds.
+    """
+    sys.dont_write_bytecode = False
+    for name in packages:
+        found = importlib.import_module(name)
+        for module in pkgutil.walk_packages(getattr(found, "__path__", ()), name + "."):
+            if not module.name.endswith("__main__"):
+                importlib.import_module(module.name)
+
+
+if __name__ == "__main__":
+    compile_imports("nucleation", "replication", "snakemake.cli")
