@@ -84,7 +84,7 @@ bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by it
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $$PARTS
 
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv pairs.csv \
-	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
+	pair_modes.csv drop.csv map.csv dispersion.csv convergence.csv \
 	literature.csv weakening.csv other_faults.csv weakening_patches.csv \
 	figures/*.png tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
@@ -96,8 +96,8 @@ REST := import sys, pandas, xarray; table = xarray.open_dataset("results/lengths
 
 reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
-		figure_convergence figure_sensitivity figure_drop \
-		figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory floors \
+		figure_convergence figure_drop \
+		figure_pairs figure_2_simulated pairs figure_map figure_weakening figure_patch_theory \
 		figure_weakening_patches patch_outcomes other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference

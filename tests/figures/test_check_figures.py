@@ -1,13 +1,11 @@
-"""The figures of checks and of sensitivity: every number is drawn, nothing is cut or overlaps."""
+"""The figure of refinement: every number is drawn, nothing is cut or overlaps."""
 
 import drawn_layout
 import numpy as np
 import pytest
 import xarray as xr
 
-from replication.figures import figure_convergence, figure_sensitivity
-
-HEIGHTS = (0.005, 0.02, 0.1)
+from replication.figures import figure_convergence
 
 
 def dataset(rows):
@@ -53,29 +51,9 @@ def convergence(refinements):
     return figure_convergence.draw(refinements)
 
 
-@pytest.fixture
-def changes():
-    words = ("base", "rho x 0.5", "rho x 2", "rho = 0", "L x 2", "D x 0.5", "V x 2", "sigma0 x 2",
-             "tau0 = 0", "tau0 = 50000 Pa", "edge at 0.5 V", "edge at 0.001 V", "drop by 0.005",
-             "end of the drop")  # fmt: skip
-    return dataset(
-        [
-            {"height": h, "variation": word, "length_change": 0.01 * i, "ratio_change": 0.2 - h * i}
-            for h in HEIGHTS
-            for i, word in enumerate(words)
-        ]
-    )
-
-
-@pytest.fixture
-def sensitivity(changes):
-    return figure_sensitivity.draw(changes)
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["convergence", "sensitivity"])
-def test_text_is_legible_and_neither_overlaps_nor_is_cut(name, request):
-    drawn_layout.require_legible(request.getfixturevalue(name))
+def test_text_is_legible_and_neither_overlaps_nor_is_cut(convergence):
+    drawn_layout.require_legible(convergence)
 
 
 def drawn_at(axes):
@@ -124,18 +102,3 @@ def test_quiet_runs_are_dashed_beside_perturbed_ones(refinements, convergence, p
         assert drawn == set(zip(size, rows["length_over_theory"], strict=True))
     if refined == "longest_step":
         assert axes.get_xlim()[0] > axes.get_xlim()[1]
-
-
-def test_every_variation_is_a_row_and_every_height_a_marker(changes, sensitivity):
-    for axes, name in zip(sensitivity.axes, ("length_change", "ratio_change"), strict=True):
-        markers = [line for line in axes.get_lines() if line.get_linestyle() == "None"]
-        assert len(markers) == len(HEIGHTS)
-        drawn = np.concatenate([line.get_xdata() for line in markers])
-        expected = 100.0 * changes[name].values[changes["variation"].values != "base"]
-        np.testing.assert_allclose(np.sort(drawn), np.sort(expected))
-
-
-def test_labels_of_variations(sensitivity):
-    labels = [text.get_text() for text in sensitivity.axes[0].get_yticklabels()]
-    assert {r"$\rho\times0.5$", r"$\rho=0$", r"$\tau_0=0.05$ MPa", "edge at 0.5 $V$"} < set(labels)
-    assert labels[-1] == "end of the drop"

@@ -14,7 +14,7 @@ from nucleation.model.perturbation import Perturbation
 from nucleation.run.identity import fault
 from replication.figures import figure_drop
 from replication.tables import drops as module
-from replication.tables.drops import COLUMNS, NOISE_FLOORS, gather_drops, noise_floors
+from replication.tables.drops import COLUMNS, gather_drops
 
 FAULT = fault(PARAMETERS)
 STIFF = PARAMETERS.replaced(shear_modulus=9.3e9)
@@ -94,13 +94,6 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
     strength = float(row["floor_normal_load"])
     assert growth(history(), LOAD).drop(strength).length == pytest.approx(0.33, rel=1e-3)
     assert np.isnan(table["floor_state"].values[[0, 2]]).all()
-
-
-def test_floors_are_the_quiet_rows_without_what_they_lack(table):
-    found = noise_floors([drops()], [described(PARAMETERS)])
-    assert tuple(found.data_vars) == tuple(NOISE_FLOORS)
-    assert list(found["id"].values) == ["b"]
-    assert float(found["floor_state"][0]) == float(table["floor_state"][1])
 
 
 def test_figure_has_every_realisation_and_group(table):

@@ -43,7 +43,7 @@ def with_one_that_fails(study_name):
     return values
 
 
-READ_ONE_BY_ONE = "sensitivity"
+READ_ONE_BY_ONE = "patch_convergence"
 """A role, and a study with it, of whose simulations other results are made one by one."""
 
 

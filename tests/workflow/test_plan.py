@@ -152,7 +152,7 @@ def test_other_warnings_are_printed_in_full(workflow):
     ("target", "table", "missing"),
     [
         ("lengths", "own", "no study with table: lengths, which this target needs"),
-        ("figure_sensitivity", "own", "no study with role: sensitivity, which this target needs"),
+        ("figure_drop", "own", "no study with role: drop, which this target needs"),
         ("figure_3", "lengths", "no study with role: paper has a run with evolution = aging"),
     ],
 )

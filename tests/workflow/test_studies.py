@@ -1,4 +1,4 @@
-"""The targets of refinement and sensitivity on coarse grids; and that they end."""
+"""The target of refinement on coarse grids; and that Snakemake ends."""
 
 import os
 import signal
@@ -7,34 +7,26 @@ import pandas as pd
 import pytest
 
 from nucleation.datasets import netcdf
-from replication.configuration.load import load
-from replication.tables import convergence, sensitivity
+from replication.tables import convergence
 
-TARGETS = ("figure_convergence", "figure_sensitivity")
+TARGET = "figure_convergence"
 
 
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory, workflow_type):
     made = workflow_type(tmp_path_factory.mktemp("studies"))
-    done = made(*TARGETS)
+    done = made(TARGET)
     assert done.returncode == 0, done.stdout
     return made
 
 
-def test_targets_leave_figures_and_tables_and_are_complete(studies):
+def test_target_leaves_figure_and_table_and_is_complete(studies):
     results = studies.directory / "results" / "quick"
-    for name in TARGETS:
-        assert (results / "figures" / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-        assert (results / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    for name, columns in (
-        ("convergence", convergence.COLUMNS),
-        ("sensitivity", sensitivity.COLUMNS),
-    ):
-        table = netcdf.read(results / f"{name}.nc", requires=columns)
-        assert list(pd.read_csv(results / f"{name}.csv")["id"]) == list(table["id"].values)
-    runs = [run.id for run in load(studies.config).runs_of("sensitivity")]
-    assert set(pd.read_csv(results / "sensitivity.csv")["id"]) == set(runs)
-    assert studies.planned(*TARGETS) == {}
+    assert (results / "figures" / f"{TARGET}.pdf").read_bytes().startswith(b"%PDF")
+    assert (results / "figures" / f"{TARGET}.png").read_bytes().startswith(b"\x89PNG")
+    table = netcdf.read(results / "convergence.nc", requires=convergence.COLUMNS)
+    assert list(pd.read_csv(results / "convergence.csv")["id"]) == list(table["id"].values)
+    assert studies.planned(TARGET) == {}
 
 
 def test_snakemake_ends_once_all_is_done(workflow):

@@ -229,22 +229,6 @@ rule figure_convergence:
         JOB
 
 
-rule figure_sensitivity:
-    """Sensitivity to parameters and definitions"""
-    input:
-        table=f"{RESULTS}/sensitivity.nc",
-        recipe=recipe("figure_sensitivity"),
-    output:
-        drawn("figure_sensitivity"),
-    log:
-        f"{RESULTS}/logs/figures/figure_sensitivity.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_sensitivity:draw",
-    shell:
-        JOB
-
-
 def theory_of_identical_blocks():
     """The theory's lengths over the height, by study of identical blocks."""
     found = {}

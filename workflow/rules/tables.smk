@@ -52,27 +52,6 @@ rule other_faults:
         JOB
 
 
-rule floors:
-    """Noise of meshes and steps"""
-    input:
-        quiet=needed(
-            lambda: lengths_of(*FLOORS) if in_role("convergence_quiet") else [],
-            "study with role: convergence_quiet",
-        ),
-        recipe=recipe("floors"),
-    output:
-        multiext(f"{RESULTS}/floors", ".csv", ".nc"),
-    log:
-        f"{RESULTS}/logs/floors.log",
-    localrule: True
-    params:
-        call="replication.tables.drops:noise_floors",
-        loads=lambda wildcards: laws_of(runs_for("convergence_quiet")),
-        runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
-    shell:
-        JOB
-
-
 rule gather_map:
     """The map of lengths over height and weakening"""
     input:
@@ -151,24 +130,6 @@ rule convergence:
         f"{RESULTS}/logs/convergence.log",
     params:
         call="replication.tables.convergence:refinement_table",
-    shell:
-        JOB
-
-
-rule sensitivity:
-    """Sensitivity of lengths at the drop"""
-    input:
-        after=needed(lambda: batches(runs_for("sensitivity")), "study with role: sensitivity"),
-        recipe=recipe("sensitivity"),
-    output:
-        multiext(f"{RESULTS}/sensitivity", ".csv", ".nc"),
-    log:
-        f"{RESULTS}/logs/sensitivity.log",
-    params:
-        call="replication.tables.sensitivity:sensitivity_table",
-        reads=lambda wildcards: {"simulations": simulations(runs_for("sensitivity"))},
-        runs=lambda wildcards: as_dicts(runs_for("sensitivity")),
-        settings=asdict(settings.extraction),
     shell:
         JOB
 

@@ -234,11 +234,6 @@ _KINDS = (
         summary=_simulation_lines,
     ),
     _Kind(
-        "sensitivity table",
-        marks=("varied", "length"),
-        summary=_length_rows,
-    ),
-    _Kind(
         "table of refinement",
         marks=("length_difference", "length"),
         summary=_length_rows,

@@ -135,9 +135,6 @@ ROLES = {
         one_by_one=False,
         runs=(_UNPERTURBED,),
     ),
-    "sensitivity": _Role(
-        "one parameter changed at a time; the first run of a height is the base",
-    ),
     "pairs": _Role(
         "two deformable bodies, for the table of pairs",
         several=True,

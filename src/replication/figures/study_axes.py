@@ -7,12 +7,16 @@ from matplotlib.axes import Axes
 from nucleation.model.quantities import Quantity
 from nucleation.types import Array
 
-from . import figure_sensitivity
-
 _WIDE = 4.0  # ratio of the largest to the smallest value above which an axis is logarithmic
 
 _SYMBOLS = {
-    **figure_sensitivity.SYMBOLS,
+    "rho": r"\rho",
+    "mu": r"\mu",
+    "nu": r"\nu",
+    "sigma0": r"\sigma_0",
+    "tau0": r"\tau_0",
+    "phi0": r"\phi_0",
+    "L": r"\mathrm{block\ length}",  # L is the measured length here
     "zeta/a": r"\zeta/a",
     "zeta": r"\zeta",
     "phi*": r"\phi_*",

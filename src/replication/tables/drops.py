@@ -59,13 +59,6 @@ CURVES = {
 
 CURVE_STRENGTHS = np.geomspace(1e-12, 1e-1, 89)
 
-NOISE_FLOORS = some(
-    COLUMNS,
-    "study role id evolution height n_x n_y longest_step onset_time length "
-    "critical_length stability_length front_length floor_normal_load floor_state fault",
-)
-"""Columns that a quiet run has."""
-
 QUIET_KINDS = ("normal_load", "state")
 """Kinds of perturbation in which the noise of a quiet run is expressed."""
 
@@ -188,10 +181,3 @@ def _beside(laws: dict[str, _Law], tables: Iterable[xr.Dataset]) -> xr.Dataset:
             if row["fault"] in laws:
                 rows.append(row | laws[row["fault"]].row(row))
     return table(rows, COLUMNS)
-
-
-def noise_floors(quiet: Iterable[xr.Dataset], runs: Iterable[Row]) -> xr.Dataset:
-    """The noise of the meshes of quiet runs with their steps."""
-    found = gather_drops(quiet, runs)
-    unperturbed = np.flatnonzero(found["kind"].values == "none")
-    return found[list(NOISE_FLOORS)].isel(run=unperturbed)
