@@ -11,6 +11,7 @@ from scipy.sparse.linalg import splu
 
 from nucleation.extraction.extraction import extract
 from nucleation.fem.body import Body
+from nucleation.fem.operator import Operator
 from nucleation.model.perturbation import KINDS
 from nucleation.run.run import Run
 from nucleation.simulation.bodies import body_of, grid_of
@@ -125,7 +126,7 @@ def _step_over_solve(parameters: Run) -> dict[str, float]:
     grid = grid_of(parameters.upper)
     body = Body((grid, parameters.upper.material))
     beta = rung_value(_longest_rung(parameters))
-    operator = body.operator(1.0 / beta**2)
+    operator = Operator(body, 1.0 / beta**2)
     load = body.far_load(1e6)
     at_rest = np.zeros(grid.n_x)
     edge = np.zeros(grid.n_y + 1)
@@ -229,8 +230,8 @@ def _pair_steps(parameters: Run) -> dict[str, float]:
     found = {}
     for bottom, seconds in zip(BOTTOMS, times, strict=True):
         found[f"pair_step_over_one_{bottom}"] = seconds / base
-    of_pair = body_of(pairs[0]).operator(1e6).megabytes
-    own = body_of(one).operator(1e6).megabytes
+    of_pair = Operator(body_of(pairs[0]), 1e6).megabytes
+    own = Operator(body_of(one), 1e6).megabytes
     found["pair_operator_over_one_mb"] = of_pair / own
     return found
 

@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from nucleation.extraction.frozen import frozen_patch
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
+from nucleation.fem.operator import Operator
 from nucleation.model.friction.law import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.linearised import log_state_derivatives
@@ -29,7 +30,7 @@ def test_log_state_derivatives(law):
 
 
 GRID = Grid(0.8, 0.02, 32, 5)
-OPERATOR = Body((GRID, PAPER_RUN.upper.material)).operator(0.0)
+OPERATOR = Operator(Body((GRID, PAPER_RUN.upper.material)), 0.0)
 RATE = np.where(GRID.x < 0.26, 1e-5 * np.exp(-GRID.x / 0.3), 1e-12)
 STATE = 0.07 * (1 + GRID.x)
 FORCE = 1e6 * (1 + 0.1 * np.cos(5 * GRID.x)) * GRID.nodal_lengths

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.extraction.frozen import frozen_patch
+from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.bodies import body_of
 from nucleation.simulation.run import composed, instants, simulate
@@ -67,7 +68,7 @@ def test_a_stiff_clamped_block_is_the_rigid_base():
 @pytest.mark.parametrize("bottom", BOTTOMS)
 def test_the_frozen_patch_of_a_pair(bottom):
     """Its static stiffness is the pair's, normal stress included."""
-    operator = body_of(pair(bottom, second_shear_modulus=9e9)).operator(0.0)
+    operator = Operator(body_of(pair(bottom, second_shear_modulus=9e9)), 0.0)
     n = operator.body.grid.n_x
     rate, state = np.zeros(n + 1), np.full(n + 1, 0.05)
     rate[:20] = 1e-5

@@ -6,6 +6,7 @@ import itertools
 import numpy as np
 import pytest
 
+from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import interface, step
 from nucleation.simulation.interface import NewtonFailure
@@ -69,7 +70,7 @@ def test_start_without_shear_is_uniaxial_stress():
 def test_without_density_every_step_is_a_static_field():
     parameters = small().replaced(density=0.0)
     dynamics = composed(parameters)
-    static = dynamics.body.operator(0.0)
+    static = Operator(dynamics.body, 0.0)
     load = dynamics.body.far_load(parameters.fault.normal_stress)
     state, _ = at_rest(dynamics, parameters)
     for rung in LADDER[:40]:

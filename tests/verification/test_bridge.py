@@ -15,6 +15,7 @@ from two_bodies import Body as Layer
 from benchmarks.manufactured.orders import orders
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
+from nucleation.fem.operator import Operator
 from nucleation.model.material import Material
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.critical import unstable_modes
@@ -44,7 +45,7 @@ def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, b
     errors = []
     for n in (16, 32, 64, 128):
         grid = Grid(length=1.0, height=layer_number / (1.5 * np.pi), n_x=n, n_y=n // 2)
-        operator = Body((grid, MATERIAL)).operator(0.0)
+        operator = Operator(Body((grid, MATERIAL)), 0.0)
         k = 1.5 * np.pi / grid.length  # the mode m = 1 of the block
         scale = MATERIAL.shear_modulus * k * grid.dx
         exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
@@ -79,7 +80,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
     rng = np.random.default_rng(1)
     grid = Grid(0.7, 0.2, 9, 5, grading=3.0, periodic=True)
     body, block = Body((grid, MATERIAL)), WrappedBlock(grid, MATERIAL)
-    operator = body.operator(s)
+    operator = Operator(body, s)
     field = body.zero_field()
     field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
     top = body.far_load(1e6, 4e5)
@@ -106,7 +107,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
 
 def test_periodic_tangent_is_the_matrix_of_apply():
     grid = Grid(0.7, 0.2, 9, 4, periodic=True)
-    operator = Body((grid, MATERIAL)).operator(1e8)
+    operator = Operator(Body((grid, MATERIAL)), 1e8)
     columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
     d, n = np.array([c[0] for c in columns]).T, np.array([c[1][1:] for c in columns]).T
     nodes = np.array([1, 2, 6, 9])

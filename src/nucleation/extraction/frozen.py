@@ -107,7 +107,7 @@ class Freezer:
         self.run = run
         self.grid = body.grid
         self.threshold = threshold
-        self.operator = body.operator(0.0)
+        self.operator = Operator(body, 0.0)
         self._law = interface_of(run, body.grid).friction
 
     def frozen(

@@ -11,148 +11,214 @@ The lower body of two, ``-H2 <= y <= 0``, is stored mirrored, as if it were abov
 ``y -> -y`` and ``u_y -> -u_y``. The upper one is driven, so that ``w1 = u_x - U(t)`` above and
 ``w2 = u_x`` below; ``w = w1 - w2`` is the slip less that of the driven edge. Both have the same
 ``u_y`` on the interface (no opening); on a rigid base ``u_y = 0`` and ``w = w1``.
+
+A tridiagonal matrix A of size n along y is an array (3, n) of its diagonals: ``A[i, i-1]``,
+``A[i, i]`` and ``A[i, i+1]`` in row i. The first entry of the first diagonal and the last entry of
+the last one are zero.
 """
 
 from __future__ import annotations
 
-from functools import cached_property
+from collections.abc import Sequence
 
 import numpy as np
 
-from . import edge_kernels
-from .grid import Components, Field, Motion, Motions, Terms
-from .layer import Layers
-from .modes import BlockModes
-from .operator import Operator
-from .right_edge import elastic_energy
+from ..model.material import Material
+from ..types import Array
+from . import kernels
+from .grid import Components, Field, Grid, Motion
+from .modes import BlockModes, Modes, PeriodModes
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
+HELD = {
+    "free": (False, False),
+    "clamped": (True, True),
+    "roller": (False, True),
+    "velocity": (True, False),
+}
+"""Which of u_x and u_y are zero on the far side, by its boundary condition; the others are free."""
 
-class Body(Layers):
-    """The layers as the elastic body of a run."""
 
-    def operator(self, s: float) -> Operator:
-        """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2); zero is statics."""
-        return Operator(self, s)
+def element_matrices(nodes: Array) -> tuple[Array, Array, Array]:
+    """Integrals of products of the hat functions psi_i of a line of nodes (m).
+
+    ``int psi_i psi_j`` (m), ``int psi_i' psi_j'`` (1/m) and ``int psi_i psi_j'``.
+    """
+    h = np.diff(nodes)
+    left, right = _beside_nodes(h)
+    mass = np.array([left / 6.0, (left + right) / 3.0, right / 6.0])
+    left, right = _beside_nodes(1.0 / h)
+    stiffness = np.array([-left, left + right, -right])
+    left, right = _beside_nodes(np.full(h.size, 0.5))
+    return mass, stiffness, np.array([-left, left - right, right])
+
+
+def _beside_nodes(values: Array) -> tuple[Array, Array]:
+    """Values of the elements on the left and on the right of each node, zero without one."""
+    return np.append(0.0, values), np.append(values, 0.0)
+
+
+def product(matrix: Array, values: Array) -> Array:
+    """Product of a tridiagonal matrix with an array along its first axis, (n, ...)."""
+    further_axes = [1] * (values.ndim - 1)
+    lower, diagonal, upper = matrix.reshape(3, -1, *further_axes)
+    out = diagonal * values
+    out[1:] += lower[1:] * values[:-1]
+    out[:-1] += upper[:-1] * values[1:]
+    return out
+
+
+def transposed(matrix: Array) -> Array:
+    """The diagonals of the transposed matrix."""
+    lower, diagonal, upper = matrix
+    return np.array([np.roll(upper, 1), diagonal, np.roll(lower, -1)])
+
+
+class Layer:
+    """A layer of a material, with modes along x; its lowest nodes are those of the interface."""
+
+    def __init__(
+        self, grid: Grid, material: Material, modes: Modes, far_side: str = "free"
+    ) -> None:
+        self.grid = grid
+        self.material = material
+        self.modes = modes
+        self.held = HELD[far_side]
+        self.levels = grid.n_y + 1
+        self.crossing_time = grid.height / material.shear_wave_speed  # s, of shear waves
+        self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
+        self.row_sums = self.mass.sum(axis=0)
+
+
+class Body:
+    """One layer on a rigid base, or two on one another, each a grid and a material.
+
+    The far side of the first one is free; `far_side` is that of the second one. If both are free,
+    both bear the same normal stress. Raises ValueError if the elements of two layers along x
+    differ, or n_x of a period is even.
+    """
+
+    def __init__(
+        self,
+        upper: tuple[Grid, Material],
+        lower: tuple[Grid, Material] | None = None,
+        far_side: str = "free",
+    ) -> None:
+        self.grid, material = upper
+        self.modes = PeriodModes(self.grid) if self.grid.periodic else BlockModes(self.grid)
+        self.layers = [Layer(*upper, self.modes)]
+        if lower is not None:
+            one, other = self.grid, lower[0]
+            if (one.n_x, one.length) != (other.n_x, other.length):
+                raise ValueError(
+                    f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
+                    f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
+                )
+            self.layers.append(Layer(*lower, self.modes, far_side))
+        self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
+        # kg/m, that moves with the driven edge
+        self.total_mass = material.density * self.grid.length * self.grid.height
+
+    @property
+    def is_held_along_y(self) -> bool:
+        """Whether the base, or the lower far side, is held along y."""
+        return len(self.layers) == 1 or self.layers[1].held[1]
+
+    def split(self, values: Array) -> list[Array]:
+        """Views of an array over levels: each layer's."""
+        above = self.layers[0].levels
+        return [values] if len(self.layers) == 1 else [values[:above], values[above:]]
+
+    def parts(self, field: Field) -> list[Field]:
+        """Views of a field: each layer's, the lower one's mirrored."""
+        return list(map(Field, self.split(field.modes), self.split(field.edge)))
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        levels = sum(layer.levels for layer in self.layers)
+        return Field(np.zeros((levels, 2, self.modes.n_x)), np.zeros(levels))
 
     def far_load(self, normal: float, shear: float = 0.0) -> Field:
         """Nodal forces (N/m) of a compressive and, in a period, a shear stress (Pa).
 
         They act on the far sides that are free, the shear stress in opposite directions.
         """
-        shears = (shear, -shear)
-        loads = [
-            layer.far_load(normal, x)
-            for layer, x in zip(
-                self.layers,
-                shears,
-                strict=False,
+        load = self.zero_field()
+        for layer, part, along_x in zip(
+            self.layers, self.parts(load), (shear, -shear), strict=False
+        ):
+            held_x, held_y = layer.held
+            part.modes[-1], part.edge[-1] = self.modes.uniform_load(
+                layer.grid, 0.0 if held_y else normal, 0.0 if held_x else along_x
             )
-        ]
-        return self.joined(*loads)
-
-    def _of_the_first(self, field: Field) -> Field:
-        """A field of the body from one of its first layer, which the driven edge belongs to."""
-        return self.joined(field, *(layer.zero_field() for layer in self.layers[1:]))
+        return load
 
     def translation_load(self, acceleration: float) -> Field:
         """Inertia (N/m) against an acceleration (m/s^2) along x of all that moves with the edge."""
-        return self._of_the_first(self.layers[0].translation_load(acceleration))
+        first = self.layers[0]
+        load = self.zero_field()
+        per_level = -first.material.density * acceleration * first.row_sums
+        per_mode = self.modes.sine_amplitudes(np.full(self.modes.n_x, self.grid.dx))
+        load.modes[: first.levels, 0] = per_level[:, None] * per_mode
+        return load
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of the body at rest, seen from an edge that moves at a velocity (m/s)."""
-        rates = self.layers[0].zero_field()
-        ones = np.ones(self.modes.n_x)
-        rates.modes[:, 0] = -velocity * self.modes.sine_amplitudes(ones)
-        field = self._of_the_first(rates)
-        return Motion(displacement, field, self.momentum_x(field))
+        rates = self.zero_field()
+        ones = self.modes.sine_amplitudes(np.ones(self.modes.n_x))
+        rates.modes[: self.layers[0].levels, 0] = -velocity * ones
+        return Motion(displacement, rates, self.momentum_x(rates))
 
-    def inertia_load(
-        self,
-        s: float,
-        terms: Terms,
-        load: Field | None = None,
-    ) -> Field:
+    def inertia_load(self, s: float, terms: Sequence[tuple[float, Field]], load: Field) -> Field:
         """``load + s M sum_i c_i f_i`` (N/m) of at most four terms; `s` in 1/s^2, f_i in m."""
-        load = self.zero_field() if load is None else load
         found = Field(np.empty_like(load.modes), np.empty_like(load.edge))
-        split = [(coefficient, self.parts(field)) for coefficient, field in terms]
-        outputs = zip(
-            self.layers,
-            self.parts(load),
-            self.parts(found),
-            strict=True,
-        )
-        for i, (layer, own, out) in enumerate(outputs):
-            layer.add_inertia(
-                s,
-                [(c, parts[i]) for c, parts in split],
-                own,
-                out,
+        nothing = (0.0, terms[0][1])
+        missing = 4 - len(terms)  # the kernel takes four terms
+        coefficients, fields = zip(*terms, *[nothing] * missing, strict=True)
+        split = zip(*map(self.parts, fields), strict=True)
+        for layer, of_layer, own, out in zip(
+            self.layers, split, self.parts(load), self.parts(found), strict=True
+        ):
+            density = s * layer.material.density
+            kernels.add_inertia(
+                layer.mass,
+                density * self.modes.x_mass,
+                density * self.grid.dx / 6.0,
+                self.modes.edge_weights[2],
+                self.modes.scale,
+                coefficients,
+                tuple(field.modes for field in of_layer),
+                tuple(field.edge for field in of_layer),
+                own.modes,
+                own.edge,
+                out.modes,
+                out.edge,
             )
         return found
 
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x (kg/s per unit depth), at w_t (m/s), of what moves with the edge."""
-        return self.layers[0].momentum_x(self.parts(velocity)[0])
-
-    def product(self, load: Field, field: Field) -> float:
-        """Work per depth (J/m) of forces (N/m) on a displacement (m)."""
-        modes = (load.modes * field.modes).sum(axis=(0, 1)) @ self.modes.norms
-        return float(modes + load.edge @ field.edge)
-
-    def far_work(self, loads: tuple[Field, Field], fields: tuple[Field, Field]) -> float:
-        """Work (J/m) of far loads (N/m) between two displacements (m), by the trapezoidal rule."""
-        pairs = *loads, *fields
-        modes = tuple(field.modes for field in pairs)
-        edges = tuple(field.edge for field in pairs)
-        end = -1
-        work = 0.0
-        for layer in self.layers:
-            end += layer.levels
-            work += edge_kernels.work_on_a_level(end, modes, edges, self.modes.norms)
-        return work
-
-    def kinetic_energy(self, velocity: Field, of_edge: float) -> float:
-        """Kinetic energy (J/m) at a velocity w_t and that of the driven edge (m/s)."""
-        own = 0.5 * self.product(self.inertia_load(1.0, [(1.0, velocity)]), velocity)
-        return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
-
-    def elastic_energy(self, displacement: Field) -> float:
-        """Elastic energy (J/m) of a displacement (m)."""
-        parts = zip(self.layers, self.parts(displacement), strict=True)
-        return sum(elastic_energy(layer, part) for layer, part in parts)
+        first = self.layers[0]
+        along_x = velocity.modes[: first.levels, 0] @ self.modes.x_integral
+        return first.material.density * float(first.row_sums @ along_x)
 
     def nodal_values(self, field: Field, number: int = 0) -> Components:
         """Nodal w_x and u_y of a layer, by its number, levels from the interface on.
 
         Each has the shape (n_y + 1, n_x + 1).
         """
-        x, y = self.layers[number].nodal_values(self.parts(field)[number])
+        own = self.parts(field)[number]
+        x = self.modes.sine_values(own.modes[:, 0])
+        y = self.modes.cosine_values(own.modes[:, 1])
+        if self.modes.has_edge:
+            x = np.hstack((np.zeros_like(own.edge)[:, None], x))
+            y = np.hstack((y, own.edge[:, None]))
+        else:
+            x, y = self.modes.on_all_nodes(x, 0.0), self.modes.on_all_nodes(y, 0.0)
         return x, -y if number else y
 
-    @cached_property
-    def _risen(self) -> Field:
-        """Both blocks moved up by one metre."""
-        assert isinstance(self.modes, BlockModes)
-        field = self.zero_field()
-        level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
-        for part, up in zip(
-            self.parts(field),
-            (1.0, -1.0),
-            strict=True,
-        ):
-            part.modes[:, 1] = up * level
-            part.edge[:] = up
-        return field
-
-    def settled(
-        self,
-        motions: Motions,
-        step: float,
-        slid: float,
-    ) -> Motions:
+    def settled(self, motions: tuple[Motion, ...], step: float, slid: float) -> tuple[Motion, ...]:
         """Remove a translation of two blocks along y that has grown from round-off.
 
         If no far side is held, no force acts on such a translation but round-off, which makes it
@@ -160,15 +226,20 @@ class Body(Layers):
         it is removed with its velocity: the motions, the newest first and `step` (s) apart, are
         seen from a corner that does not rise.
         """
-        if self.is_held_along_y or not self.modes.has_edge:
+        if self.is_held_along_y or not isinstance(self.modes, BlockModes):
             return motions
         rise = float(motions[0].displacement.edge[0])
         rate = float(motions[0].velocity.edge[0])
         if not abs(rise) > LIFTED * slid:
             return motions
+        risen = self.zero_field()  # both blocks moved up by one metre
+        level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
+        for part, up in zip(self.parts(risen), (1.0, -1.0), strict=True):
+            part.modes[:, 1] = up * level
+            part.edge[:] = up
         settled = []
         for motion, age in zip(motions, (0.0, step), strict=False):
-            displacement = motion.displacement.plus(self._risen.times(age * rate - rise))
-            velocity = motion.velocity.plus(self._risen.times(-rate))
+            displacement = motion.displacement.plus(risen.times(age * rate - rise))
+            velocity = motion.velocity.plus(risen.times(-rate))
             settled.append(Motion(displacement, velocity, motion.momentum))
         return tuple(settled)

@@ -230,21 +230,3 @@ def relative_error(found, first, second):
             abs(second[j] - value),
         )
     return error / largest if largest > 0.0 else np.inf
-
-
-@compiled_loop
-def work_on_a_level(
-    level,
-    modes,
-    edges,
-    norms,
-):
-    """Work (J/m) of two loads between two displacements, by the trapezoidal rule."""
-    l0, l1, u0, u1 = edges
-    total = 0.5 * (l0[level] + l1[level]) * (u1[level] - u0[level])
-    f0, f1, v0, v1 = modes
-    for c in range(2):
-        for m in range(norms.size):
-            force = 0.5 * (f0[level, c, m] + f1[level, c, m])
-            total += norms[m] * force * (v1[level, c, m] - v0[level, c, m])
-    return total

@@ -1,15 +1,22 @@
-"""``K + s M`` of one layer, eliminated mode by mode from the far side down to the interface."""
+"""``K + s M`` of one layer, eliminated mode by mode from the far side down to the interface.
+
+The free right edge has n_y values of u_y of its own. They and the bulk u obey ``K_e e + G u =
+load``; eliminating the bulk too, at a given displacement of the interface, leaves a small dense
+system: their Schur complement.
+"""
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from ..types import Array
-from . import kernels
+from . import edge_kernels, kernels
+from .body import Layer, product, transposed
 from .grid import Field
-from .layer import Layer
-from .right_edge import RightEdge
+
+ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 
 
 class Before(NamedTuple):
@@ -22,9 +29,10 @@ class Before(NamedTuple):
 
 
 class LayerFactors:
-    """``K + s M`` of a layer for one ``s`` (1/s^2), eliminated mode by mode down to its interface.
+    """``K + s M`` of a layer for one ``s`` (1/s^2), with the rows of its edge values.
 
-    `pivot` is the stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy.
+    `pivot` is the stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy. In a
+    period there are no edge values: zeros stand for them.
     """
 
     def __init__(self, layer: Layer, s: float) -> None:
@@ -32,14 +40,16 @@ class LayerFactors:
         modes = layer.modes
         material = layer.material
         density = s * material.density
+        shear = material.shear_modulus
+        stretch = material.p_wave_modulus
         self.pivot = np.empty((3, modes.n_x))
         self.inverse = np.zeros((layer.levels, 3, modes.n_x))
         self.lower = np.empty((layer.levels - 1, 4, modes.n_x))
         kernels.factorise(
-            material.p_wave_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.shear_modulus * modes.x_mass,
-            material.shear_modulus * modes.x_stiffness + density * modes.x_mass,
-            material.p_wave_modulus * modes.x_mass,
+            stretch * modes.x_stiffness + density * modes.x_mass,
+            shear * modes.x_mass,
+            shear * modes.x_stiffness + density * modes.x_mass,
+            stretch * modes.x_mass,
             modes.sine,
             layer.mass,
             layer.stiffness,
@@ -51,16 +61,15 @@ class LayerFactors:
             self.inverse,
             self.lower,
         )
-        self.edge = (
-            RightEdge(
-                layer,
-                s,
-                self.inverse,
-                self.lower,
-            )
-            if modes.has_edge
-            else None
-        )
+        dx = layer.grid.dx
+        against_x = material.lame_modulus * transposed(layer.derivative)
+        against_slope = material.coupling_modulus * layer.derivative
+        against_y = (stretch * dx / 6.0) * layer.stiffness
+        against_y = against_y + (density * dx / 6.0 - shear / dx) * layer.mass
+        own = (stretch * dx / 3.0) * layer.stiffness
+        own = own + (density * dx / 3.0 + shear / dx) * layer.mass
+        self._rows = np.array([against_x, against_slope, against_y, own])
+        self._transposed = np.array([transposed(matrix) for matrix in self._rows[:3]])
 
     @property
     def megabytes(self) -> float:
@@ -68,23 +77,28 @@ class LayerFactors:
         levels = self.layer.levels
         return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
 
-    def sweep_down(
-        self,
-        load: Field,
-        edge: Array,
-        out: Array,
-    ) -> None:
+    @property
+    def round_off(self) -> float:
+        """Relative error of the edge values in any solve."""
+        grid = self.layer.grid
+        condition = (grid.height / np.diff(grid.y).min()) ** 2
+        return ROUND_OFF * np.finfo(float).eps * condition
+
+    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
         """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
-        profiles = np.zeros((3, edge.size)) if self.edge is None else self.edge.profiles(edge)
         modes = self.layer.modes
         kernels.eliminate(
             self.lower,
             load.modes,
-            profiles,
+            self._profiles(edge),
             modes.edge_weights,
             modes.scale,
             out,
         )
+
+    def _profiles(self, edge: Array) -> Array:
+        """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
+        return kernels.products(self._transposed, edge)
 
     def substitute(self, modes: Array) -> None:
         """Sweep a swept load back from the interface's displacement in level 0, in place.
@@ -92,31 +106,71 @@ class LayerFactors:
         At least the two lowest levels are given.
         """
         levels = len(modes)
-        kernels.substitute(
-            self.inverse[:levels],
-            self.lower[: levels - 1],
-            modes,
-        )
+        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
 
-    def move(
-        self,
-        before: Before,
-        modes: Array,
-        newest: Array,
-        oldest: Array,
-        rate: Array,
-    ) -> None:
+    def move(self, before: Before, modes: Array, newest: Array, oldest: Array, rate: Array) -> None:
         """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
         c1, c2 = before.coefficients
-        beta = before.beta
-        kernels.move(
-            self.inverse,
-            self.lower,
-            modes,
-            c1,
-            c2,
-            beta,
-            newest,
-            oldest,
-            rate,
-        )
+        kernels.move(self.inverse, self.lower, modes, c1, c2, before.beta, newest, oldest, rate)
+
+    def residual(self, load: Field, modes: Array, edge: Array, levels: int = 0) -> Array:
+        """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
+        weights = self.layer.modes.edge_weights
+        levels = levels or edge.size
+        return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge, levels)
+
+    @cached_property
+    def schur(self) -> Array:
+        """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
+        sums = self._sums_of_unit_values()
+        rows = np.zeros_like(sums[0])
+        for matrix, by_value in zip(self._rows[:3], sums, strict=True):
+            rows += product(matrix, by_value.T).T
+        # the sums begin at the level of each edge value: the other half follows by symmetry
+        lower = np.tril(product(self._rows[3], np.eye(len(rows))) - rows.T)
+        return lower + np.tril(lower, -1).T
+
+    def _sums_of_unit_values(self) -> Array:
+        """Sums of the bulk's response over the modes, (edge weight, edge value, level)."""
+        modes = self.layer.modes
+        levels = self.layer.levels
+        diagonal = np.empty_like(self.inverse)
+        edge_kernels.diagonal_inverse(self.inverse, self.lower, diagonal)
+        solution = np.zeros((levels, 2, modes.n_x))
+        sums = np.zeros((levels, 3, levels))
+        for i, unit in enumerate(np.eye(levels)):
+            first = max(i, 1)
+            profiles = self._profiles(unit)[:, first - 1 : first + 2]
+            if first == 1:
+                profiles[:, 0] = 0.0  # the interface is held fixed
+            edge_kernels.respond(
+                self.inverse,
+                self.lower,
+                diagonal,
+                profiles,
+                modes.edge_weights,
+                modes.scale,
+                first,
+                solution,
+            )
+            edge_kernels.edge_sums(modes.edge_weights, solution, first - 1, sums[i])
+        return np.moveaxis(sums, 1, 0)
+
+    def to_modes(self) -> Array:
+        """Forces on the interface's modes along x and y per edge value, bulk eliminated.
+
+        In N/m per m, (2, n_y + 1, n_x); also the forces on the edge values per unit of amplitude.
+        """
+        weights = self.layer.modes.edge_weights
+        against_x, against_slope, against_y, _ = self._rows
+        forces = np.empty((2, self.layer.levels, self.layer.modes.n_x))
+        for component in (0, 1):
+            modes = np.zeros((self.layer.levels, 2, self.layer.modes.n_x))
+            modes[0, component] = 1.0
+            self.substitute(modes)
+            x = modes[:, 0]
+            y = modes[:, 1]
+            forces[component] = weights[0] * product(against_x, x)
+            forces[component] += weights[1] * product(against_slope, x)
+            forces[component] += weights[2] * product(against_y, y)
+        return forces

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
 
-from ..types import Array, Arrays
+from ..types import Array
 
 Components = tuple[Array, Array]
 """Values along x and along y, or the tangential and the normal component."""
@@ -80,10 +79,6 @@ class Field:
         return Field(factor * self.modes, factor * self.edge)
 
 
-Terms = Sequence[tuple[float, Field]]
-"""Coefficients and fields of a linear combination."""
-
-
 @dataclasses.dataclass(frozen=True)
 class Motion:
     """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``."""
@@ -91,26 +86,3 @@ class Motion:
     displacement: Field
     velocity: Field
     momentum: float  # along x, of that velocity (kg/s per unit depth)
-
-    def to_arrays(self, name: str) -> Arrays:
-        """The motion as plain arrays, without loss; their names begin with `name`."""
-        return {
-            f"{name}_momentum": np.asarray(self.momentum),
-            f"{name}_displacement": self.displacement.modes,
-            f"{name}_displacement_edge": self.displacement.edge,
-            f"{name}_velocity": self.velocity.modes,
-            f"{name}_velocity_edge": self.velocity.edge,
-        }
-
-    @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Motion:
-        """The inverse of :meth:`to_arrays`."""
-        displacement, velocity = (
-            Field(arrays[f"{name}_{kind}"], arrays[f"{name}_{kind}_edge"])
-            for kind in ("displacement", "velocity")
-        )
-        return cls(displacement, velocity, float(arrays[f"{name}_momentum"]))
-
-
-Motions = tuple[Motion, ...]
-"""Motions of a body at some instants, the newest first."""

@@ -33,9 +33,9 @@ from numpy.typing import NDArray
 
 from ..types import Array
 from . import edge_kernels, kernels
+from .body import Body
 from .factors import Before, LayerFactors
 from .grid import Components, Field
-from .layer import Layers
 from .right_edge import EdgeValues
 
 Blocks = tuple[NDArray, NDArray]
@@ -73,7 +73,7 @@ class Operator:
     `by_slip` has (w1, u_y) per unit of w.
     """
 
-    def __init__(self, body: Layers, s: float) -> None:
+    def __init__(self, body: Body, s: float) -> None:
         self.body = body
         self.s = s
         self.factors = [LayerFactors(layer, s) for layer in body.layers]
@@ -85,9 +85,10 @@ class Operator:
             self.modal = self.factors[0].pivot[:2]  # the first row, as u_y is zero
         self._no_load = np.zeros(self.modal.shape)
         self._last_key: tuple[bytes, type] | None = None
-        rows = [factors.edge for factors in self.factors if factors.edge is not None]
-        series = (self.compliance, self.forces) if len(rows) == 2 else None
-        self.edge = EdgeValues(body, rows, self.moves, series) if rows else None
+        self.edge: EdgeValues | None = None
+        if body.modes.has_edge:
+            series = None if len(self.factors) == 1 else (self.compliance, self.forces)
+            self.edge = EdgeValues(body, self.factors, self.moves, series)
 
     def _put_in_series(self) -> None:
         body = self.body
@@ -122,17 +123,11 @@ class Operator:
 
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
-        modes = np.empty_like(load.modes)
-        loads = self.body.parts(load)
-        into = self.body.parts(Field(modes, edge))
-        for factors, own, part in zip(
-            self.factors,
-            loads,
-            into,
-            strict=True,
-        ):
+        swept = Field(np.empty_like(load.modes), edge)
+        parts = zip(self.factors, self.body.parts(load), self.body.parts(swept), strict=True)
+        for factors, own, part in parts:
             factors.sweep_down(own, part.edge, part.modes)
-        return modes
+        return swept.modes
 
     def reduced(self, swept: Array) -> tuple[Array, Array | float]:
         """The load per mode that is held (N/m), and the interface's displacement (m), at w = 0."""
@@ -141,14 +136,7 @@ class Operator:
         held = np.empty_like(self.modal)
         start = np.empty_like(self.modal)
         lower = swept[self.body.layers[0].levels]
-        kernels.load_couple(
-            self.compliance,
-            self.forces,
-            swept[0],
-            lower,
-            held,
-            start,
-        )
+        kernels.load_couple(self.compliance, self.forces, swept[0], lower, held, start)
         return held, start
 
     def substitute_up(
@@ -172,16 +160,8 @@ class Operator:
                 factors.substitute(part)
             return np.zeros_like(swept)
         rate = np.empty_like(swept)
-        split = self.body.split
-        newest, oldest = split(before.newest.modes), split(before.oldest.modes)
-        for factors, *own in zip(
-            self.factors,
-            parts,
-            newest,
-            oldest,
-            split(rate),
-            strict=True,
-        ):
+        given = (before.newest.modes, before.oldest.modes, rate)
+        for factors, *own in zip(self.factors, parts, *map(self.body.split, given), strict=True):
             factors.move(before, *own)
         return rate
 
@@ -198,12 +178,7 @@ class Operator:
         else:
             above[0] = start + self.by_slip * amplitudes
 
-    def respond(
-        self,
-        load: Field,
-        w: Array,
-        edge: Array | None = None,
-    ) -> Response:
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
         """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
 
         Edge values (m) that are given are assumed to be in balance; this saves half of the work.
@@ -221,13 +196,8 @@ class Operator:
             self._move_interface(lowest, amplitudes, start)
             self.factors[0].substitute(lowest)
             above = self.body.parts(load)[0]
-            corner = self.edge.rows[0].residual(
-                above,
-                lowest,
-                edge[: above.edge.size],
-                1,
-            )
-            normal[-1] = -corner[0]
+            own = edge[: above.edge.size]
+            normal[-1] = -self.factors[0].residual(above, lowest, own, levels=1)[0]
             return Response(w, tangential, normal, load, edge, swept, start)
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
@@ -250,31 +220,25 @@ class Operator:
         """
         given = edge = response.edge
         if self.edge is not None and w is not response.w:
-            edge = given + self.edge.change(w - response.w)
+            near = self.edge.response_near
+            change = (w - response.w)[-near.shape[1] :]
+            edge = given + near @ change
         modes, start = response.swept, response.start
         solved = modes is None
         if modes is None:
             modes = self.swept_down(response.load, edge)
             _, start = self.reduced(modes)
-        rate = self.substitute_up(
-            modes,
-            self.body.modes.sine_amplitudes(w),
-            start,
-            before,
-        )
+        amplitudes = self.body.modes.sine_amplitudes(w)
+        rate = self.substitute_up(modes, amplitudes, start, before)
         own = edge
         if self.edge is not None and not solved:
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
         error = np.inf if foreseen is None else edge_kernels.relative_error(own, foreseen, edge)
-        if before is None:
-            return Balance(
-                Field(modes, own),
-                Field(rate, np.zeros_like(own)),
-                error,
-            )
-        (c1, c2), beta, newest, oldest = before
-        edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
+        edge_rate = np.zeros_like(own)
+        if before is not None:
+            (c1, c2), beta, newest, oldest = before
+            edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
         return Balance(Field(modes, own), Field(rate, edge_rate), error)
 
     def tolerates(self, error: float) -> bool:
@@ -284,11 +248,7 @@ class Operator:
     def apply(self, w: Array) -> Components:
         """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
         amplitudes = self.body.modes.sine_amplitudes(w)
-        tangential, normal = self.body.modes.forces(
-            self.modal,
-            amplitudes,
-            self._no_load,
-        )
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, self._no_load)
         if self.edge is not None:
             edge_kernels.add_edge_in_balance(
                 w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
@@ -317,21 +277,17 @@ class Operator:
     def diagonal(self) -> Array:
         """Diagonal of D (N/m per m) at the nodes 1..n_x."""
         d, _ = self._first_columns
-        return np.full(d.size, d[0]) if self.edge is None else self._of_modes + self.edge.diagonal
-
-    @cached_property
-    def _of_modes(self) -> Array:
-        """The diagonal of a block without the edge's part."""
-        d, _ = self._first_columns
-        diagonal = d[0] - d[2::2]
-        diagonal[-1] *= 0.25
-        return diagonal
+        if self.edge is None:
+            return np.full(d.size, d[0])
+        of_modes = d[0] - d[2::2]
+        of_modes[-1] *= 0.25
+        return of_modes + self.edge.diagonal
 
     @cached_property
     def _edge_reach(self) -> int:
         """The first node (1..n_x) on which the right edge acts beyond round-off."""
         assert self.edge is not None
-        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self._of_modes
+        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self.diagonal
         return int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
 
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
@@ -360,11 +316,7 @@ class Operator:
         own = nodes[near:]
         tangential, normal = edge.to_interface
         tangential = tangential[:, own - 1]
-        normal = np.append(
-            normal,
-            edge.schur[:, :1],
-            axis=1,
-        )[:, own]
+        normal = np.append(normal, edge.schur[:, :1], axis=1)[:, own]
         response = edge.response[:, own - 1]
         stiffness[near:, near:] += tangential.T @ response
         coupling[near:, near:] += normal.T @ response

@@ -223,23 +223,3 @@ def largest_at(values):
 def largest(values):
     """The largest absolute value."""
     return abs(values[largest_at(values)])
-
-
-@compiled
-def friction_work(
-    tangential,
-    before,
-    w,
-    w_before,
-    moved,
-    periodic,
-):
-    """Work (J/m) that friction dissipates in a step, by forces (N/m), w and the edge's way (m)."""
-    first = 1 if periodic else 0
-    total = 0.0
-    for i in range(first, tangential.size):
-        slip = moved
-        if i > 0:
-            slip += w[i - 1] - w_before[i - 1]
-        total -= 0.5 * (tangential[i] + before[i]) * slip
-    return total

@@ -19,9 +19,4 @@ RECORDED = {
     "fastest_position": Variable("m", "position of the maximal slip rate", "x"),
     "newton_iterations": Variable("1", "Newton iterations of the step"),
     "perturbation": Variable("1", "declared relative perturbation, as realised", "eps xi"),
-    "energy_time": Variable("s", "time of the energies", "t"),
-    "elastic_energy": Variable("J/m", "elastic energy per depth, since the start"),
-    "kinetic_energy": Variable("J/m", "kinetic energy per depth, since the start"),
-    "work": Variable("J/m", "work per depth of the driven edge and the loads, since the start"),
-    "friction_work": Variable("J/m", "energy per depth that friction dissipated since the start"),
 }

@@ -10,7 +10,6 @@ from ..model.recording import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes, remarks
-from .energy import Energy
 from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
 from .step import Dynamics, State, StepReport
@@ -61,7 +60,6 @@ class Recorder:
         self._onset_time = np.inf
         self._short_drop_time = np.inf  # of the first drop with too short a patch
         self._time = 0.0
-        self._energy = Energy(dynamics)
 
     @property
     def steps(self) -> int:
@@ -99,8 +97,6 @@ class Recorder:
             self._take_in_drop()
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
-        if self._whole:
-            self._energy.take(state, report, fastest)
 
     def _take_in_drop(self) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
@@ -183,7 +179,6 @@ class Recorder:
                 ]
             ),
             "own_burst": np.array(self._bursts.own),
-            **(self._energy.to_arrays() if self._whole else {}),
         }
 
     def restore(self, arrays: Mapping[str, Array]) -> None:
@@ -198,8 +193,6 @@ class Recorder:
         self._watch.maxima = arrays["watched"]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
-        if self._whole:
-            self._energy.restore(arrays)
         self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
@@ -225,8 +218,6 @@ class Recorder:
         realised = self._drive.realised(times)
         if realised is not None:
             dataset["perturbation"] = realised
-        for name, column in self._energy.columns().items():
-            dataset[name] = ("energy_time",), column
         return dataset
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:

@@ -19,9 +19,8 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest."""
     body = dynamics.body
     imposed = dynamics.drive.at(0.0)
-    external = dynamics.drive.load(0.0)
-    load = dynamics.in_frame(external, imposed)
-    operator = body.operator(0.0)
+    load = dynamics.in_frame(dynamics.drive.load(0.0), imposed)
+    operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
         response = _in_uniform_shear(dynamics, run, operator, load, response)
@@ -47,7 +46,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     )
     friction = float(interface.tangential[dynamics.grid.own].sum())
     force = friction - dynamics.frame_inertia(imposed)
-    return state, StepReport(interface, force, 0.0, imposed, external)
+    return state, StepReport(interface, force, 0.0)
 
 
 def _in_uniform_shear(

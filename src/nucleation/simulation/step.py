@@ -69,18 +69,20 @@ class State:
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
         arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}
-        for i, motion in enumerate(self.motions):
-            arrays |= motion.to_arrays(f"motion_{i}")
+        for name in _FIELDS:
+            fields = [getattr(motion, name) for motion in self.motions]
+            arrays[name] = np.array([field.modes for field in fields])
+            arrays[f"{name}_edge"] = np.array([field.edge for field in fields])
+        arrays["momentum"] = np.array([motion.momentum for motion in self.motions])
         return arrays
 
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
         """The inverse of :meth:`to_arrays`."""
-        motions: list[Motion] = []
-        while f"motion_{len(motions)}_momentum" in arrays:
-            motions.append(Motion.from_arrays(f"motion_{len(motions)}", arrays))
+        fields = (map(Field, arrays[name], arrays[f"{name}_edge"]) for name in _FIELDS)
+        motions = tuple(map(Motion, *fields, arrays["momentum"].tolist()))
         plain = {name: arrays[name] for name in _PLAIN}
-        return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
+        return cls(motions, **plain, edge_error=float(arrays["edge_error"]))
 
     @property
     def time(self) -> float:
@@ -105,6 +107,7 @@ class State:
 
 
 _PLAIN = ("past_times", "past_slip_rates", "past_log_states", "past_w")
+_FIELDS = ("displacement", "velocity")
 
 
 def _pushed(newest: Array | float, past: Array, most: int) -> Array:
@@ -123,8 +126,6 @@ class StepReport:
     interface: InterfaceSolution
     driving_force: float  # f_d (N/m), negative in compression
     error: float  # largest local error of asinh(v / v_scale) and log(phi)
-    imposed: Imposed
-    load: Field  # N/m, without the inertia of an accelerated frame
 
 
 class Dynamics:
@@ -186,7 +187,7 @@ class Dynamics:
         new = self._pushed(state, time, solution, motion, balance.edge_error)
         force = self._driving_force(state, step, imposed, solution, motion)
         error = step.error(guess.distance(solution))
-        return new, StepReport(solution, force, error, imposed, external)
+        return new, StepReport(solution, force, error)
 
     def _past(
         self,
@@ -208,7 +209,7 @@ class Dynamics:
     def operator(self, s: float) -> Operator:
         """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
         if s not in self._operators:
-            operator = self.body.operator(s)
+            operator = Operator(self.body, s)
             most = max(4, int(OPERATOR_MEMORY / operator.megabytes))
             while len(self._operators) >= most:
                 self._operators.popitem(last=False)

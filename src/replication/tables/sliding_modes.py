@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from nucleation.fem.operator import Operator
 from nucleation.run.run import Run
 from nucleation.simulation.bodies import period_of
 from nucleation.simulation.drive import Steady
@@ -52,7 +53,7 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     n = dynamics.grid.n_x
     velocity = dynamics.drive.velocity
     load = dynamics.drive.load(0.0)
-    operator = body.operator(0.0)
+    operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(n))
     displacement = operator.balance(response, response.w).displacement
     # the driving traction moves the block at V: seen from there it is at rest
