@@ -62,8 +62,8 @@ from replication.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication import figures
-from nucleation.model.friction.law import Friction
-from nucleation.model.friction.registry import plugins
+from nucleation.model.friction import Friction
+from nucleation.model.friction import plugins
 from nucleation.run.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from replication.pipeline.check import CURRENT

@@ -12,7 +12,7 @@ from scipy.sparse.linalg import splu
 from nucleation.extraction.extraction import extract
 from nucleation.fem.body import Body
 from nucleation.fem.operator import Operator
-from nucleation.model.perturbation import KINDS
+from nucleation.model.settings import KINDS
 from nucleation.run.run import Run
 from nucleation.simulation.bodies import body_of, grid_of
 from nucleation.simulation.run import composed, instants, simulate

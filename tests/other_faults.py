@@ -9,7 +9,7 @@ import math
 import numpy as np
 from asked import critical_length
 
-from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
+from nucleation.model.friction.constants import OVER_VELOCITY, STATE_SCALE
 
 SEED = 20260
 NUMBER = 20

@@ -107,13 +107,7 @@ def test_texts_have_units_as_on_the_command_line():
 
 
 def test_parameters_are_shown_for_completion():
-    """By name, with what may be left out; a law shows its own."""
     assert inspect.signature(api.Fault).parameters["height"].default == math.inf
-    friction = inspect.signature(api.Friction).parameters
-    assert {"law", "evolution", "aging_coefficient", "log_rate_coefficient"} <= friction.keys()
-    assert api.Friction(**{n: p.default for n, p in friction.items() if n in vars(api.Friction())})
-    law = inspect.signature(type(api.Friction())).parameters
-    assert "aging_coefficient" in law and "log_rate_coefficient" not in law
 
 
 def test_stable_sliding_is_nan():

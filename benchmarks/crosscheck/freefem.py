@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.perturbation import IN_TIME
+from nucleation.model.settings import IN_TIME
 from nucleation.run.run import Run
 from nucleation.simulation.event import FAST
 from nucleation.simulation.realisation import Series, Sheet

@@ -12,7 +12,7 @@ import pytest
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import simulate
@@ -138,7 +138,7 @@ def test_every_parameter_has_an_option(nucleation):
     understood = {word for option in command.params for word in option.opts}
     for name, entry in run_parameters().items():
         assert f"--{name.replace('_', '-')} " in text
-        assert entry.range_text().replace("one of ", "").split(", ")[0] in text
+        assert entry.bounds.replace("one of ", "").split(", ")[0] in text
         assert f"--{name.replace('_', '-')}" in understood
 
 

@@ -8,7 +8,7 @@ import square_evolution
 from configurations import messages, papers, study
 
 from nucleation.fem.grid import Grid
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.estimates import element_height, steepness
 from nucleation.run.run import PAPER_RUN
 from replication.configuration.advice import advise, summary_of_meshes, warned

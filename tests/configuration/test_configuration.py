@@ -8,7 +8,7 @@ import yaml
 from configurations import CONFIG, PAPER, papers, study
 
 from nucleation.fault import Fault
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.run.run import PAPER_RUN, Run
@@ -123,7 +123,7 @@ def test_grid_and_identifiers():
     assert config.runs[0].id == "s-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
     assert {run.labels["height"] for run in config.runs} == {0.01, 0.1, 1.0}
     for run in config.runs:
-        assert run.run.upper.material == Material(4.0e9, 0.25)
+        assert run.run.upper.material == Material(4.0e9, 0.25, 1200.0)
         assert run.run.block.n_y == 20
         assert all(character.isalnum() or character in "-_." for character in run.id)
 

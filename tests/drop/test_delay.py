@@ -10,7 +10,7 @@ from nucleation.drop.continued import complex_trend, continued, exponent_of, rou
 from nucleation.drop.delay import SAMPLED, TINY, grown, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.extraction.extraction import extract
-from nucleation.model.perturbation import Perturbation, spectral_density
+from nucleation.model.settings import Perturbation, spectral_density
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.realisation import Series, Sheet, profile
 from nucleation.simulation.run import simulate

@@ -7,7 +7,7 @@ from configurations import CONFIG
 from parts import with_parts
 
 from nucleation.drop.expected_drop import Block, feels_far_end
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.status import NoLength

@@ -9,7 +9,7 @@ from scipy.signal import savgol_filter
 
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
-from nucleation.model.perturbation import Perturbation
+from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, instants

@@ -9,7 +9,7 @@ from nucleation.extraction.frozen import frozen_patch
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.linearised import log_state_derivatives
 

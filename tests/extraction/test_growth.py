@@ -11,7 +11,7 @@ from parts import with_parts
 from nucleation.extraction import growth
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.growth import FITTED, fitted_crossing, follow_patch, rough_crossing
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder

@@ -13,7 +13,7 @@ from nucleation.extraction.measures import (
     measure,
 )
 from nucleation.extraction.record import Record
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 
 ONSET = 8.0  # s: the front has not come half-way along the block
 VELOCITY = PARAMETERS.fault.velocity

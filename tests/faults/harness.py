@@ -29,7 +29,7 @@ from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
 from warm_snakemake import warm
 
 from nucleation.datasets import netcdf, variables
-from nucleation.model.friction.registry import plugins
+from nucleation.model.friction import plugins
 from replication.configuration.load import load
 from replication.pipeline.check import LEFTOVERS, OWN, Finding
 from replication.pipeline.making import SIMULATE, UNFINISHED

@@ -8,7 +8,7 @@ import xarray as xr
 from made_up_theory import critical_length
 from scipy.special import expit
 
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 
 ONSET = 13.0  # s

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from replication.figures import figure_2, supplement
 
 

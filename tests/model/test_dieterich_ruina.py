@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from nucleation.model.friction import Friction
 from nucleation.model.friction.constants import full_law
-from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import ParameterError
 
 V = 1e-5

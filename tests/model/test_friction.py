@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.special import wrightomega
 
-from nucleation.model.friction.evolution import wright_omega
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
+from nucleation.model.friction.evolutions import wright_omega
 from nucleation.model.quantities import ParameterError
 
 LAW = Friction()

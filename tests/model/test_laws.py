@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from nucleation.model.friction import EVOLUTIONS, LAWS, Friction, law_class
 from nucleation.model.friction.constants import constants, full_law, with_constants
-from nucleation.model.friction.evolution import StateEvolution
-from nucleation.model.friction.law import Friction
-from nucleation.model.friction.registry import EVOLUTIONS, LAWS, law_class
 from nucleation.model.quantities import ParameterError, declarations
 
 V = 1e-5
@@ -24,7 +22,7 @@ def law(request) -> Friction:
 
 
 @pytest.fixture(params=list(EVOLUTIONS))
-def evolution(request) -> StateEvolution:
+def evolution(request):
     return Friction(evolution=request.param).evolution_law
 
 
@@ -146,7 +144,7 @@ def test_every_parameter_is_checked(law):
         bad = "none" if entry.choices else float("nan")
         with pytest.raises(ParameterError) as caught:
             Friction(**{"law": law.law, name: bad})
-        rule = entry.range_text() + ("" if entry.choices or entry.unit == "1" else f" {entry.unit}")
+        rule = entry.bounds
         for part in (f"{name} = {bad!r}", entry.description, rule):
             assert part in str(caught.value)
         if name != "law":

@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.model.synonyms import hint
+from nucleation.model.hints import hint
 from nucleation.theory.values import QUANTITIES
 
 API = tuple(QUANTITIES)

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as shaped
 
-from nucleation.model.perturbation import KINDS
 from nucleation.model.quantities import ParameterError
+from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.checkpoints import (
     EVERY,

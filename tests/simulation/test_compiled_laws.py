@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from nucleation.model.friction.law import Friction
-from nucleation.model.friction.registry import EVOLUTIONS, LAWS
+from nucleation.model.friction import EVOLUTIONS, LAWS, Friction
 from nucleation.simulation import compiled_laws
 
 RATES = np.array([-1e-5, 0.0, 1e-40, 1e-9, 1e-6, 1e-3, 1.0])

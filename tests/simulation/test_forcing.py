@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from parts import with_parts
 
-from nucleation.model.perturbation import KINDS, Perturbation
+from nucleation.model.settings import KINDS, Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.realisation import profile
 from nucleation.simulation.run import composed, simulate

@@ -7,10 +7,10 @@ import pytest
 from parts import with_parts
 
 from nucleation.extraction.extraction import extract
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.heterogeneity import Heterogeneity
-from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
+from nucleation.model.settings import Perturbation
 from nucleation.run.checks import require_consistent
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import composed, simulate

@@ -8,7 +8,7 @@ import pytest
 from parts import with_parts
 
 from nucleation.extraction.extraction import extract
-from nucleation.model.perturbation import Perturbation
+from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, instants

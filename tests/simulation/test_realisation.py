@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import BSpline
 from scipy.stats import kstest
 
-from nucleation.model.perturbation import MEAN_SQUARE, correlation, spectral_density
+from nucleation.model.settings import MEAN_SQUARE, correlation, spectral_density
 from nucleation.simulation.realisation import (
     Series,
     Sheet,

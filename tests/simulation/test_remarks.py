@@ -7,7 +7,7 @@ from simulation.test_event import THICK, fastest_elsewhere
 
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.record import Record
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import start
 from nucleation.simulation.event import FEW, long_after

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nucleation.extraction.extraction import extract
-from nucleation.model.friction.registry import EVOLUTIONS
+from nucleation.model.friction import EVOLUTIONS
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.event import Outcome

@@ -10,7 +10,7 @@ import xarray as xr
 from drop.test_delay import LOAD, PARAMETERS, START, history
 
 from nucleation.drop.delay import growth
-from nucleation.model.perturbation import Perturbation
+from nucleation.model.settings import Perturbation
 from nucleation.run.identity import fault
 from replication.figures import figure_drop
 from replication.tables import drops as module

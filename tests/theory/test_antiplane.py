@@ -123,7 +123,7 @@ def test_rollers_are_refused():
 def test_uniform_shear_has_the_energy_of_a_scalar_field():
     """Gradients along x and y cost ``mu/2`` times their squares, and do not couple to u_y."""
     grid = Grid(0.3, 0.2, 4, 3)
-    stiffness, _ = assemble(grid, Material(2e9, plane="antiplane"))
+    stiffness, _ = assemble(grid, Material(2e9, 0.0, plane="antiplane"))
     x, y = (positions.ravel() for positions in np.meshgrid(grid.x, grid.y))
     moved = np.column_stack([3.0 * x + 2.0 * y, 0.0 * x]).ravel()
     assert moved @ stiffness @ moved == pytest.approx(2e9 * 13.0 * 0.06, rel=1e-12)

@@ -60,7 +60,7 @@ MORE = {
 """Parameters that others need."""
 
 
-@pytest.mark.filterwarnings("ignore::nucleation.model.plausible.ImplausibleWarning")
+@pytest.mark.filterwarnings("ignore::nucleation.model.hints.ImplausibleWarning")
 @pytest.mark.parametrize("name", [name for name, entry in QUANTITIES.items() if entry.low > 0.0])
 def test_the_least_value_of_each_parameter_has_an_answer(name):
     entry = QUANTITIES[name]
@@ -72,7 +72,7 @@ def test_the_least_value_of_each_parameter_has_an_answer(name):
         critical_length(**FAULT | more | {name: 0.5 * entry.low})
 
 
-@pytest.mark.filterwarnings("ignore::nucleation.model.plausible.ImplausibleWarning")
+@pytest.mark.filterwarnings("ignore::nucleation.model.hints.ImplausibleWarning")
 def test_corners_of_the_ranges_have_an_answer():
     names = ("shear_modulus", "normal_stress", "slip_distance", "height")
     ends = [(QUANTITIES[name].low, min(0.99 * QUANTITIES[name].high, 1e30)) for name in names]

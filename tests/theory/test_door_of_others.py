@@ -14,7 +14,7 @@ import xarray as xr
 
 import nucleation
 from nucleation.api import PAPER, Fault
-from nucleation.model.plausible import ImplausibleWarning
+from nucleation.model.hints import ImplausibleWarning
 from nucleation.model.quantities import ParameterError
 
 ROCK = {

@@ -65,7 +65,7 @@ def test_stiffness_matrix_is_that_of_plane_stress():
         energy = plate * (strain_x**2 + strain_y**2 + 2.0 * NU * strain_x * strain_y) * 0.3 * 0.2
         assert moved @ stiffness @ moved == pytest.approx(energy, rel=1e-12)
     assert material.p_wave_modulus == pytest.approx(plate, rel=1e-14)
-    assert material.shear_wave_speed == Material(1.3e9, density=1100.0).shear_wave_speed
+    assert material.shear_wave_speed == Material(1.3e9, 0.3, density=1100.0).shear_wave_speed
 
 
 def test_simulation_is_that_of_the_other_ratio():
@@ -97,6 +97,6 @@ def test_faults_keep_their_digests_in_plane_strain():
 def test_other_planes_are_refused():
     refused = "plane = 'mode III' is not allowed: .* must be one of strain, stress, antiplane"
     with pytest.raises(ParameterError, match=refused):
-        Material(plane="mode III")
+        Material(1e9, 0.2, plane="mode III")
     with pytest.raises(ParameterError, match=refused):
         critical_length(**PMMA, poisson_ratio=NU, plane="mode III")

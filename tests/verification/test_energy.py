@@ -20,7 +20,7 @@ import pytest
 from verification.test_page import PAGE
 
 from benchmarks.assembled import assemble, unknown
-from nucleation.model.perturbation import KINDS
+from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import composed, instants
 from nucleation.simulation.stepping import BDF, Formula

@@ -31,7 +31,7 @@ from typing import Any
 
 from ..fault import Fault
 from ..installed import MissingExtra, require, require_own
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from ..model.quantities import ParameterError
 from ..theory.critical import CriticalMode
 from ..theory.status import NoLength
@@ -45,7 +45,7 @@ _LATER = {
     "nucleation.fault.paper": ("PAPER",),
     "nucleation.model.material": ("Material",),
     "nucleation.run.run": ("Run",),
-    "nucleation.model.perturbation": ("Perturbation",),
+    "nucleation.model.settings": ("Perturbation",),
     "nucleation.lengths.answer": ("Lengths",),
     "nucleation.lengths.draws": ("draw", "quantiles"),
 }

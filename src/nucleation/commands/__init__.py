@@ -87,7 +87,7 @@ def main() -> None:
 
 def _with_suggestion(error: click.NoSuchOption) -> click.NoSuchOption:
     """The error for an unknown option, with a suggestion among those of the same command."""
-    from ..model.synonyms import hint
+    from ..model.hints import hint
 
     if error.ctx is None:
         return error

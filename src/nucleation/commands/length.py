@@ -14,8 +14,8 @@ from ..lengths.answer import Answer
 from ..lengths.draws import parse_range
 from ..lengths.in_use import LENGTHS, WEAKENING_RATE
 from ..lengths.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
-from ..model.perturbation import Perturbation
 from ..model.quantities import ParameterError, declarations
+from ..model.settings import Perturbation
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE

@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 
 from ..lengths.draws import DRAWS
 from ..model.quantities import ParameterError, Quantity
-from ..model.units import bounds, parse
+from ..model.units import parse
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -87,7 +87,7 @@ def _help(entry: Quantity, note: str) -> str:
     parts = [entry.description]
     if not entry.choices:
         kind = "an integer in" if entry.kind == "int" else "in"
-        parts.append(f"{kind} {bounds(entry)}")
+        parts.append(f"{kind} {entry.bounds}")
     if note:
         parts.append(note)
     return "; ".join(parts)

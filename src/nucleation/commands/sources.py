@@ -10,8 +10,8 @@ from ..fault import Fault
 from ..fault.flat import declarations_of_flat, keywords, read_parameters, second_body
 from ..installed import require
 from ..lengths.draws import Range
-from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError
+from ..model.settings import KINDS
 from .system_text import papers_line
 
 if TYPE_CHECKING:

@@ -111,7 +111,7 @@ def _middle(unknown: str) -> float:
 
 
 def _searched(unknown: str) -> Interval:
-    from ..model.plausible import RANGES
+    from ..model.hints import RANGES
 
     return RANGES[unknown]
 

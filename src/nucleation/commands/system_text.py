@@ -8,9 +8,9 @@ from typing import Any
 
 from ..fault import Fault
 from ..lengths.length import number
-from ..model.friction.law import Friction
+from ..model.friction import Friction
+from ..model.hints import ImplausibleWarning
 from ..model.material import ANTIPLANE
-from ..model.plausible import ImplausibleWarning
 from ..theory.values import QUANTITIES
 from .text import warn
 from .unit_text import in_unit

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lengths.answer import Answer
-from ..model.own_fault import AGE, law_of
-from ..model.perturbation import Perturbation
+from ..model.friction.constants import AGE, law_of
 from ..model.quantities import ParameterError
+from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
 from ..theory.crossings import largest_crossings
 from ..theory.evaluation import evaluate

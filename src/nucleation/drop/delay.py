@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from ..model.perturbation import Perturbation, correlation, spectral_density
+from ..model.settings import Perturbation, correlation, spectral_density
 from ..types import Array
 from .continued import CreepPath, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory

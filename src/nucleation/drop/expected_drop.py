@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.perturbation import Perturbation
+from ..model.settings import Perturbation
 from ..theory.creep.lengths import stability_point
 from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import runaway_point

@@ -6,7 +6,7 @@ time and Lambda at each length, and the left eigenvector. The mode's complex amp
     dA/dt = Lambda A + eps g(t) xi,
 
 scaled such that A = 1 where the slip rate swings by V. The left eigenvector gives g. By linearised
-force balance each kind of forcing (:mod:`nucleation.model.perturbation`) acts as
+force balance each kind of forcing (:mod:`nucleation.model.settings`) acts as
 
     normal_load      f sigma eps xi(t)
     drive_velocity   a displacement U of the edge, with the slip ``p U``, ``(K1 + f S2) p = 0``

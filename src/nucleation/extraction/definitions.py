@@ -12,9 +12,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.checked import Checked
 from ..model.quantities import quantity
-from ..model.stepping import EVENT_DROP
+from ..model.settings import EVENT_DROP
+from ..model.units import Checked
 from ..simulation.event import SLIPPING, DropWatch
 from ..types import Array
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..fem.operator import Operator
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from ..run.run import Run
 from ..simulation.bodies import body_of
 from ..simulation.event import NEAR

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..datasets.variables import Variable
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from ..types import Array
 from .record import Record
 

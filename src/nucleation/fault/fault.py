@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ..model.friction.law import Friction
-from ..model.own_fault import AGE, law_of, roughness_length
-from ..model.perturbation import ALONG_X, Perturbation
+from ..model.friction import Friction
+from ..model.friction.constants import AGE, law_of, roughness_length
+from ..model.hints import hint
 from ..model.quantities import ParameterError, declared
-from ..model.synonyms import hint
+from ..model.settings import ALONG_X, Perturbation
 from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
 from ..theory.evaluation import evaluate, require_broadcast

@@ -9,13 +9,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..model.friction.constants import CONSTANTS
-from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS, law_class, law_declarations
-from ..model.own_fault import LAW, own_law
-from ..model.quantities import ParameterError, Quantity, check, plain
-from ..model.synonyms import hint
-from ..model.units import bounds, parse
+from ..model.friction import LAWS, Friction, law_class, law_declarations
+from ..model.friction.constants import LAW, ZETA_OVER_A, own_law
+from ..model.hints import hint
+from ..model.quantities import ParameterError, Quantity, check
+from ..model.units import parse
 from ..theory.values import QUANTITIES, FaultLike
 
 _OF_FAULT = ("law", "evolution", "slip_distance")
@@ -30,7 +28,7 @@ def declarations_of_flat() -> dict[str, Quantity]:
     """The declarations of all names, but for ``second_body``."""
     laws = law_declarations()
     own = {name: laws[name] for name in LAW_NAMES}
-    named = {"zeta_over_a": CONSTANTS["zeta_over_a"], "friction_law": laws["law"]}
+    named = {"zeta_over_a": ZETA_OVER_A, "friction_law": laws["law"]}
     return {**QUANTITIES, **named, **own}
 
 
@@ -65,7 +63,7 @@ def second_body(text: str) -> dict[str, Any]:
         return {"second_shear_modulus": math.inf}
     parts = text.split(",")
     if not 2 <= len(parts) <= 3:
-        modulus, ratio, _ = (bounds(QUANTITIES[key]) for key in _SECOND)
+        modulus, ratio, _ = (QUANTITIES[key].bounds for key in _SECOND)
         raise ParameterError(
             f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
             f"in {modulus}, Poisson's ratio in {ratio} and perhaps a height, with commas between"
@@ -131,7 +129,7 @@ def flat(fault: FaultLike) -> dict[str, Any]:
     law = fault.friction_law
     if law is not None:
         names.remove("friction_law")
-        own = plain(law)
+        own = dict(vars(law))
         found["friction_law"] = own.pop("law")
         left_out = ["evolution"]
         if {"friction", "a", "zeta"} & set(names):  # others than the law's

@@ -2,7 +2,7 @@
 
 import math
 
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from .fault import Fault
 
 PAPER = Fault(

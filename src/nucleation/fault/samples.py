@@ -8,8 +8,8 @@ import numpy as np
 
 from ..datasets.files import refuse_pipe
 from ..lengths.draws import SAMPLED
+from ..model.hints import hint
 from ..model.quantities import ParameterError
-from ..model.synonyms import hint
 from ..model.units import rescaled
 from ..types import Array
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.plausible import warn_of_implausible
+from ..model.hints import warn_of_implausible
 from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
 from ..theory.critical import stability_reason

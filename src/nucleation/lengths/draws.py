@@ -9,18 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.special import ndtri
 
-from ..model.friction.constants import CONSTANTS
+from ..model.friction.constants import ZETA_OVER_A
 from ..model.quantities import ParameterError, Quantity, check, declared
 from ..model.units import NUMBER, magnitude, parse
 from ..theory.status import BEYOND, STABLE
-from ..theory.values import QUANTITIES, checked, inside
+from ..theory.values import QUANTITIES, checked
 from ..types import Array
 from .in_use import WEAKENING_RATE
 
 DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
 SAMPLED = {name: entry for name, entry in QUANTITIES.items() if not entry.worded}
 SAMPLED["weakening_rate"] = WEAKENING_RATE
-SAMPLED["zeta_over_a"] = CONSTANTS["zeta_over_a"]
+SAMPLED["zeta_over_a"] = ZETA_OVER_A
 """Declarations of the parameters that may be uncertain."""
 
 QUANTILES = (0.05, 0.16, 0.5, 0.84, 0.95)
@@ -165,7 +165,7 @@ def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draw
         position = list(SAMPLED).index(name)
         order = np.random.default_rng([seed, position]).permutation(rows.size)
         drawn[name] = own.quantiles((order + 0.5) / rows.size, SAMPLED[name])
-    allowed = {name: inside(values, SAMPLED[name]) for name, values in drawn.items()}
+    allowed = {name: SAMPLED[name].inside(values) for name, values in drawn.items()}
     valid = np.all(list(allowed.values()), axis=0)
     invalid = {name: int(np.sum(~own)) for name, own in allowed.items() if not own.all()}
     if not valid.any():

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from ..model.block import Block
-from ..model.plausible import RANGES
+from ..model.hints import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
+from ..model.settings import Block
 from ..theory.status import BEYOND, VALUE
 from ..theory.values import QUANTITIES, FaultLike, Values, checked, numbers_of
 from ..types import Array

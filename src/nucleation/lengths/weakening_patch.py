@@ -113,7 +113,7 @@ def _untried(fault: FaultLike, width: float) -> str:
         fault.single("shear_modulus"),
         fault.single("a") * fault.single("normal_stress"),
     )
-    speed = Material(modulus, density=fault.single("density")).shear_wave_speed
+    speed = Material(modulus, 0.0, fault.single("density")).shear_wave_speed
     rate = 2.0 * strength * speed / modulus / fault.single("velocity")
     low, high = patch_outcomes.DYNAMIC
     if low <= rate <= high:

@@ -17,26 +17,17 @@ from typing import ClassVar
 import numpy as np
 
 from ..types import Array
-from .checked import Checked
-from .friction.law import Friction
+from .friction import Friction
 from .quantities import ParameterError, quantity
+from .units import Checked
 
 
 @dataclasses.dataclass(frozen=True)
 class Heterogeneity(Checked):
     """The property that varies along the interface; by default none.
 
-    Raises
-    ------
-    ParameterError
-        Also if a varying property has the change zero, or a change is given without a property.
-        Also if the change makes a positive property negative.
-
-    Examples
-    --------
-    >>> asperity = Heterogeneity(varies="normal_stress", width=0.05, change=0.5)
-    >>> asperity.shape, asperity.change
-    ('bump', 0.5)
+    A ParameterError refuses a varying property with the change zero, a change without a property,
+    and one that makes a positive property negative.
     """
 
     called: ClassVar = {"varies": "heterogeneity"}
@@ -69,39 +60,19 @@ class Heterogeneity(Checked):
     def __post_init__(self) -> None:
         super().__post_init__()
         uniform = self.varies == "none"
+        clash = f"change = {self.change:g} is not allowed with heterogeneity = {self.varies}"
         if uniform != (self.change == 0.0):
             rule = "0" if uniform else "different from 0"
-            raise ParameterError(
-                f"change = {self.change:g} is not allowed with heterogeneity = {self.varies}: it "
-                f"must be {rule}"
-            )
+            raise ParameterError(f"{clash}: it must be {rule}")
         if self.change <= -1.0 and self.varies != "zeta":
             raise ParameterError(
-                f"change = {self.change:g} is not allowed with heterogeneity = {self.varies}, "
-                "which is positive everywhere: it must lie in (-1, 1000)"
+                f"{clash}, which is positive everywhere: it must lie in (-1, 1000)"
             )
 
-    def factor(
-        self,
-        x: Array,
-        length: float,
-        periodic: bool,
-    ) -> Array:
-        """The property along x over its value elsewhere, ``1 + change h(x)``.
+    def factor(self, x: Array, length: float, periodic: bool) -> Array:
+        """The property over its value elsewhere, ``1 + change h(x)``, at positions x (m).
 
-        Parameters
-        ----------
-        x : ndarray
-            Positions (m), of any shape.
-        length : float
-            Length of the interface (m).
-        periodic : bool
-            Whether the interface is periodic along x.
-
-        Returns
-        -------
-        ndarray
-            Factors of the shape of `x`.
+        The interface has a length (m), and may be periodic along x.
         """
         distance = x - (0.5 * length if self.centre is None else self.centre)
         if periodic:
@@ -112,31 +83,11 @@ class Heterogeneity(Checked):
             h = np.exp(-4.0 * np.log(2.0) * (distance / self.width) ** 2)
         return 1.0 + self.change * h
 
-    def friction(
-        self,
-        law: Friction,
-        velocity: float,
-        factor: Array,
-    ) -> Friction:
-        """The friction law along x; parameters that vary are arrays of the nodes.
+    def friction(self, law: Friction, velocity: float, factor: Array) -> Friction:
+        """The friction law along x, from the law outside, V (m/s) and the factors of the nodes.
 
-        Parameters
-        ----------
-        law : Friction
-            The law outside the heterogeneity.
-        velocity : float
-            Slip rate V (m/s) of the values f, a and zeta.
-        factor : ndarray
-            Result of :meth:`factor` at the nodes, shape (nodes,).
-
-        Returns
-        -------
-        Friction
-
-        Raises
-        ------
-        ParameterError
-            If the law has no allowed parameters for the values at a node.
+        Parameters that vary are arrays of the nodes. Raises a ParameterError if the law has no
+        allowed parameters for the values at a node.
         """
         if self.varies in ("none", "normal_stress"):
             return law
@@ -154,12 +105,7 @@ class Heterogeneity(Checked):
             object.__setattr__(varied, name, along_x)  # the dataclass is frozen and checks numbers
         return varied
 
-    def _local_law(
-        self,
-        law: Friction,
-        velocity: float,
-        factor: float,
-    ) -> Friction:
+    def _local_law(self, law: Friction, velocity: float, factor: float) -> Friction:
         if factor == 1.0:
             return law
         f, a, zeta = law.expansion(velocity)
@@ -168,12 +114,7 @@ class Heterogeneity(Checked):
         if self.varies in ("a", "b"):
             own["zeta"] = own["b"] - own["a"]
         try:
-            return law.with_expansion(
-                velocity,
-                own["friction"],
-                own["a"],
-                own["zeta"],
-            )
+            return law.with_expansion(velocity, own["friction"], own["a"], own["zeta"])
         except ParameterError as error:
             raise ParameterError(
                 f"change = {self.change:g} is not allowed: {self.varies} = "

@@ -4,8 +4,8 @@ import dataclasses
 import math
 from typing import Any
 
-from .checked import Checked
 from .quantities import quantity
+from .units import Checked
 
 ANTIPLANE = "antiplane"
 
@@ -13,24 +13,9 @@ ANTIPLANE = "antiplane"
 def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
     """Poisson's ratio of the plane-strain material with the same in-plane response.
 
-    Parameters
-    ----------
-    poisson_ratio : float or array_like
-        nu of the material.
-    plane : {"strain", "stress", "antiplane"}
-        Plane strain for bodies that are thick along z, plane stress for thin plates, antiplane for
-        slip along z.
-
-    Returns
-    -------
-    float or array_like
-        nu itself in plane strain and ``nu/(1 + nu)`` in plane stress, both with the same mu. Zero
-        in antiplane shear: there nu has no effect, and mu replaces ``mu/(1 - nu)``.
-
-    Notes
-    -----
     In-plane elasticity has two moduli, mu and ``kappa``: ``3 - 4 nu`` in plane strain and
     ``(3 - nu)/(1 + nu)`` in plane stress (Muskhelishvili, 1953), which is ``3 - 4 nu/(1 + nu)``.
+    In antiplane shear nu has no effect, and mu replaces ``mu/(1 - nu)``: zero.
     """
     if plane == ANTIPLANE:
         return 0.0 * poisson_ratio
@@ -47,15 +32,13 @@ class Material(Checked):
     3333
     """
 
-    shear_modulus: float = quantity("shear modulus", "(0.0, 1e13) Pa", symbol="mu", default=3.1e9)
-    poisson_ratio: float = quantity(
-        "Poisson's ratio", "(-1.0, 0.5)", symbol="nu", default=1.0 / 3.0
-    )
+    shear_modulus: float = quantity("shear modulus", "(0.0, 1e13) Pa", symbol="mu")
+    poisson_ratio: float = quantity("Poisson's ratio", "(-1.0, 0.5)", symbol="nu")
     density: float = quantity(
         "mass density; zero makes the block quasi-static, without inertia",
         "[0.0, 1e6) kg/m^3",
         symbol="rho",
-        default=1200.0,
+        default=0.0,
     )
     plane: str = quantity(
         "plane of deformation, of all bodies: strain if they are thick along z, stress for plates "

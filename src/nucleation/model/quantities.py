@@ -1,8 +1,7 @@
-"""Physical quantities as dataclass fields: unit, allowed range and description in one place.
+"""Physical quantities: unit, allowed range and meaning of a parameter in one place.
 
-Every parameter of the project is declared once, with :func:`quantity`. The checks of the
-library's dataclasses, the JSON schema of the configuration and the attributes of the datasets
-follow from that declaration.
+Every parameter is declared once. Checks, help texts, the configuration's schema and the attributes
+of datasets follow from its declaration.
 """
 
 import dataclasses
@@ -11,7 +10,7 @@ import numbers
 import re
 from collections.abc import Collection
 from functools import cache
-from typing import Any, cast
+from typing import Any
 
 _RANGE = re.compile(r"([\[(])(.+), (.+)([\])]) ?(.*)")
 
@@ -32,13 +31,13 @@ class ParameterError(ValueError):
 
 @dataclasses.dataclass(frozen=True)
 class Quantity:
-    """Declaration of one parameter: unit, open or closed range, description, paper symbol."""
+    """Declaration of one parameter: meaning, unit, range with its brackets, symbol of the paper."""
 
     description: str
     unit: str = "1"
     low: float = -math.inf
     high: float = math.inf
-    closed: str = ""  # which ends belong to the range: "low", "high", "both" or ""
+    closed: str = "()"  # brackets of the range; a square one includes its end
     symbol: str = ""
     choices: Collection[str] = ()
     kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
@@ -60,31 +59,34 @@ class Quantity:
         return dataclasses.replace(self, kind="float") if self.many else self
 
     @property
-    def includes_low(self) -> bool:
-        """Whether the lower end belongs to the range."""
-        return self.closed in ("low", "both")
-
-    @property
-    def includes_high(self) -> bool:
-        """Whether the upper end belongs to the range."""
-        return self.closed in ("high", "both")
-
-    @property
     def unit_suffix(self) -> str:
         """The unit after a space, for messages; empty for pure numbers and words."""
         return "" if self.unit == "1" or self.worded else f" {self.unit}"
 
+    @property
+    def bounds(self) -> str:
+        """The allowed range with its unit, ``(0, 1e+06] m``, or ``one of aging, slip``."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        if self.kind == "str":
+            return "a non-empty text"
+        return f"{self.closed[0]}{self.low:g}, {self.high:g}{self.closed[1]}{self.unit_suffix}"
+
+    def inside(self, values: Any) -> Any:
+        """Whether each number, in the declared unit, is in the range (never for NaN)."""
+        low = values >= self.low if self.closed[0] == "[" else values > self.low
+        high = values <= self.high if self.closed[1] == "]" else values < self.high
+        return low & high
+
     def allows(self, value: object) -> bool:
-        """Whether `value` is in the allowed range (never for NaN, bool or a string number)."""
+        """Whether a value has the declared type and range; no bool and no text is a number."""
         if value is None:
             return self.optional
-        if not self.many:
-            return self._allows_one(value)
-        if not isinstance(value, tuple) or not value:
-            return False
-        return all(map(self._allows_one, value))
+        if self.many:
+            return isinstance(value, tuple) and bool(value) and all(map(self._allows_one, value))
+        return self._allows_one(value)
 
-    def _allows_one(self, value: object) -> bool:
+    def _allows_one(self, value: Any) -> bool:
         if self.choices:
             return value in self.choices
         if self.kind == "str":
@@ -92,61 +94,23 @@ class Quantity:
         numeric = numbers.Integral if self.kind == "int" else numbers.Real
         if isinstance(value, bool) or not isinstance(value, numeric):
             return False
-        number = cast(float, value)
-        if number == self.low:
-            return self.includes_low
-        if number == self.high:
-            return self.includes_high
-        return self.low < number < self.high
-
-    def range_text(self) -> str:
-        """The allowed range as text, such as ``(0, 0.5)`` or ``one of aging, slip``."""
-        if self.choices:
-            return "one of " + ", ".join(self.choices)
-        if self.kind == "str":
-            return "a non-empty text"
-        left = "[" if self.includes_low else "("
-        right = "]" if self.includes_high else ")"
-        return f"{left}{self.low:g}, {self.high:g}{right}"
+        return bool(self.inside(value))
 
 
 def declared(description: str, allowed: str = "(-inf, inf)", **more: Any) -> Quantity:
-    """A declaration with the allowed range and the unit as a text.
+    """A declaration whose range and unit are a text, ``(0.0, 1e6] m``; `more` are other fields.
 
-    Parameters
-    ----------
-    description : str
-        Meaning of the parameter, as messages and help texts print it.
-    allowed : str
-        The range, with a square bracket at an end that belongs to it, and the unit:
-        ``(0.0, 1e6] m``.
-    **more
-        Other fields of :class:`Quantity`: symbol, choices or kind.
-
-    Examples
-    --------
     >>> height = declared("block height", "(0.0, 1e6] m", symbol="H")
     >>> height.low, height.high, height.closed, height.unit
-    (0.0, 1000000.0, 'high', 'm')
+    (0.0, 1000000.0, '(]', 'm')
     """
     ends = _RANGE.fullmatch(allowed)
     if ends is None:
         raise ValueError(f"{allowed!r} is no range: write it as [0.0, 1e6) m")
     left, low, high, right, unit = ends.groups()
-    closed = {"[)": "low", "(]": "high", "[]": "both", "()": ""}[left + right]
-    return Quantity(
-        description,
-        unit or "1",
-        _end(low),
-        _end(high),
-        closed,
-        **more,
-    )
-
-
-def _end(text: str) -> float:
-    """An end of a range; a whole number stays one, since floats have no 2^63 - 1."""
-    return int(text) if text.isdigit() else float(text)
+    # a whole number stays one, since floats have no 2^63 - 1
+    first, last = (int(end) if end.isdigit() else float(end) for end in (low, high))
+    return Quantity(description, unit or "1", first, last, left + right, **more)
 
 
 def quantity(
@@ -156,94 +120,39 @@ def quantity(
     default: Any = dataclasses.MISSING,
     **more: Any,
 ) -> Any:
-    """A dataclass field that carries its :class:`Quantity` as metadata.
-
-    Parameters
-    ----------
-    description, allowed, **more
-        As in :func:`declared`. The kind follows from the field's annotation.
-    default : object
-        The field's default, in SI units.
-
-    Returns
-    -------
-    dataclasses.Field
-    """
+    """A dataclass field with its declaration as of :func:`declared`, and its default (SI units)."""
     entry = declared(description, allowed, **more)
     return dataclasses.field(default=default, metadata={"quantity": entry})
 
 
-def declarations(cls: type) -> dict[str, Quantity]:
+def declarations(cls: Any) -> dict[str, Quantity]:
     """The declared quantities of a dataclass, by field name, with the kind of each field."""
-    return dict(_declarations(cls))
+    return _declarations(cls)
 
 
 @cache  # a study of thousands of runs needs each group of each run
 def _declarations(cls: Any) -> dict[str, Quantity]:
     found = {}
     for field in dataclasses.fields(cls):
-        if "quantity" not in field.metadata:
-            continue
-        text = str(field.type)
-        annotation = getattr(field.type, "__name__", text)
-        kind = annotation.removesuffix(" | None")
-        found[field.name] = dataclasses.replace(
-            field.metadata["quantity"],
-            kind=kind,
-            optional=kind != annotation,
-        )
+        if "quantity" in field.metadata:
+            annotation = getattr(field.type, "__name__", str(field.type))
+            kind = annotation.removesuffix(" | None")
+            found[field.name] = dataclasses.replace(
+                field.metadata["quantity"], kind=kind, optional=kind != annotation
+            )
     return found
 
 
-def plain(group: Any) -> dict[str, Any]:
-    """The fields of a dataclass of plain values; faster than ``asdict``, which copies each."""
-    names = [field.name for field in dataclasses.fields(group)]
-    return {name: getattr(group, name) for name in names}
-
-
 def check(key: str, value: object, entry: Quantity) -> None:
-    """Check a value against its declaration.
-
-    Parameters
-    ----------
-    key : str
-        Name of the parameter, for the message.
-    value : object
-        The value in SI units.
-    entry : Quantity
-        The declaration.
-
-    Raises
-    ------
-    ParameterError
-        If `entry` does not allow the value.
-    """
+    """Raise a ParameterError if a declaration does not allow the value (SI units) of a key."""
     if not entry.allows(value):
         raise ParameterError(refusal(key, value, entry))
 
 
 def refusal(key: str, value: object, entry: Quantity) -> str:
-    """The error message for a value that is not allowed.
-
-    Parameters
-    ----------
-    key : str
-        Name of the parameter.
-    value : object
-        The value in SI units.
-    entry : Quantity
-        The declaration.
-
-    Returns
-    -------
-    str
-        Key, value, unit, meaning and allowed range.
-    """
-    unit = entry.unit_suffix
-    if entry.worded:
-        rule = f"must be {entry.range_text()}"
-    elif entry.kind == "int":
-        rule = f"must be an integer in {entry.range_text()}{unit}"
-    else:
-        rule = f"must lie in {entry.range_text()}{unit}"
-    return f"{key} = {value!r}{unit} is not allowed: {entry.description} {rule}"
+    """The message for a value that is not allowed: key, value, unit, meaning and range."""
+    rule = "must be" if entry.worded else "must lie in"
+    if entry.kind == "int":
+        rule = "must be an integer in"
+    shown = f"{key} = {value!r}{entry.unit_suffix}"
+    return f"{shown} is not allowed: {entry.description} {rule} {entry.bounds}"

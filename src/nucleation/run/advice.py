@@ -7,7 +7,7 @@ those that a user plans with.
 import math
 from collections.abc import Iterator
 
-from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION
+from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION
 from ..theory.creep.lengths import stability_length_of
 from .estimates import element_height
 from .run import Run

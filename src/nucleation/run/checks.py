@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 
-from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
-from ..model.stepping import FIRST_STEP
+from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION, FIRST_STEP, KINDS
 from .run import Run
 
 _SECOND_FAR_SIDES = ("free", "clamped", "roller")

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from ..fault import Fault
-from ..model.friction.law import Friction
-from ..model.own_fault import roughness_length
-from ..model.quantities import ParameterError, plain
-from ..model.start import Start
+from ..model.friction import Friction
+from ..model.friction.constants import roughness_length
+from ..model.quantities import ParameterError
+from ..model.settings import Start
 from ..theory.critical import unstable_modes
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
@@ -42,7 +42,7 @@ def flat(fault: Fault, law: Friction) -> dict[str, Any]:
     Those of a second body that equal the first one's are left out.
     """
     found: dict[str, Any] = {name: getattr(fault, name) for name in sections()["material"]}
-    for name, value in plain(law).items():
+    for name, value in vars(law).items():
         found[law.called.get(name, name)] = value
     for name in ("normal_stress", "velocity", "initial_state", "loading", "height"):
         found[name] = getattr(fault, name)

@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..fault import Fault
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from ..model.material import ANTIPLANE, in_plane_ratio
-from ..model.start import Start
+from ..model.settings import Start
 from ..theory.evaluation import single_system
 from ..theory.stiffness import SATURATION
 

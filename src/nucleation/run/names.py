@@ -7,16 +7,12 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from ..model.block import Block
-from ..model.friction.constants import CONSTANTS
-from ..model.friction.registry import law_declarations
+from ..model.friction import law_declarations
+from ..model.friction.constants import CONSTANTS, ZETA_OVER_A
 from ..model.heterogeneity import Heterogeneity
-from ..model.perturbation import Perturbation
+from ..model.hints import hint
 from ..model.quantities import ParameterError, Quantity, check, declarations
-from ..model.recording import Recording
-from ..model.start import Start
-from ..model.stepping import Stepping
-from ..model.synonyms import hint
+from ..model.settings import Block, Perturbation, Recording, Start, Stepping
 from ..model.units import parse
 from ..theory.values import QUANTITIES
 
@@ -97,7 +93,8 @@ def parameters() -> Mapping[str, Quantity]:
             found[name] = dataclasses.replace(
                 known[name], optional=left_out or known[name].optional
             )
-    return MappingProxyType(found | CONSTANTS)
+    known["zeta_over_a"] = ZETA_OVER_A
+    return MappingProxyType(found | {name: known[name] for name in CONSTANTS})
 
 
 def require_known(name: str) -> None:

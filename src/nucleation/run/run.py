@@ -11,17 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from ..fault import Fault
 from ..fault.paper import PAPER
-from ..model.block import Block
+from ..model.friction import Friction, law_declarations
 from ..model.friction.constants import CONSTANTS, with_constants
-from ..model.friction.law import Friction
-from ..model.friction.registry import law_declarations
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
-from ..model.perturbation import Perturbation
-from ..model.quantities import ParameterError, plain
-from ..model.recording import Recording
-from ..model.start import Start
-from ..model.stepping import Stepping
+from ..model.quantities import ParameterError
+from ..model.settings import Block, Perturbation, Recording, Start, Stepping
 from ..theory.evaluation import single_system
 from .complete import completed, flat
 from .estimates import growth_time, process_zone
@@ -119,7 +114,7 @@ class Run:
         found = flat(self.fault, self.law)
         for group in GROUPS:
             own = getattr(self, group)
-            for name, value in plain(own).items():
+            for name, value in vars(own).items():
                 if value is not None:
                     found[own.called.get(name, name)] = value
         return found
@@ -168,7 +163,7 @@ class Run:
         law = with_constants(law, changed["velocity"], given)
         for name in (*_OF_LAWS, *CONSTANTS):
             changed.pop(name, None)
-        for name, value in plain(law).items():
+        for name, value in vars(law).items():
             changed[law.called.get(name, name)] = value
         run = object.__new__(type(self))
         run._set({name: value for name, value in changed.items() if value is not None})

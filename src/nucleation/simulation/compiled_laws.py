@@ -13,8 +13,7 @@ import numpy as np
 from numba.extending import register_jitable
 
 from ..fem.compiling import compiled
-from ..model.friction import evolution
-from ..model.friction.law import Friction
+from ..model.friction import Friction, evolutions
 from ..types import Array
 
 CompiledFriction = Callable[..., tuple[Array, Array, Array]]
@@ -36,7 +35,7 @@ def _compiled(
     own = [
         modules[formula.__module__],
         modules[implicit_log_state.__module__],
-        evolution,
+        evolutions,
     ]
     for module in own:
         for _, function in getmembers(module, isfunction):

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from ..model.stepping import Stepping
+from ..model.settings import Stepping
 from .event import Outcome
 from .interface import NewtonFailure
 from .step import Dynamics, State, StepReport

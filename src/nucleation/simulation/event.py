@@ -16,7 +16,7 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.stepping import EVENT_DROP
+from ..model.settings import EVENT_DROP
 from ..run.run import Run
 from ..types import Array
 

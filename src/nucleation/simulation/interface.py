@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from ..fem.operator import Operator, Response
-from ..model.friction.law import Friction
+from ..model.friction import Friction
 from ..types import Array
 from . import compiled_laws, passes
 from .drive import Imposed

@@ -23,7 +23,7 @@ from collections import OrderedDict
 import numpy as np
 from scipy.special import ndtri
 
-from ..model.perturbation import MEAN_SQUARE
+from ..model.settings import MEAN_SQUARE
 from ..types import Array
 
 BLOCK = 256  # coefficients drawn at a time

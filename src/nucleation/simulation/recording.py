@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..datasets.variables import annotate
-from ..model.recording import STUCK_BELOW
+from ..model.settings import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes, remarks

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from ..fem.grid import Grid
-from ..model.stepping import FIRST_STEP
+from ..model.settings import FIRST_STEP
 from ..run.run import Run
 from ..types import Array, Arrays
 from .bodies import body_of

@@ -6,7 +6,7 @@ from pathlib import Path
 import xarray as xr
 
 from ..datasets import code, provenance
-from ..model.friction.registry import plugins
+from ..model.friction import plugins
 from ..run.run import Run
 from .checkpoints import Checkpoint
 from .control import Instant

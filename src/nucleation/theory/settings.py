@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from ..model.checked import Checked
 from ..model.quantities import quantity
+from ..model.units import Checked
 
 
 def _rounded(values: np.ndarray) -> tuple[float, ...]:

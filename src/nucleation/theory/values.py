@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..model.friction.law import Friction
+from ..model.friction import Friction
+from ..model.hints import warn_of_implausible
 from ..model.material import Material
-from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, declared, refusal
 from ..model.units import magnitude
 from ..types import Array
@@ -42,7 +42,7 @@ def _declared() -> dict[str, Quantity]:
     material = declarations(Material)
     friction = declarations(Friction)
     replace = dataclasses.replace
-    modulus = replace(material["shear_modulus"], low=1e-9, closed="low")
+    modulus = replace(material["shear_modulus"], low=1e-9, closed="[)")
     ratio = material["poisson_ratio"]
     height = declared("height of the body (inf: half-space)", "[1e-12, inf] m", symbol="H")
     far_side = Quantity(
@@ -65,10 +65,10 @@ def _declared() -> dict[str, Quantity]:
         "b": declared(
             "coefficient b = a + zeta of the log of the state", "(0.0, 10.0)", symbol="b"
         ),
-        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="low"),
+        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="[)"),
         "second_shear_modulus": replace(
             modulus,
-            closed="both",
+            closed="[]",
             high=math.inf,
             description="shear modulus of the second body (inf: rigid)",
         ),
@@ -185,7 +185,7 @@ def checked(
         raise ParameterError(refusal(name, value, entry))
     array = array.astype(float)
     flat = np.asarray(array).ravel()
-    bad = np.flatnonzero(~inside(flat, entry))
+    bad = np.flatnonzero(~entry.inside(flat))
     if bad.size:
         position = np.unravel_index(bad[0], array.shape)
         at = ", ".join(str(i) for i in position)
@@ -193,29 +193,6 @@ def checked(
         raise ParameterError(refusal(entry_name, float(flat[bad[0]]), entry))
     warn_of_implausible(name, flat, entry)
     return array
-
-
-def inside(
-    values: Array,
-    entry: Quantity,
-) -> NDArray:
-    """Whether each value is in the declared range.
-
-    Parameters
-    ----------
-    values : ndarray
-        In the declared unit.
-    entry : Quantity
-        The declaration.
-
-    Returns
-    -------
-    ndarray
-        Of bool, same shape.
-    """
-    low = values >= entry.low if entry.includes_low else values > entry.low
-    high = values <= entry.high if entry.includes_high else values < entry.high
-    return low & high
 
 
 def numbers_of(fault: FaultLike) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from nucleation.fault import Fault
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.material import Material
 from nucleation.run.identity import fault
 from nucleation.run.run import Run

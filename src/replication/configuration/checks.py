@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cache, partial
 from typing import Any, cast
 
-from nucleation.model.friction.registry import EVOLUTIONS
+from nucleation.model.friction import EVOLUTIONS
+from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, Quantity, declarations, refusal
-from nucleation.model.synonyms import hint
 from nucleation.model.units import parse
 from nucleation.run.names import parameters
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.recording import STUCK_BELOW
+from nucleation.model.settings import STUCK_BELOW
 from nucleation.run.checks import contradictions, memory_problem
 
 from .roles import LITERATURE, OWN, ROLES, WEAKENING_PATCHES

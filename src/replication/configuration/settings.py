@@ -8,8 +8,8 @@ import numpy as np
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.fault import Fault
-from nucleation.model.checked import Checked
 from nucleation.model.quantities import quantity
+from nucleation.model.units import Checked
 from nucleation.run.run import Run
 
 from ..tables.main_text import main_text

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
-from nucleation.model.friction.registry import USUAL_EVOLUTION
+from nucleation.model.friction import USUAL_EVOLUTION
 from nucleation.pictures import style
 
 from . import laws

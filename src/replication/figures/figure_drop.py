@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from nucleation.model.friction.registry import USUAL_EVOLUTION
+from nucleation.model.friction import USUAL_EVOLUTION
 from nucleation.pictures import style
 
 from . import laws

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from nucleation.model.friction.registry import USUAL_EVOLUTION
+from nucleation.model.friction import USUAL_EVOLUTION
 from nucleation.pictures import style
 from nucleation.types import Array
 

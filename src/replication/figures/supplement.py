@@ -8,7 +8,7 @@ from typing import NamedTuple
 import xarray as xr
 from matplotlib.figure import Figure
 
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.model.quantities import declarations
 from nucleation.pictures import run, style
 

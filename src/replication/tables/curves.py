@@ -8,7 +8,7 @@ import xarray as xr
 from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate, some
 from nucleation.fault import Fault
-from nucleation.model.friction.law import Friction
+from nucleation.model.friction import Friction
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 from nucleation.types import Array

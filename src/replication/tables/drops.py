@@ -17,7 +17,7 @@ import xarray as xr
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
-from nucleation.model.perturbation import Perturbation
+from nucleation.model.settings import Perturbation
 from nucleation.run.identity import fault
 from nucleation.run.run import Run
 from nucleation.theory.creep.lengths import stability_length_of

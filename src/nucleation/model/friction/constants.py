@@ -1,91 +1,55 @@
 """The friction law for given constants of the conventional, logarithmic law.
 
 Faults are described by a coefficient f, the direct effect a and the weakening zeta = b - a at a
-slip rate V. The simulations need a full, regularised law of :mod:`nucleation.model.friction.laws`;
-each law determines its own parameters from these constants.
+slip rate V. The simulations need a full, regularised law, which determines its own parameters from
+these constants. Its default is the regularised Dieterich-Ruina law, whose scales have the ratios to
+V and D/V of the paper's experiment.
 """
 
 from collections.abc import Mapping
 from typing import Any
 
-from ..quantities import ParameterError, Quantity, declared
-from .law import Friction
+from ..quantities import ParameterError, declared
+from . import Friction
 
-CONSTANTS: dict[str, Quantity] = {
-    "friction": declared(
-        "friction coefficient of steady sliding at the imposed velocity", "(0.0, 10.0)", symbol="f"
-    ),
-    "a": declared(
-        "direct effect of the slip rate at the imposed velocity", "(0.0, 1.0)", symbol="a"
-    ),
-    "zeta_over_a": declared(
-        "velocity weakening over direct effect at the imposed velocity",
-        "(-1.0, 1000.0)",
-        symbol="zeta/a",
-    ),
-    "zeta": declared(
-        "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a",
-        "(-1.0, 1.0)",
-        symbol="zeta",
-    ),
-    "b": declared(
-        "coefficient b = a + zeta of the log of the state at the imposed velocity; in place of "
-        "zeta_over_a",
-        "[0.0, 1.0)",
-        symbol="b",
-    ),
+CONSTANTS = ("friction", "a", "zeta_over_a", "zeta", "b")
+"""Constants of the logarithmic law at the imposed velocity, by their names in studies."""
+
+ZETA_OVER_A = declared(
+    "velocity weakening over direct effect at the imposed velocity",
+    "(-1.0, 1000.0)",
+    symbol="zeta/a",
+)
+
+LAW = "dieterich_ruina"
+PAPERS_LAW = "product"
+OVER_VELOCITY = {
+    LAW: {"regularisation_slip_rate": 1e-4, "reference_slip_rate": 1.0},
+    PAPERS_LAW: {"regularisation_slip_rate": 1e-4, "slip_rate_scale": 1e-2},
 }
-"""Constants of the logarithmic law, by their names in studies."""
+"""Scales of each law, over V."""
 
-_WEAKENINGS = ("zeta_over_a", "zeta", "b")
-"""Alternative constants for the weakening."""
+STATE_SCALE = 6.6e-3
+"""phi* of the paper's law over D/V."""
+
+AGE = 20.0
+"""Initial age of the interface over D/V."""
+
+_ROUGHNESS = 0.2
+"""Correlation length along x over mu/(1 - nu) D/(b sigma0)."""
 
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
-    """The :data:`CONSTANTS` of a law.
-
-    Parameters
-    ----------
-    friction : Friction
-        The full law.
-    velocity : float
-        Slip rate V of steady sliding (m/s).
-
-    Returns
-    -------
-    dict of float
-    """
+    """The :data:`CONSTANTS` of a law at V (m/s), by name."""
     f, a, zeta = friction.expansion(velocity)
-    return dict(
-        zip(
-            CONSTANTS,
-            (f, a, zeta / a, zeta, a + zeta),
-            strict=True,
-        )
-    )
+    return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
 
 
 def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any]) -> Friction:
-    """The law with given :data:`CONSTANTS`, and its own values of the others.
+    """The law with those of the :data:`CONSTANTS` that are given, and its own values of the others.
 
-    Parameters
-    ----------
-    friction : Friction
-        The full law. If only a is given, the result has the same zeta/a.
-    velocity : float
-        Slip rate V of steady sliding (m/s).
-    values : mapping
-        Values by name; only the constants among them are used.
-
-    Returns
-    -------
-    Friction
-
-    Raises
-    ------
-    ParameterError
-        If the law has no allowed parameters for these constants, or the values also set one of
-        these parameters, or more than one of zeta, zeta/a and b.
+    If only a is given, the result has the same zeta/a. A ParameterError refuses constants that set
+    a parameter that is given, too, and more than one of zeta, zeta/a and b.
     """
     given = {name: float(values[name]) for name in CONSTANTS if name in values}
     if not given:
@@ -95,7 +59,7 @@ def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any
         raise ParameterError(
             f"{', '.join(clash)} is not allowed together with {', '.join(given)}, which sets it"
         )
-    weakenings = [name for name in _WEAKENINGS if name in given]
+    weakenings = [name for name in CONSTANTS[2:] if name in given]
     if len(weakenings) > 1:
         raise ParameterError(f"{weakenings[0]} is not allowed together with {weakenings[1]}")
     f, a, ratio, zeta, b = (constants(friction, velocity) | given).values()
@@ -106,37 +70,8 @@ def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any
     return full_law(friction, velocity, f, a, zeta)
 
 
-def full_law(
-    friction: Friction,
-    velocity: float,
-    f: float,
-    a: float,
-    zeta: float,
-) -> Friction:
-    """The law with these constants about steady sliding at one slip rate.
-
-    Parameters
-    ----------
-    friction : Friction
-        The law with its evolution; it keeps all parameters but :attr:`Friction.set_by_expansion`.
-    velocity : float
-        Slip rate V of steady sliding (m/s).
-    f : float
-        Friction coefficient at V.
-    a, zeta : float
-        Direct effect ``v df/dv`` and velocity weakening ``-v df_ss/dv`` at V (Eq. S-log).
-
-    Returns
-    -------
-    Friction
-        With other values of :attr:`Friction.set_by_expansion`, so that :meth:`Friction.expansion`
-        gives f, a and zeta.
-
-    Raises
-    ------
-    ParameterError
-        If the law has no allowed parameters for these constants.
-    """
+def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: float) -> Friction:
+    """The law with f, a and zeta in steady sliding at V (m/s), which keeps its other parameters."""
     try:
         return friction.with_expansion(velocity, f, a, zeta)
     except ParameterError as error:
@@ -145,3 +80,27 @@ def full_law(
         slow = velocity < 10.0 * v0
         cure = f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V" if slow else ""
         raise ParameterError(f"no friction law has {wanted}{cure}: {error}") from None
+
+
+def own_law(velocity: float, slip_distance: float, evolution: str, law: str = LAW) -> Friction:
+    """The friction law of a fault of its own, with scales that follow from V (m/s) and D (m)."""
+    scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY.get(law, {}).items()}
+    if law == PAPERS_LAW:
+        scales["state_scale"] = STATE_SCALE * slip_distance / velocity
+    return Friction(law=law, evolution=evolution, slip_distance=slip_distance, **scales)
+
+
+def law_of(
+    law: Friction | None, evolution: str, velocity: float, slip_distance: float, *constants: float
+) -> Friction:
+    """The law, by default one of its own, with D (m) and the constants f, a and zeta at V (m/s)."""
+    if law is None:
+        law = own_law(velocity, slip_distance, evolution)
+    elif (*law.expansion(velocity), law.slip_distance) == (*constants, slip_distance):
+        return law  # unchanged in all digits
+    return full_law(law.changed({"slip_distance": slip_distance}), velocity, *constants)
+
+
+def roughness_length(modulus: float, slip_distance: float, strength: float) -> float:
+    """Correlation length (m) of roughness: a fifth of L_b, by mu* (Pa), D (m), b sigma0 (Pa)."""
+    return _ROUGHNESS * modulus * slip_distance / strength

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...model.friction.law import Friction
+from ...model.friction import Friction
 from ...types import Array
 from ..status import NoLength
 from .linearised import FrozenPatch, creeping_patch, local_coefficients

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from ...model.friction import Friction
 from ...model.friction.constants import full_law
-from ...model.friction.law import Friction
 from ...model.quantities import ParameterError
 from ...types import Array
 from ..crossings import largest_crossings

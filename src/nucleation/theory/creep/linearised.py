@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from ...model.friction.law import Friction
+from ...model.friction import Friction
 from ...types import Array, ComplexArray
 from .steady import Creep
 

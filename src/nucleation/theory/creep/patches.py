@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...model.friction.law import Friction
+from ...model.friction import Friction
 from ..spectrum import Systems
 from ..status import NoLength
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import RK45
 
-from ...model.friction.law import Friction
+from ...model.friction import Friction
 from ...types import Array
 from ..status import UNKNOWN, NoLength
 from .patches import Patches

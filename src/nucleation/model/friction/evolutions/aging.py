@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..evolution import Array, wright_omega
+from . import Array, wright_omega
 
 
 def growth(omega: ArrayLike) -> Array:
@@ -21,18 +21,7 @@ def implicit_log_state(
     step: Array | float,
     rate: Array,
 ) -> tuple[Array, Array]:
-    """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function.
-
-    Parameters
-    ----------
-    history, step, rate
-        As in :meth:`~nucleation.model.friction.evolution.StateEvolution.implicit_log_state`.
-
-    Returns
-    -------
-    log_state, slope : ndarray
-        psi and ``dpsi/drate`` (s), shape (nodes,).
-    """
+    """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
     shifted = history - step * rate
     excess = wright_omega(np.log(step) - shifted)  # = step exp(-psi)
     slope = -step / (1.0 + excess)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..evolution import Array
+from . import Array
 
 
 def growth(omega: ArrayLike) -> Array:
@@ -23,18 +23,7 @@ def implicit_log_state(
     step: Array | float,
     rate: Array,
 ) -> tuple[Array, Array]:
-    """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi).
-
-    Parameters
-    ----------
-    history, step, rate
-        As in :meth:`~nucleation.model.friction.evolution.StateEvolution.implicit_log_state`.
-
-    Returns
-    -------
-    log_state, slope : ndarray
-        psi and ``dpsi/drate`` (s), shape (nodes,).
-    """
+    """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi)."""
     log_rate = np.log(rate)
     divisor = 1.0 + step * rate
     log_state = (history - step * rate * log_rate) / divisor

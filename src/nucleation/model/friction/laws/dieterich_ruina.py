@@ -14,8 +14,9 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....types import Array
 from ...quantities import ParameterError, quantity
-from ..law import Array, Friction, law_name
+from .. import Friction, law_name
 
 _LARGEST_RATIO = 1e6  # of f0 over a: beyond, round-off of f0/a is seen in log(v)
 _LARGEST_EXPONENT = 650.0
@@ -81,18 +82,7 @@ class Law(Friction):
         psi: Array,
         constants: tuple[float, ...],
     ) -> tuple[Array, Array, Array]:
-        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``.
-
-        Parameters
-        ----------
-        v, psi, constants
-            As in :meth:`~nucleation.model.friction.law.Friction.formula`.
-
-        Returns
-        -------
-        coefficient, by_rate, by_log_state : ndarray
-            Of the shape of `v`.
-        """
+        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``."""
         a, b = constants[:2]
         s = _scale(psi, constants)
         by_size = 1.0 / np.hypot(v, s)
@@ -101,33 +91,9 @@ class Law(Friction):
         angle = np.arcsinh(v / s) + np.sign(v) * beyond
         return a * angle, a * by_size, b * (v * by_size)
 
-    def with_expansion(
-        self,
-        velocity: float,
-        f: float,
-        a: float,
-        zeta: float,
-    ) -> Self:
+    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
 
-        Parameters
-        ----------
-        velocity : float
-            Slip rate V of steady sliding (m/s).
-        f, a, zeta : float
-            Friction coefficient, direct effect and velocity weakening at V.
-
-        Returns
-        -------
-        Law
-
-        Raises
-        ------
-        ParameterError
-            If no allowed parameters give this expansion.
-
-        Notes
-        -----
         In steady sliding ``phi = D/w``, ``w = sqrt(V^2 + v0^2)``. With a* the law's own coefficient
         and ``c = V/sqrt(V^2 + s^2) = tanh(f/a*)`` the expansion has ``a = a* c`` and
         ``zeta = (b (V/w)^2 - a*) c``. So ``a* = a/c``; in double precision it is a itself if

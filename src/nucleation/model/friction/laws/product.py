@@ -12,8 +12,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from ....types import Array
 from ...quantities import ParameterError, quantity
-from ..law import Array, Friction, law_name
+from .. import Friction, law_name
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,18 +62,7 @@ class Law(Friction):
         psi: Array,
         constants: tuple[float, ...],
     ) -> tuple[Array, Array, Array]:
-        """The product of both factors, and its derivatives by v (s/m) and psi.
-
-        Parameters
-        ----------
-        v, psi, constants
-            As in :meth:`~nucleation.model.friction.law.Friction.formula`.
-
-        Returns
-        -------
-        coefficient, by_rate, by_log_state : ndarray
-            Of the shape of `v`.
-        """
+        """The product of both factors, and its derivatives by v (s/m) and psi."""
         v0, b, scale, theta, state_scale, xi = constants
         ratio = np.exp(np.minimum(psi - np.log(state_scale), 700.0))  # phi/phi*, no overflow
         aging = 1.0 + b * np.log1p(ratio)
@@ -84,33 +74,9 @@ class Law(Friction):
         by_log_state = b * (ratio / (1.0 + ratio)) * rate
         return aging * rate, aging * by_rate, by_log_state
 
-    def with_expansion(
-        self,
-        velocity: float,
-        f: float,
-        a: float,
-        zeta: float,
-    ) -> Self:
+    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
 
-        Parameters
-        ----------
-        velocity : float
-            Slip rate V of steady sliding (m/s).
-        f, a, zeta : float
-            Friction coefficient, direct effect and velocity weakening at V.
-
-        Returns
-        -------
-        Law
-
-        Raises
-        ------
-        ParameterError
-            If no allowed parameters give this expansion.
-
-        Notes
-        -----
         With ``A = 1 + b log(1 + phi/phi*)``, ``w = sqrt(V^2 + v0^2)`` and the rate factor ``R(v)``,
         ``f = A R``, ``a = A V R'`` and ``a + zeta = b R (V/w)^2 / (1 + phi*/phi)``. The last gives
         b, with R = f/A; the others are linear in theta and xi.
