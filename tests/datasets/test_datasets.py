@@ -32,7 +32,6 @@ def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
     netcdf.write(record, path, parameters="{}", code_digest="1")
     again = netcdf.read(path, requires=["slip_rate", "x"])
     xr.testing.assert_equal(again, record)
-    assert again.attrs.pop("content")
     assert again.attrs.pop("Conventions") == netcdf.CONVENTIONS == "CF-1.11"
     assert again.attrs.pop("title") == netcdf.TITLE
     assert again.attrs == {"parameters": "{}", "code_digest": "1"}
@@ -106,20 +105,6 @@ def test_attributes_are_read_from_the_seal(record, tmp_path, monkeypatch):
     assert netcdf.attributes(path) == {k: np.asarray(v).tolist() for k, v in whole.items()}
 
 
-@pytest.mark.parametrize(
-    "attributes",
-    [{"parameters": 5}, {"parameters": "{"}, {"sources": "[]"}, {"versions": "1"},
-     {"code_digest": 1.0}, {"parameters": "[" * 100_000}],
-)  # fmt: skip
-def test_crafted_attributes_are_refused(record, tmp_path, attributes):
-    """With a right digest and seal, as whoever makes the file can make them."""
-    path = tmp_path / "record.nc"
-    netcdf.write(record, path, **attributes)
-    for reading in (netcdf.read, netcdf.attributes):
-        with pytest.raises(DatasetError, match=r"record\.nc is damaged, or not of this project"):
-            reading(path)
-
-
 def test_only_files_are_opened(tmp_path):
     """A pipe would be waited for, a device read without end, and an address be asked for."""
     os.mkfifo(tmp_path / "pipe.nc")
@@ -127,14 +112,6 @@ def test_only_files_are_opened(tmp_path):
         for reading in (netcdf.read, netcdf.attributes):
             with pytest.raises(DatasetError, match=r"it is not a file|does not exist"):
                 reading(path)
-
-
-def test_shapes_beyond_the_memory_are_refused(tmp_path, monkeypatch):
-    path = tmp_path / "record.nc"
-    netcdf.write(declared({"slip_rate": ("x", np.zeros(1000))}), path)
-    monkeypatch.setattr(os, "sysconf", lambda name: 10)
-    with pytest.raises(DatasetError, match=r"would take 8e\+03 bytes of memory"):
-        netcdf.read(path)
 
 
 def test_lack_of_room_is_said_by_the_system(tmp_path):

@@ -22,9 +22,7 @@ JOB = "from replication.pipeline import around\nfrom nucleation.wing.high import
 def package(tmp_path, monkeypatch):
     """A package of its own in the place of the project's."""
     monkeypatch.setattr(code, "_ROOT", tmp_path)
-    monkeypatch.setattr(code, "_PARSED", tmp_path / "digests.json")
     code.forget()
-    code._parsed.cache_clear()
     files = {
         "nucleation/__init__.py": '"""Words."""\n__version__ = "1"\n',
         "nucleation/wing/__init__.py": '"""Words."""\n',
@@ -41,7 +39,6 @@ def package(tmp_path, monkeypatch):
         path.write_text(text)
     yield tmp_path
     code.forget()
-    code._parsed.cache_clear()
 
 
 def digest(package):

@@ -13,7 +13,7 @@ import click
 import numpy as np
 import xarray as xr
 
-from ..datasets import DatasetError, netcdf
+from ..datasets import DatasetError, netcdf, provenance
 from ..extraction.extraction import extract
 from ..extraction.record import parameters_of
 from ..installed import require
@@ -91,8 +91,8 @@ def _described(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
     """Kind, origin and variables of a dataset, and its event or its rows."""
     found: dict[str, Any] = {"kind": kind.name}
     for name, value in dataset.attrs.items():
-        if name in netcdf.TEXTS | {"key"}:
-            found[name] = json.loads(value) if name in netcdf.STRUCTURES else str(value)
+        if name in provenance.TEXTS:
+            found[name] = json.loads(value) if name in provenance.STRUCTURES else str(value)
     variables = {}
     for name, variable in dataset.variables.items():
         variables[name] = {

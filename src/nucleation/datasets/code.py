@@ -7,19 +7,15 @@ of a library its version. Code is read, not imported.
 from __future__ import annotations
 
 import ast
-import contextlib
 import hashlib
 import importlib
 import importlib.metadata
 import importlib.util
-import json
 import sys
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
-
-from .files import replacing
+from typing import NamedTuple
 
 PACKAGES = ("nucleation", "replication")
 _ROOT = Path(__file__).resolve().parents[2]
@@ -43,8 +39,6 @@ _DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
 _COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
 # fields of syntax trees without meaning here, or unknown to some Python versions
 _UNCOUNTED = {"ctx", "kind", "type_comment", "type_ignores", "type_params"}
-_PARSED = _ROOT / "nucleation" / "__pycache__" / "digests.json"
-"""Parsed sources by their content, so that a start of the workflow need not parse them again."""
 
 
 class CodeError(RuntimeError):
@@ -54,7 +48,7 @@ class CodeError(RuntimeError):
 class _Source(NamedTuple):
     tree: str  # digest of the syntax tree
     imports: list[tuple[int, str, str]]  # level, module, name
-    libraries: list[str]
+    libraries: set[str]
 
 
 @cache
@@ -62,10 +56,6 @@ def digest(*roots: str) -> str:
     """Digest of modules, by dotted names, of all that they import, and of libraries' versions."""
     parts = [f"{module} {_source(module).tree}" for module in sorted(closure(*roots))]
     parts += [f"{name} {_version(name)}" for name in sorted(libraries(*roots))]
-    parsed = _parsed()
-    if parsed.pop("changed", False):
-        with contextlib.suppress(OSError), replacing(_PARSED) as temporary:
-            temporary.write_text(json.dumps(parsed))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -118,28 +108,24 @@ def _version(library: str) -> str:
 
 @cache
 def _source(module: str) -> _Source:
-    """A parsed module; each content is parsed once and kept on the disk."""
+    """A parsed module; the result is the same for every Python version."""
     path = _file(module)
     if path is None:
         raise CodeError(f"{module} is no module of the package")
-    content = path.read_bytes()
-    name = hashlib.sha256(content).hexdigest()
-    parsed = _parsed()
-    if name not in parsed:
-        try:
-            parsed[name] = parse(content)
-        except SyntaxError as error:
-            raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
-        parsed["changed"] = True
-    return _Source(*parsed[name])
-
-
-@cache
-def _parsed() -> dict[str, Any]:
     try:
-        return dict(json.loads(_PARSED.read_text()))
-    except (OSError, ValueError, TypeError):
-        return {}
+        tree = ast.parse(path.read_bytes())
+    except SyntaxError as error:
+        raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
+    imports: list[tuple[int, str, str]] = []
+    words = "\0".join(_words(tree, imports))
+    own, others = [], set()
+    for level, name, inner in imports:
+        root = name.partition(".")[0]
+        if level or root in PACKAGES:
+            own.append((level, name, inner))
+        elif root not in sys.stdlib_module_names:
+            others.add(root)
+    return _Source(hashlib.sha256(words.encode()).hexdigest(), own, others)
 
 
 @cache
@@ -164,64 +150,29 @@ def _file(module: str) -> Path | None:
     return None
 
 
-def parse(content: bytes) -> _Source:
-    """Parse the bytes of a module; the result is the same for every Python version."""
-    tree = ast.parse(content)
-    words = "\0".join(_words(tree))
-    imports = []
-    others = set()
-    for node in _counted(tree):
-        if isinstance(node, ast.Import):
+def _words(node: object, imports: list[tuple[int, str, str]]) -> Iterator[str]:
+    """The words of a syntax tree, or of a value in one; its imports are added to the list."""
+    match node:
+        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
+            return
+        case ast.Assign(targets=[ast.Name(id="__version__")]):
+            return
+        case ast.Expr(value=ast.Constant(value=str())):  # a docstring
+            return
+        case ast.Import():
             imports += [(0, alias.name, "") for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
+        case ast.ImportFrom():
             imports += [(node.level, node.module or "", alias.name) for alias in node.names]
-    own = []
-    for level, module, name in imports:
-        root = module.partition(".")[0]
-        if level or root in PACKAGES:
-            own.append((level, module, name))
-        elif root not in sys.stdlib_module_names:
-            others.add(root)
-    return _Source(
-        hashlib.sha256(words.encode()).hexdigest(),
-        own,
-        sorted(others),
-    )
-
-
-def _counted(node: ast.AST) -> Iterator[ast.AST]:
-    """A node of a syntax tree and all below it that count."""
-    yield node
-    for child in ast.iter_child_nodes(node):
-        if not _is_ignored(child):
-            yield from _counted(child)
-
-
-def _words(node: object) -> Iterator[str]:
-    """The words of a syntax tree, or of a value in one."""
     if isinstance(node, list):
         yield "["
         for item in node:
-            if not _is_ignored(item):
-                yield from _words(item)
+            yield from _words(item, imports)
         yield "]"
     elif isinstance(node, ast.AST):
         yield type(node).__name__
         for field, value in ast.iter_fields(node):
             if field not in _UNCOUNTED and value is not None:
                 yield field
-                yield from _words(value)
+                yield from _words(value, imports)
     else:
         yield repr(node)
-
-
-def _is_ignored(node: object) -> bool:
-    """Whether a node is a docstring, code for type checkers, or the package's version."""
-    match node:
-        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
-            return True
-        case ast.Assign(targets=[ast.Name(id="__version__")]):
-            return True
-        case ast.Expr(value=ast.Constant(value=str())):
-            return True
-    return False

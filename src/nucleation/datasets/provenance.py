@@ -13,23 +13,16 @@ from typing import Any
 from .. import __version__
 from . import DatasetError
 
-_LIBRARIES = (
-    "numpy",
-    "scipy",
-    "numba",
-    "xarray",
-    "netCDF4",
-    "matplotlib",
-    "snakemake",
-)
+TEXTS = ("parameters", "code_digest", "sources", "versions", "command", "created", "key")
+"""Attributes of :func:`attributes`; those of :data:`STRUCTURES` are JSON."""
+
+STRUCTURES = ("parameters", "sources", "versions")
+_LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "matplotlib", "snakemake")
 
 
 def versions() -> dict[str, str]:
     """Versions of Python, of this package and of the installed libraries it depends on."""
-    found = {
-        "nucleation": __version__,
-        "python": platform.python_version(),
-    }
+    found = {"nucleation": __version__, "python": platform.python_version()}
     for library in _LIBRARIES:
         with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             found[library] = importlib.metadata.version(library)
@@ -37,20 +30,7 @@ def versions() -> dict[str, str]:
 
 
 def fingerprint(parameters: Any, code_digest: str) -> str:
-    """Digest of parameters and code, by which a checkpoint is recognised.
-
-    Parameters
-    ----------
-    parameters : JSON-serialisable
-        All parameters of the result.
-    code_digest : str
-        From :func:`nucleation.datasets.code.digest`.
-
-    Returns
-    -------
-    str
-        Hexadecimal digits.
-    """
+    """Digest of parameters (for JSON) and of code, by which a checkpoint is recognised."""
     text = json.dumps([parameters, code_digest], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -58,10 +38,7 @@ def fingerprint(parameters: Any, code_digest: str) -> str:
 def moment() -> datetime.datetime:
     """The creation time of results: now, or the environment's ``SOURCE_DATE_EPOCH``.
 
-    Raises
-    ------
-    DatasetError
-        If ``SOURCE_DATE_EPOCH`` is not a number of seconds since 1970.
+    Raises a DatasetError if ``SOURCE_DATE_EPOCH`` is not a number of seconds since 1970.
     """
     seconds = os.environ.get("SOURCE_DATE_EPOCH")
     if not seconds:
@@ -82,25 +59,10 @@ def attributes(
     sources: Mapping[str, Sequence[str]] | None = None,
     key: str = "",
 ) -> dict[str, str]:
-    """Attributes that record how a dataset was made.
+    """Attributes that record how a dataset was made: with the `command` that makes it again.
 
-    Parameters
-    ----------
-    parameters : JSON-serialisable
-        All values of the configuration that the result depends on.
-    code_digest : str
-        From :func:`nucleation.datasets.code.digest`.
-    command : str
-        A command that makes the dataset again.
-    sources : mapping of role to keys
-        Keys of the results that it was made from.
-    key : str
-        Key of the dataset in the workflow; empty if the workflow did not make it.
-
-    Returns
-    -------
-    dict
-        Texts by name.
+    `parameters` are all values (for JSON) that it depends on, `sources` the keys of the results
+    that it was made from, by role, and `key` its own in the workflow, if that made it.
     """
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),
@@ -110,6 +72,4 @@ def attributes(
         "command": command,
         "created": moment().isoformat(timespec="seconds"),
     }
-    if key:
-        made["key"] = key
-    return made
+    return made | ({"key": key} if key else {})

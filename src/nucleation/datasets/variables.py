@@ -7,7 +7,7 @@ not written.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import DatasetError
@@ -35,20 +35,7 @@ def some(columns: Mapping[str, Variable], names: str) -> dict[str, Variable]:
 
 
 def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset:
-    """Add the declared metadata to a copy of a dataset.
-
-    Parameters
-    ----------
-    dataset : Dataset
-        Its variables without a declaration stay as they are.
-    columns : mapping
-        Declarations by variable.
-
-    Returns
-    -------
-    Dataset
-        The copy.
-    """
+    """A copy of a dataset with the declared metadata; other variables stay as they are."""
     annotated = dataset.copy()
     for name in columns.keys() & dataset.variables.keys():
         annotated[name].attrs.update(columns[name].attributes)
@@ -56,30 +43,11 @@ def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset
 
 
 def table(
-    rows: Iterable[Mapping[str, Any]],
-    columns: Mapping[str, Variable],
-    dim: str = "run",
+    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Variable], dim: str = "run"
 ) -> xr.Dataset:
-    """Make a table with one variable for each declared column.
+    """A table with one variable for each declared column, in their order; `dim` is of its rows.
 
-    Parameters
-    ----------
-    rows : iterable of mapping
-        A value for each column; further values are ignored.
-    columns : mapping
-        Declarations of the columns, in their order.
-    dim : str
-        Name of the dimension of the rows.
-
-    Returns
-    -------
-    Dataset
-        The table.
-
-    Raises
-    ------
-    DatasetError
-        If a row lacks a declared column.
+    Each row has a value for each column, else a DatasetError is raised; further values are ignored.
     """
     import xarray as xr
 
@@ -89,16 +57,14 @@ def table(
         raise DatasetError(f"columns that are declared and not computed: {missing}")
     variables = {}
     for name, column in columns.items():
-        values = [row[name] for row in listed]
-        variables[name] = (dim, values, column.attributes)
+        variables[name] = (dim, [row[name] for row in listed], column.attributes)
     return xr.Dataset(variables)
 
 
 def is_table(dataset: xr.Dataset) -> bool:
     """Whether all variables of a dataset are columns on one dimension."""
-    if len(dataset.dims) != 1:
-        return False
-    return all(variable.ndim == 1 for variable in dataset.data_vars.values())
+    columns = dataset.data_vars.values()
+    return len(dataset.dims) == 1 and all(column.ndim == 1 for column in columns)
 
 
 def to_csv(table: xr.Dataset) -> str:
@@ -108,26 +74,18 @@ def to_csv(table: xr.Dataset) -> str:
 
 
 def require_annotated(dataset: xr.Dataset) -> None:
-    """Check that every variable has a long name, and a unit if it holds numbers.
+    """Raise a DatasetError unless all variables have a long name, and numbers a unit.
 
     An empty column needs no unit, since its type is unknown.
-
-    Raises
-    ------
-    DatasetError
-        If one lacks them.
     """
-    bare = [str(name) for name in dataset.variables if not _is_annotated(dataset, name)]
+    bare = []
+    for name, variable in dataset.variables.items():
+        has_numbers = variable.size > 0 and variable.dtype.kind in "fiubc"
+        needed = ("long_name", "units") if has_numbers else ("long_name",)
+        if not all(variable.attrs.get(key) for key in needed):
+            bare.append(str(name))
     if bare:
         raise DatasetError(
             f"variables without unit or long name: {sorted(bare)}: declare them where the "
             "dataset is made, see nucleation.datasets.variables"
         )
-
-
-def _is_annotated(dataset: xr.Dataset, name: Hashable) -> bool:
-    variable = dataset.variables[name]
-    has_numbers = variable.size > 0 and variable.dtype.kind in "fiubc"
-    if has_numbers and not variable.attrs.get("units"):
-        return False
-    return bool(variable.attrs.get("long_name"))

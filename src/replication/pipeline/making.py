@@ -20,6 +20,7 @@ from typing import Any
 import xarray as xr
 
 from nucleation.datasets import DatasetError, code, netcdf, provenance
+from nucleation.datasets.files import replacing
 from nucleation.datasets.variables import is_table, to_csv
 from nucleation.model.quantities import ParameterError
 
@@ -245,7 +246,8 @@ def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
         parameters = content.attrs.get("parameters", origin["parameters"])
         netcdf.write(content, path, **{**origin, "parameters": parameters})
     elif isinstance(content, str):
-        netcdf.write_text(content, path)
+        with replacing(path) as temporary:
+            temporary.write_text(content, encoding="utf-8")
     elif callable(content):
         content(path)
     else:

@@ -19,8 +19,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from nucleation.datasets import DatasetError, seal
-from nucleation.datasets.files import flush
+from nucleation.datasets import DatasetError
+from nucleation.datasets.files import flush, sealed
 
 from .messages import LOGGER
 
@@ -84,7 +84,7 @@ def _check_bytes(path: Path, digest: str, key: str) -> None:
     """Raise DatasetError if a file of an entry has another digest, or another key in its seal."""
     if digest_of_file(path) != digest:
         raise DatasetError(f"{path} is damaged: it differs from the file that was written")
-    if path.suffix == ".nc" and seal.attributes(path).get("key") != key:
+    if path.suffix == ".nc" and sealed(path, whole=False).get("key") != key:
         raise DatasetError(f"{path} is the result of another key")
 
 

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate, some
 from nucleation.fault import Fault
 from nucleation.model.friction import Friction
@@ -14,6 +13,7 @@ from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_l
 from nucleation.types import Array
 
 from .main_text import main_text, on_rigid_base
+from .rows import SHARED
 
 CURVES = {
     "height": SHARED["height"],

@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.theory.critical import unstable_modes
@@ -19,6 +18,7 @@ from nucleation.types import ComplexArray
 
 from .curves import CURVES
 from .main_text import on_rigid_base
+from .rows import SHARED
 from .sliding_modes import measured_rates
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import MEASURED, extract
@@ -18,7 +17,7 @@ from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 from nucleation.types import Array
 
-from .rows import Row
+from .rows import SHARED, Row
 
 _OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
     "onset_time": np.mean,

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator
 
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.zones import DEFINITIONS, far_ahead, zone_length
 from nucleation.fault import Fault
@@ -26,7 +25,7 @@ from nucleation.lengths.in_use import LENGTHS, values_of
 from nucleation.lengths.length import TWO_MATERIALS
 from nucleation.run.run import Run
 
-from .rows import Row
+from .rows import SHARED, Row
 
 SLIP_RATES = (1e-4, 1e-2, 1.0, 1e3)  # m/s, at which lengths are read
 

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import annotate
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast
@@ -22,6 +21,7 @@ from nucleation.theory.evaluation import single_system
 from nucleation.types import Array
 
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
+from .rows import SHARED
 from .sliding_modes import measured_rates
 
 RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one

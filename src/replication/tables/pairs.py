@@ -5,7 +5,6 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import MEASURED as EXTRACTED
@@ -17,7 +16,7 @@ from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_lengt
 from . import lengths
 from .lengths import COLUMNS as LENGTHS
 from .lengths import description
-from .rows import RATIO_COLUMNS, Row, ratios
+from .rows import RATIO_COLUMNS, SHARED, Row, ratios
 
 MEASURED = some(EXTRACTED, "onset_time length length_low length_high")
 

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.extraction.growth import FITTED
 from nucleation.run.identity import fault
@@ -23,7 +22,7 @@ from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS
 from .lengths import description
-from .rows import Row
+from .rows import SHARED, Row
 
 COLUMNS = {
     **some(LENGTHS, "id study role evolution friction_law height"),

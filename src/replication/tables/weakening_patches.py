@@ -11,7 +11,6 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.shared import SHARED
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import Run
@@ -21,7 +20,7 @@ from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 
 from .curves import CURVES
-from .rows import Row, rows_of
+from .rows import SHARED, Row, rows_of
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
 TALL = 1e5  # m, height of bodies that are half-spaces
