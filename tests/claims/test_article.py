@@ -7,8 +7,7 @@ import jinja2
 import pytest
 from reference_evidence import ROOT, evaluate, evaluated, evidence
 
-from replication.claims.article import digits, render
-from replication.claims.table import number_text
+from replication.claims.table import digits, number_text, render
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reference_evidence import ROOT, evaluate, evidence
 
-from replication.claims import phrases
-from replication.claims.article import render
-from replication.claims.expected import Verdict
+from replication.claims import evidence as phrases
+from replication.claims.table import render
+from replication.claims.verdicts import Verdict
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 HEIGHTS = [0.005, 0.1]

@@ -13,13 +13,12 @@ import xarray as xr
 from reference_evidence import ENTRIES, PAIRED, REFERENCE, ROOT, evaluated, evidence, judged
 from reference_evidence import table as reference_table
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from nucleation.extraction.measures import BY_DEFINITION, MEASURES
 from nucleation.run.identity import fault
 from nucleation.run.run import PAPER_RUN
 from replication.claims import table
-from replication.claims.expected import WORDS, Verdict, read
+from replication.claims.verdicts import WORDS, Verdict, read
 from replication.configuration.roles import LONGER
 
 RESULTS = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
@@ -64,7 +63,7 @@ def test_claim_is_complete(id):
 
 
 def test_rows_have_a_range_or_no_number(rows):
-    assert json.loads(table.to_json(list(rows.values()))) == list(rows.values())
+    assert json.loads(json.dumps(rows, allow_nan=False)) == rows
     for row in rows.values():
         assert (row["ours"] is None) == (row["uncertainty"] is None)
         assert (row["ours"] is None) == (row["verdict"] == Verdict.UNCHECKED)
@@ -124,76 +123,28 @@ def test_onset_and_length_of_figure_s2(rows):
         assert row["uncertainty"] == ends
         assert row["on_papers_mesh"] == papers[column].item()
         assert row["verdict"] == Verdict.WIDENED
-    onset = converged.onset_time.mean()
-    stated = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
-    assert stated in rows["onset-time"]["reason"]
-    lengths = converged["length"]
-    stated = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
-    assert stated in rows["length-shown"]["reason"] and lengths.min() > 0.155
+    assert converged["length"].min() > 0.155  # the note
 
 
-def test_the_onset_depends_on_the_kind_of_noise(rows):
-    """The reason's sentence on a fluctuating state holds for each of its realisations."""
+def test_under_a_fluctuating_state_the_onset_is_later_than_the_bound():
+    """The note on the onset holds for each realisation."""
     drops = pd.read_csv(REFERENCE / "drop.csv")
     own = drops[(drops.evolution == "aging") & np.isclose(drops.height, 0.005)]
     state = own[(own.kind == "state") & np.isclose(own.strength, 1e-5)]
     assert len(state) == 6 and state.onset_time.min() > 13.5
-    assert "With a fluctuating state the force drops later" in rows["onset-time"]["reason"]
 
 
 def test_agreement_has_its_numbers_by_reading(rows):
     """How many heights are within each part of one, by the mean of all realisations."""
     aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.initial_state == 1)]
     reason = rows["theory-agreement"]["reason"]
-    columns = ["length", "length_high_start", "critical_length"]
+    columns = ["length", "critical_length"]
     for study, label in (("converged", "Within"), ("paper", "paper's mesh within")):
         own = aging[aging.study == study].groupby("height")[columns].mean()
         ratio = own.length / own.critical_length
         near = [int((abs(ratio - 1.0) < width).sum()) for width in (0.4, 0.33, 0.3, 0.25, 0.1)]
         stated = f"{label} 40, 33, 30, 25, 10 % of one are {', '.join(map(str, near))} of 9."
         assert stated in reason
-        if study == "converged":
-            wide = (own.length_high_start / own.critical_length).min()
-            assert f"{ratio.min():.2f} to {ratio.max():.2f}, with the edge at 0.5 V" in reason
-            assert f"at least {wide:.2f}." in reason and wide < 0.6
-
-
-def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
-    """By finite differences of the thin layer's equation (T) of docs/creeping_patch.md."""
-    reason = rows["stability-lost-at-length"]["reason"]
-    stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\.$", reason)
-    lengths, weakenings = ([float(x) for x in part.split(", ")] for part in stated.groups())
-    assert weakenings == [0.1, 0.2, 0.3, 0.4, 0.5]
-    for length, weakening in zip(lengths, weakenings, strict=True):
-        assert length == pytest.approx(thin_length(weakening), abs=0.006)
-        assert (abs(length - 1.0) < 0.25) == (0.2 <= weakening <= 0.4)
-
-
-def thin_length(weakening, points=60):
-    """L_s/L_c at which the patch of a thin layer becomes unstable, by the growth of all modes.
-
-    Slip and log phi at the inner points, with v = V y; in units of the patch, D/V and sigma0.
-    """
-    a, b = 1.0 / weakening, 1.0 + 1.0 / weakening
-    y = np.arange(1, points) / points
-    inner = points - 1
-    neighbours = np.eye(inner, k=1) + np.eye(inner, k=-1)
-    stiffness = points**2 * (2.0 * np.eye(inner) - neighbours)
-
-    def growth(ratio):
-        load = stiffness / (ratio * 2.0 * np.pi) ** 2
-        elastic = -(y / a)[:, None] * load
-        healing = np.diag(-y * b / a)
-        state = -np.diag(y) - healing
-        matrix = np.block(
-            [
-                [elastic, healing],
-                [-elastic, state],
-            ]
-        )
-        return np.linalg.eigvals(matrix).real.max()
-
-    return brentq(growth, 0.4, 1.6, xtol=1e-4)
 
 
 def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
@@ -213,7 +164,7 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
         healed.append(states[-1])
     row = rows["slip-law-approximation-ahead"]
     assert row["ours"] == pytest.approx(max(found), rel=1e-5)
-    assert f"state is {max(healed):.2f} s in the place of 1.00 s" in row["reason"]
+    assert f"from 1.00 to {max(healed):.2f} s" in RESULTS
 
 
 def test_verdicts_whose_bound_is_near_have_six_realisations():

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from theory import layer_problem
 
 from replication.claims import printed, theory
-from replication.claims.expected import Verdict
+from replication.claims.verdicts import Verdict
 
 NU = 1.0 / 3.0
 WEAKENINGS = evidence().theory["zeta_over_a"].values
@@ -56,7 +56,7 @@ def linearised(law, velocity):
 def test_spring_block_is_unstable_below_the_printed_stiffness():
     """The stiffness at which a root of the linearised law and spring gets a positive real part."""
     on = evidence()
-    law, velocity = on.friction, on.fault.velocity
+    law, velocity = on.friction, on.velocity
     (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
 
     def growth(stiffness):
@@ -72,7 +72,7 @@ def test_spring_block_is_unstable_below_the_printed_stiffness():
 
 def test_perturbed_friction_is_the_printed_one():
     on = evidence()
-    law, velocity = on.friction, on.fault.velocity
+    law, velocity = on.friction, on.velocity
     ell = law.slip_distance
     _, a, zeta = law.expansion(velocity)
     (f_v, f_phi), (g_v, g_phi) = linearised(law, velocity)
@@ -109,7 +109,7 @@ def test_identical_and_mirrored_bodies_are_not_coupled():
 def test_block_on_a_rigid_base(q):
     """Eq. (10) and its limits, by formula, library and collocation."""
     expected = block_transfer(q)
-    assert theory.block_transfer(evidence(), q) == pytest.approx(expected, rel=1e-6)
+    assert theory.block(evidence(), q).transfer_functions(1.0) == pytest.approx(expected, rel=1e-6)
     if q > 0.01:  # thinner, the printed formula cancels
         assert printed.block_transfer(q, NU) == pytest.approx(expected, rel=1e-9)
 
@@ -131,7 +131,7 @@ def test_response_matrix_of_a_half_space():
 def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():
     """Identical half-spaces and a thin and a high block, with transfer functions by collocation."""
     on = evidence()
-    at, modulus = on.interface, on.fault.shear_modulus
+    at, modulus = on.interface, on.base.fault.shear_modulus
     curve = on.theory
     mode = theory.main_text(on).critical_mode()
     cases = [(lambda k: half_spaces(NU), mode.wavenumber, mode.angular_frequency)]
@@ -218,7 +218,7 @@ def test_a_longer_thin_limit_is_not_replicated(monkeypatch):
 def test_rubin_and_ampueros_length_is_the_one_that_the_note_has():
     """And it is outside the range of eta that the paper has for the conventional approach."""
     on = evidence()
-    _, a, zeta = on.friction.expansion(on.fault.velocity)
+    _, a, zeta = on.friction.expansion(on.velocity)
     fault = theory.main_text(on, a=a, zeta=zeta)
     found = fault.lengths()["rubin_ampuero_localised"].value
     scale = fault.shear_modulus * fault.slip_distance / (fault.zeta * fault.normal_stress)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from replication.claims import table
-from replication.claims.expected import (
+from replication.claims.verdicts import (
     FORMULA_TOLERANCE,
     REASONED,
     WIDEST_ALLOWANCE,
@@ -18,10 +18,18 @@ from replication.claims.expected import (
     formula,
     holds,
     judge,
-    number,
     read,
-    words,
 )
+from replication.claims.verdicts import worst as least_favourable
+
+
+def number(printed):
+    return read({"number": printed})
+
+
+def words(expression):
+    return read({"words": expression})
+
 
 BELOW, ABOVE = read({"below": 1.0}), read({"above": 1.0})
 
@@ -87,6 +95,8 @@ def test_words_are_intervals_with_a_reading():
             assert not holds(expected, between(high))
     with pytest.raises(KeyError):
         words("quite nice")
+    with pytest.raises(ValueError, match="no known kind"):
+        read({"figure": 3})
 
 
 @pytest.mark.parametrize(
@@ -103,13 +113,13 @@ def test_words_are_intervals_with_a_reading():
     ],
 )
 def test_the_least_favourable_of_several_numbers_is_judged(expected, worst, low, high):
-    assert expected.worst([0.9, 1.05, 1.0]) == Estimate(worst, low, high)
-    assert expected.worst(0.9) == between(0.9)
+    assert least_favourable(expected, [0.9, 1.05, 1.0]) == Estimate(worst, low, high)
+    assert least_favourable(expected, 0.9) == between(0.9)
     own = [between(0.9, 0.7, 1.1), between(1.05, 0.95, 1.15), between(1.0)]
-    assert expected.worst(own) == next(one for one in own if one.value == worst)
-    assert math.isnan(expected.worst([1.0, math.nan]).value)
+    assert least_favourable(expected, own) == next(one for one in own if one.value == worst)
+    assert math.isnan(least_favourable(expected, [1.0, math.nan]).value)
     with pytest.raises(ValueError):
-        expected.worst([])
+        least_favourable(expected, [])
 
 
 THIRTEEN = number("13")
@@ -137,8 +147,7 @@ GOOD, BAD = 12.8, 18.9
     ],
 )
 def test_verdicts(result, verdict, words_of_reason):
-    result = Result(**{**vars(result), "mesh": "its mesh"})
-    found, reason = judge(result.expected or THIRTEEN, result)
+    found, reason = judge(result.expected or THIRTEEN, result._replace(mesh="its mesh"))
     assert found == verdict
     assert words_of_reason in reason
     assert set(REASONED) < set(WORDS)

@@ -72,7 +72,7 @@ rule write_article:
         f"{RESULTS}/logs/article.log",
     localrule: True
     params:
-        call="replication.claims.article:write_article",
+        call="replication.claims.table:write_article",
     shell:
         JOB
 
@@ -90,7 +90,7 @@ rule write_replication:
         f"{RESULTS}/logs/replication.log",
     localrule: True
     params:
-        call="replication.claims.article:write_article",
+        call="replication.claims.table:write_article",
         beyond=True,
     shell:
         JOB

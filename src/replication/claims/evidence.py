@@ -1,15 +1,15 @@
 """The evidence that claims are judged by: the workflow's datasets, and rows by role and label."""
 
 import dataclasses
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from nucleation.fault import Fault
-from nucleation.model.friction import Friction
+from nucleation.model.friction import Expansion, Friction
 from nucleation.model.material import Material
 from nucleation.run.identity import fault
 from nucleation.run.run import Run
@@ -17,12 +17,11 @@ from nucleation.run.run import Run
 from ..configuration.roles import JUDGED, PAPERS
 from ..tables.lengths import over_realisations, realisations
 from ..tables.main_text import main_text
-from ..tables.rows import rows_of
-from . import phrases
-from .expected import Found, Missing, Result
+from ..tables.rows import Row, rows_of
+from .verdicts import Computation, Found, Missing, Result
 
-Row = dict[str, Any]
-"""A row of a table: values by column."""
+PAPERS_MESH = "the paper's mesh"
+_ELEMENTS = (400, 150)  # of the paper, along x and y
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,14 +41,19 @@ class Evidence:
     patches: dict[str, xr.Dataset]
 
     @property
-    def fault(self) -> Fault:
-        """The configuration's fault."""
-        return self.base.fault
+    def velocity(self) -> float:
+        """V (m/s)."""
+        return self.base.fault.velocity
 
     @property
     def friction(self) -> Friction:
         """The configuration's friction law."""
         return self.base.law
+
+    @property
+    def at_v(self) -> Expansion:
+        """``f0``, ``a`` and ``zeta`` of that law at V."""
+        return self.friction.expansion(self.velocity)
 
     @property
     def interface(self) -> Fault:
@@ -83,20 +87,15 @@ class Evidence:
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(
-        self,
-        role: str,
-        law: str,
-        height: float,
-        age: float = 1.0,
-    ) -> Row:
+    def row(self, role: str, law: str, height: float, age: float = 1.0) -> Row:
         """The fault of a role with an evolution law, height (m) and initial age (s)."""
-        return self.rows(
+        found = self.rows(
             role,
             evolution=law,
             height=height,
             initial_state=age,
-        )[0]
+        )
+        return found[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
@@ -106,11 +105,6 @@ class Evidence:
         """The rows of all realisations of the faults that :meth:`rows` gives."""
         return [run for row in self.rows(role, **labels) for run in row["members"]]
 
-    @property
-    def papers_mesh(self) -> str:
-        """Mesh of the runs with the role :data:`PAPERS`, in words."""
-        return phrases.mesh(self.each(PAPERS))
-
     def stability_length(self, row: Row) -> float:
         """The length (m) at which the patch of a fault becomes unstable; Missing without it."""
         if row["id"] not in self.patches:
@@ -119,37 +113,20 @@ class Evidence:
 
     @cached_property
     def _own(self) -> list[Row]:
-        """The rows of all roles; cached because every claim on runs uses them."""
-        return [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
+        """The faults of all roles with the configuration's material, friction and loads.
 
-    def _is_own(self, row: Row) -> bool:
-        """Whether a row has the configuration's material, friction and loads, on a rigid base."""
-        names = ("initial_state", "height")
-        labels = {name: float(row[name]) for name in names}
-        own = self.base.replaced(evolution=row["evolution"], **labels)
-        return bool(row["fault"] == fault(own))
-
-
-def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
-    """The function of numbers by role: of the converged runs, and of those on the paper's mesh."""
-
-    def of_both(evidence: Evidence) -> Result:
-        found = numbers(evidence, JUDGED)
-        try:
-            return Result(found, papers=numbers(evidence, PAPERS), mesh=evidence.papers_mesh)
-        except Missing:
-            return Result(found)
-
-    return of_both
-
-
-def of_runs(
-    column: str,
-    unit: Callable[[Evidence], float] = lambda evidence: 1.0,
-    **labels: str,
-) -> Callable[[Evidence], Result]:
-    """The claim's function for a column of every run with some labels, over a unit."""
-    return on_both(lambda e, role: [run[column] / unit(e) for run in e.each(role, **labels)])
+        Cached because every claim on runs uses them.
+        """
+        found: list[Row] = []
+        for table in self.lengths:
+            runs = [_LengthsRow(row) for row in rows_of(table)]
+            faults = rows_of(over_realisations(table))
+            for row, members in zip(faults, realisations(table), strict=True):
+                names = "evolution", "initial_state", "height"
+                own = self.base.replaced(**{name: row[name] for name in names})
+                if row["fault"] == fault(own):
+                    found.append(_LengthsRow(row, members=[runs[i] for i in members]))
+        return found
 
 
 class _LengthsRow(Row):
@@ -159,14 +136,66 @@ class _LengthsRow(Row):
         raise Missing(f"The table of the runs' lengths has no {column}")
 
 
-def _faults(table: xr.Dataset) -> list[Row]:
-    """The rows of a table of lengths, one for each fault, with the rows of its realisations."""
-    runs = [_LengthsRow(row) for row in rows_of(table)]
-    groups = zip(rows_of(over_realisations(table)), realisations(table), strict=True)
-    return [_LengthsRow(row, members=[runs[i] for i in members]) for row, members in groups]
-
-
-def _same(one: str | float, other: str | float) -> bool:
+def _same(one: Any, other: str | float) -> bool:
     if isinstance(other, str):
         return bool(one == other)
-    return bool(np.isclose(one, other, rtol=1e-9))
+    return math.isclose(one, other, rel_tol=1e-9)
+
+
+def on_both(numbers: Callable[[Evidence, str], Found]) -> Computation:
+    """The function of numbers by role: of the converged runs, and of those on the paper's mesh."""
+
+    def of_both(evidence: Evidence) -> Result:
+        found = numbers(evidence, JUDGED)
+        try:
+            papers = numbers(evidence, PAPERS)
+        except Missing:
+            return Result(found)
+        return Result(found, papers=papers, mesh=mesh(evidence.each(PAPERS)))
+
+    return of_both
+
+
+def of_runs(
+    column: str,
+    unit: Callable[[Evidence], float] = lambda evidence: 1.0,
+    **labels: str,
+) -> Computation:
+    """The claim's function for a column of every run with some labels, over a unit."""
+    return on_both(lambda e, role: [run[column] / unit(e) for run in e.each(role, **labels)])
+
+
+def mesh(rows: Iterable[Mapping[str, Any]]) -> str:
+    """The mesh of runs in words: the paper's, or its numbers of elements."""
+    elements = sorted({(int(row["n_x"]), int(row["n_y"])) for row in rows})
+    if elements in ([], [_ELEMENTS]):
+        return PAPERS_MESH
+    first, last = (f"{along} x {across}" for along, across in (elements[0], elements[-1]))
+    if first == last:
+        return f"a mesh of {first} elements"
+    return f"meshes of {first} to {last} elements"
+
+
+def caution(rows: Iterable[Mapping[str, Any]]) -> str:
+    """Why numbers of coarse runs are no results; empty where none is coarser than the paper's."""
+    own = list(rows)
+    along, across = _ELEMENTS
+    if all(row["n_x"] >= along and row["n_y"] >= across for row in own):
+        return ""
+    return (
+        f"The runs that stand for the paper's have {mesh(own)}, the paper's {along} x {across}. "
+        "They test the workflow: their numbers are no results."
+    )
+
+
+def span(values: Iterable[float], form: str | Callable[[float], str]) -> str:
+    """The smallest and the largest finite number, or one if both look the same.
+
+    `form` is the format of each, or a function that formats one. Empty without a finite number.
+    """
+    known = [value for value in values if math.isfinite(value)]
+    if not known:
+        return ""
+    ends = min(known), max(known)
+    low, high = (form(end) if callable(form) else format(end, form) for end in ends)
+    return low if low == high else f"{low} to {high}"

@@ -12,33 +12,21 @@ import numpy as np
 from nucleation.types import Array, ComplexArray
 
 
-def bimaterial_contrast(
-    psi: float,
-    nu1: float,
-    nu2: float,
-) -> float:
+def bimaterial_contrast(psi: float, nu1: float, nu2: float) -> float:
     """beta (Eq. 8)."""
     difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
     compliance = psi * (1.0 - nu1) + (1.0 - nu2)
     return difference / (2.0 * compliance)
 
 
-def bimaterial_modulus(
-    psi: float,
-    nu1: float,
-    nu2: float,
-) -> float:
+def bimaterial_modulus(psi: float, nu1: float, nu2: float) -> float:
     """M over the upper body's shear modulus (Eq. 8)."""
     beta = bimaterial_contrast(psi, nu1, nu2)
     compliance = psi * (1.0 - nu1) + (1.0 - nu2)
     return 2.0 * psi / (1.0 - beta**2) / compliance
 
 
-def bimaterial_transfer(
-    psi: float,
-    nu1: float,
-    nu2: float,
-) -> tuple[float, float]:
+def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, float]:
     """G1 and G2 of two half-spaces (Eq. 7)."""
     g1 = 0.5 * bimaterial_modulus(psi, nu1, nu2)
     return g1, bimaterial_contrast(psi, nu1, nu2) * g1
@@ -85,11 +73,7 @@ def half_space_response(nu: float) -> ComplexArray:
     return np.array([[own, cross], [-cross, own]], np.complex128) / 2.0
 
 
-def block_field(
-    q: float,
-    y: Array,
-    nu: float,
-) -> ComplexArray:
+def block_field(q: float, y: Array, nu: float) -> ComplexArray:
     """u_x and u_y of a block on a rigid base at y over H, up to an amplitude (Eq. S-sol_inf)."""
     kolosov = 4.0 * nu - 3.0
     near = q * y

@@ -1,14 +1,15 @@
-"""The claims with their verdicts: the table as JSON, CSV and Markdown, and its steps."""
+"""The claims with their verdicts: the table as JSON, CSV and Markdown; and the article on them."""
 
-import dataclasses
 import json
 import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
+import jinja2
 import pandas as pd
 import xarray as xr
 import yaml
@@ -16,35 +17,26 @@ import yaml
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.run.run import Run
 
-from ..tables import lengths as table_of_lengths
-from . import friction as of_friction
+from ..tables.lengths import lengths_table, over_realisations
+from ..tables.rows import Row, rows_of
 from . import pairs as of_two_bodies
 from . import simulations, theory
-from .evidence import Evidence, Row
-from .expected import Computation, Estimate, Expected, Found, Missing, Result, Verdict, judge, read
+from .evidence import Evidence, caution, mesh, span
+from .verdicts import Computation, Missing, Result, Verdict, judge, read, worst
 
 Statements = Mapping[str, Mapping[str, Mapping[str, Any]]]
 """The entries of ``claims.yaml`` by subject and id."""
 
-NUMBERS: dict[str, Computation] = (
-    theory.NUMBERS | of_friction.NUMBERS | simulations.NUMBERS | of_two_bodies.NUMBERS
-)
+NUMBERS: dict[str, Computation] = {
+    **theory.NUMBERS,
+    **simulations.NUMBERS,
+    **of_two_bodies.NUMBERS,
+}
 """The function that computes our number for each claim, by its id."""
 
 COLUMNS = (
-    "id",
-    "subject",
-    "where",
-    "statement",
-    "paper",
-    "ours",
-    "ours_low",
-    "ours_high",
-    "on_papers_mesh",
-    "unit",
-    "verdict",
-    "reason",
-    "method",
+    *("id", "subject", "where", "statement", "paper", "ours", "ours_low", "ours_high"),
+    *("on_papers_mesh", "unit", "verdict", "reason", "method"),
 )
 
 _HEADER = (
@@ -71,8 +63,9 @@ def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) 
 def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
     """The row of one claim."""
     expected = read(entry["expected"]) if "expected" in entry else None
-    ours = other = None
     note = entry.get("note", "")
+    row: Row = {"id": id, "ours": None, "uncertainty": None, "on_papers_mesh": None}
+    row |= {name: entry[name] for name in ("where", "statement", "method")}
     try:
         if entry["method"] == "none":
             raise Missing(note.rstrip("."))
@@ -85,50 +78,33 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
         if expected is None:
             raise ValueError(f"the claim {id} has nothing to compare with")
         if entry.get("carried"):  # the paper says it of another problem
-            expected = dataclasses.replace(expected, chosen=True)
+            expected = expected._replace(chosen=True)
         verdict, reason = judge(expected, result)
-        if entry.get("input"):
-            verdict, reason = _of_input(verdict, reason)
-        reason = f"{reason} {result.note or note}".rstrip()
-        ours, other = (_worst(expected, found) for found in (result.found, result.papers))
-    return {
-        "id": id,
-        "where": entry["where"],
-        "statement": entry["statement"],
-        "quotation": entry["quotation"],
+        if entry.get("input") and verdict is Verdict.REPLICATED:  # whether the paper's or another
+            verdict = Verdict.GIVEN
+            reason = f"It is an input of the paper and of our runs. {reason}"
+        elif entry.get("input"):
+            verdict = Verdict.UNCHECKED
+            reason = f"It is an input, and these runs have another. {reason}"
+        reason = f"{reason} {note}".rstrip()
+        ours = worst(expected, result.found)
+        if not math.isnan(ours.value):
+            row |= {"ours": ours.value, "uncertainty": [ours.low, ours.high]}
+        if result.papers is not None:
+            other = worst(expected, result.papers).value
+            row["on_papers_mesh"] = None if math.isnan(other) else other
+    return row | {
         "paper": expected and expected.text,
-        "ours": ours and ours.value,
-        "uncertainty": ours and [ours.low, ours.high],
-        "on_papers_mesh": other and other.value,
         "unit": entry.get("unit", "1"),
-        "method": entry["method"],
         "verdict": str(verdict),
         "reason": reason,
     }
-
-
-def _of_input(verdict: Verdict, reason: str) -> tuple[Verdict, str]:
-    """The verdict on an input of ours: no result, whether it is the paper's or another."""
-    if verdict is Verdict.REPLICATED:
-        return Verdict.GIVEN, f"It is an input of the paper and of our runs. {reason}"
-    return Verdict.UNCHECKED, f"It is an input, and these runs have another. {reason}"
-
-
-def _worst(expected: Expected, found: Found) -> Estimate | None:
-    """The number that is judged; None without one."""
-    worst = None if found is None else expected.worst(found)
-    return None if worst is None or math.isnan(worst.value) else worst
 
 
 def counts(rows: Iterable[Row]) -> dict[str, int]:
     """The number of claims with each verdict, in the order of :class:`Verdict`."""
     found = Counter(row["verdict"] for row in rows)
     return {str(verdict): found[verdict] for verdict in Verdict}
-
-
-def to_json(rows: list[Row]) -> str:
-    """The rows as a JSON list."""
-    return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def to_csv(rows: list[Row]) -> str:
@@ -143,16 +119,9 @@ def to_markdown(rows: list[Row]) -> str:
     summary = ", ".join(f"{number} {verdict}" for verdict, number in counts(rows).items())
     lines = [f"{len(rows)} claims: {summary}.", "", *_HEADER]
     for row in rows:
-        cells = (
-            row["where"],
-            row["statement"],
-            row["paper"] or "",
-            number_text(row),
-            row["method"],
-            row["verdict"],
-            row["reason"],
-        )
-        lines.append("| " + " | ".join(map(escaped, cells)) + " |")
+        shown = row | {"paper": row["paper"] or "", "ours": number_text(row)}
+        names = "where", "statement", "paper", "ours", "method", "verdict", "reason"
+        lines.append("| " + " | ".join(escaped(shown[name]) for name in names) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -168,14 +137,7 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [
-        re.sub(
-            r"([|*_])",
-            r"\\\1",
-            part,
-        )
-        for part in parts[::2]
-    ]
+    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)
 
 
@@ -187,7 +149,7 @@ def of_paper(
     dispersion: xr.Dataset,
     lengths: Iterable[xr.Dataset],
     longer: Sequence[xr.Dataset],
-    longer_runs: list[dict[str, Any]],
+    longer_runs: list[Row],
     patches: Iterable[xr.Dataset],
     patch_ids: Sequence[str],
 ) -> dict[str, str]:
@@ -198,22 +160,91 @@ def of_paper(
     """
     tables = list(lengths)
     if len(longer):
-        tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
-    evidence = Evidence(
-        base=base,
-        theory=theory,
-        dispersion=dispersion,
-        lengths=tuple(tables),
-        patches=dict(zip(patch_ids, patches, strict=True)),
-    )
+        tables.append(lengths_table(longer_runs, longer, settings))
+    by_id = dict(zip(patch_ids, patches, strict=True))
+    evidence = Evidence(base, theory, dispersion, tuple(tables), by_id)
     rows = evaluate(statements, evidence)
-    return _files(rows) | {".json": to_json(rows)}
+    listed = json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False)
+    return {".csv": to_csv(rows), ".md": to_markdown(rows), ".json": listed + "\n"}
 
 
 def of_pairs(statements: Statements, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
     """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations."""
-    return _files(evaluate(statements, {"pairs": pairs, "modes": modes}))
-
-
-def _files(rows: list[Row]) -> dict[str, str]:
+    rows = evaluate(statements, {"pairs": pairs, "modes": modes})
     return {".csv": to_csv(rows), ".md": to_markdown(rows)}
+
+
+# -- the article --------------------------------------------------------------------------------
+
+
+def write_article(
+    template: Path, claims: Path, lengths: Iterable[xr.Dataset], beyond: bool = False
+) -> dict[str, str]:
+    """The step ``article``: its text from the template, the claims as JSON and the lengths."""
+    rows = json.loads(claims.read_text("utf-8"))
+    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
+
+
+def render(
+    template: str, claims: list[Row], lengths: Iterable[xr.Dataset], beyond: bool = False
+) -> str:
+    """The article's text; `beyond` includes the figures of L_s, the drop and the map.
+
+    The template is Markdown with Jinja2's expressions. It can use ``claim(id)``, a claim's row;
+    ``ours(id)``, our number with range and unit; ``checked(id)``, whether it has a verdict;
+    ``mesh``, that of the role ``paper`` in words, and the ``caution`` that a coarse one needs;
+    ``verdicts``, their counts; ``verdict``, :class:`Verdict`; ``claims``, all rows; ``runs(role)``,
+    the role's rows of lengths, one for each fault; ``pairs``, the faults of the paper's study, each
+    with its row of the converged study; ``by_theory(role)``, the range of L_s/L_c by theory; and
+    the filters ``digits(n)``, ``span(n)`` of numbers, ``percent(n)`` and ``typeset``, the last for
+    texts with formulas. A name that the results lack is an error.
+    """
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters |= {
+        "digits": digits,
+        "percent": lambda value, places=0: (
+            "–" if value is None else f"{100.0 * value:.{places}f} %"
+        ),
+        "span": lambda values, number: span(values, lambda value: digits(value, number)),
+        "typeset": escaped,
+    }
+    by_id = {row["id"]: row for row in claims}
+    faults = [row for table in lengths for row in rows_of(over_realisations(table))]
+
+    def runs(role: str) -> list[Row]:
+        return [row for row in faults if row["role"] == role]
+
+    def by_theory(role: str) -> str:
+        return span((row["stability_length"] / row["critical_length"] for row in runs(role)), ".2f")
+
+    converged = {row["fault"]: row for row in runs("converged")}
+    return environment.from_string(template).render(
+        claim=by_id.__getitem__,
+        ours=lambda id: number_text(by_id[id]) or "not computed",
+        checked=lambda id: by_id[id]["verdict"] != Verdict.UNCHECKED,
+        mesh=mesh(runs("paper")),
+        caution=caution(runs("paper")),
+        verdicts=counts(claims),
+        verdict=Verdict,
+        claims=claims,
+        runs=runs,
+        pairs=[(row, converged.get(row["fault"])) for row in runs("paper")],
+        by_theory=by_theory,
+        beyond=beyond,
+    )
+
+
+def digits(value: float | None, number: int) -> str:
+    """A value with some significant digits, or a dash for None."""
+    if value is None:
+        return "–"
+    mantissa, _, power = f"{value:.{number}g}".partition("e")
+    if not power:
+        return mantissa
+    factor = "" if mantissa == "1" else rf"{mantissa}\times "
+    return f"${factor}10^{{{int(power)}}}$"

@@ -1,4 +1,4 @@
-"""Claims that need no run: homogeneous sliding, two half-spaces and blocks of finite height.
+"""Claims that need no run: the friction law, homogeneous sliding, half-spaces and blocks.
 
 Our numbers are those of the library's theory. Tests compare the paper's formulas, and the library,
 with evaluations that use neither (tests/claims/test_formulas.py).
@@ -6,7 +6,7 @@ with evaluations that use neither (tests/claims/test_formulas.py).
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from nucleation.types import Array, ComplexArray
 
 from . import printed
 from .evidence import Evidence
-from .expected import Computation, Estimate, Result, between, formula
+from .verdicts import Computation, Estimate, Missing, Result, between, formula
 
 PAIRS = ((2.0, 0.25, 0.3), (0.5, 0.3, 0.2), (5.0, 0.1, 0.4), (0.9, 0.33, 0.25))
 """psi, nu(1) and nu(2) of pairs of half-spaces."""
@@ -32,27 +32,20 @@ CONTRASTS = (0.02, 0.1, 0.3, 0.5)
 STRENGTHENING = ((0.01, -0.004), (0.007, -0.001), (0.02, -0.015))
 """a and zeta of velocity-strengthening interfaces."""
 
-LAYER_NUMBERS = (0.1, 0.3, 1.0, 3.0, 10.0)
+LAYER_NUMBERS = np.array([0.1, 0.3, 1.0, 3.0, 10.0])
 """Values of kH."""
 
 HALF_SPACE = 40.0
 """kH of a body that counts as a half-space."""
 
+_SLIP_RATES = np.geomspace(1e-11, 10.0, 4801)  # m/s
+_OF_BOTH = ("shear_modulus", "normal_stress", "friction", "a", "zeta", "slip_distance", "velocity")
+
 
 def main_text(evidence: Evidence, **changes: Any) -> Fault:
     """Two identical half-spaces with the main text's friction, and changes."""
-    at, material = evidence.interface, evidence.material
-    found = Fault(
-        shear_modulus=material.shear_modulus,
-        poisson_ratio=material.in_plane_ratio,
-        normal_stress=at.normal_stress,
-        friction=at.friction,
-        a=at.a,
-        zeta=at.zeta,
-        slip_distance=at.slip_distance,
-        velocity=at.velocity,
-    )
-    return found.replace(**changes) if changes else found
+    kept = {name: getattr(evidence.interface, name) for name in _OF_BOTH}
+    return Fault(**kept | {"poisson_ratio": evidence.nu} | changes)
 
 
 def block(evidence: Evidence, height: float | Array) -> Fault:
@@ -60,42 +53,69 @@ def block(evidence: Evidence, height: float | Array) -> Fault:
     return main_text(evidence, height=height, second_shear_modulus=math.inf)
 
 
-def block_transfer(evidence: Evidence, q: float | Array) -> Any:
-    """G1 and G2 of a block of kH = q on a rigid base."""
-    return block(evidence, q).transfer_functions(1.0)
+def _coupling(evidence: Evidence, q: float) -> float:
+    """G2 over G1 of a block of kH = q on a rigid base."""
+    g1, g2 = block(evidence, q).transfer_functions(1.0)
+    return float(g2 / g1)
+
+
+# -- the friction law (Text S2.1, Fig. S1) ------------------------------------------------------
+
+
+def _vanishing(evidence: Evidence) -> float:
+    """Friction at a slip rate far below v0, over f0."""
+    law = evidence.friction
+    slow = 1e-5 * law.regularisation_slip_rate
+    return float(law.coefficient(slow, 1.0)) / evidence.at_v.f0
+
+
+def _logarithmic(evidence: Evidence) -> Array:
+    """Logarithmic over full law around V and D/V."""
+    law, velocity = evidence.friction, evidence.velocity
+    factors = np.geomspace(0.1, 10.0, 41)
+    v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
+    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
+
+
+def steady_extremes(evidence: Evidence) -> tuple[float, float]:
+    """Slip rates (m/s) of the maximum and the minimum of steady-state friction around V."""
+    velocity = evidence.velocity
+    friction = evidence.friction.steady_coefficient(_SLIP_RATES)
+    turns = np.diff(np.sign(np.diff(friction)))
+    rates = _SLIP_RATES[1:-1]
+    maxima = rates[(turns < 0) & (rates < velocity)]
+    minima = rates[(turns > 0) & (rates > velocity)]
+    if not maxima.size or not minima.size:
+        raise Missing("Steady-state friction has no velocity-weakening branch around V")
+    return float(maxima[-1]), float(minima[0])
+
+
+def _decades_of_agreement(evidence: Evidence) -> float:
+    """Decades of slip rate around V, within the branch, with a difference of less than 2 %."""
+    law, velocity = evidence.friction, evidence.velocity
+    first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
+    v = _SLIP_RATES[first:after]
+    logarithmic = law.logarithmic(v, law.slip_distance / v, velocity)
+    off = np.flatnonzero(np.abs(logarithmic / law.steady_coefficient(v) - 1.0) >= 0.02)
+    middle = int(np.abs(np.log(v / velocity)).argmin())
+    lowest = off[off < middle].max(initial=-1) + 1
+    highest = off[off > middle].min(initial=v.size) - 1
+    return math.log10(v[highest] / v[lowest])
 
 
 # -- homogeneous sliding ------------------------------------------------------------------------
 
 
-def _slopes(evidence: Evidence) -> Any:
+def _slopes(evidence: Evidence) -> list[Any]:
     """g'(1) of both evolution laws, by central differences."""
     step = 1e-5
-    ahead, behind = ([law.growth(one) for law in (aging, slip)] for one in (1 + step, 1 - step))
-    return np.subtract(ahead, behind) / (2.0 * step)
-
-
-def _spring_stiffness(evidence: Evidence) -> float:
-    """Marginal stiffness over the normal force of a body without coupling, over K_c."""
-    _, a, zeta = evidence.friction.expansion(evidence.fault.velocity)
-    return float(marginal_stiffness(0.0, a, zeta)[1] / zeta)
-
-
-def _mirrored(evidence: Evidence) -> Any:
-    """G2 of two identical layers."""
-    heights = np.array(LAYER_NUMBERS)
-    return main_text(evidence, height=heights, second_height=heights).transfer_functions(1.0)[1]
+    return [(g(1 + step) - g(1 - step)) / (2.0 * step) for g in (aging.growth, slip.growth)]
 
 
 def _softness(evidence: Evidence) -> float:
     """``mu ell/(zeta sigma0)`` (m)."""
     at = evidence.interface
     return evidence.material.shear_modulus * at.slip_distance / at.zeta / at.normal_stress
-
-
-def _wavenumber(evidence: Evidence) -> Result:
-    expected = 2.0 * (1.0 - evidence.nu) / _softness(evidence)
-    return Result(main_text(evidence).critical_mode().wavenumber, formula(expected))
 
 
 def _eta(evidence: Evidence, **changes: float) -> float:
@@ -110,11 +130,8 @@ def _eta_over_largest(evidence: Evidence) -> Result:
         r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ our number is "
         f"{without:.4g} (results: The factor pi)."
     )
-    return Result(
-        0.75 * _eta(evidence),
-        formula(math.pi, r"$\pi$"),
-        explained=(without, sentence),
-    )
+    expected = formula(math.pi, r"$\pi$")
+    return Result(0.75 * _eta(evidence), expected, explained=(without, sentence))
 
 
 def _uncoupled_frequency(evidence: Evidence) -> Result:
@@ -123,9 +140,9 @@ def _uncoupled_frequency(evidence: Evidence) -> Result:
     return Result(main_text(evidence).critical_mode().angular_frequency, formula(expected))
 
 
-def _friction_perturbation(evidence: Evidence) -> Any:
+def _friction_perturbation(evidence: Evidence) -> Array:
     """``|ratio - 1|`` of the linearised law and state over the printed formula, ell/V = 1."""
-    _, a, zeta = evidence.friction.expansion(evidence.fault.velocity)
+    _, a, zeta = evidence.at_v
     rate = np.array([0.3 + 1j, 0.1 + 2j, 1j])
     state = -rate / (rate + 1.0)  # relative change of phi for a change of slip rate
     ours = a * rate + (a + zeta) * state
@@ -147,7 +164,7 @@ def _short_waves(evidence: Evidence) -> float:
     ratios = np.geomspace(1.001, 100.0, 60)[:, None]
     wavenumbers = ratios * curve["critical_wavenumber"].values
     rates = block(evidence, curve["height"].values).spectrum(wavenumbers)
-    return float(rates.real.max() * evidence.interface.slip_distance / evidence.interface.velocity)
+    return float(rates.real.max() * evidence.interface.slip_distance / evidence.velocity)
 
 
 # -- two half-spaces ----------------------------------------------------------------------------
@@ -156,9 +173,9 @@ def _short_waves(evidence: Evidence) -> float:
 def _bimaterial(evidence: Evidence, component: int) -> Any:
     """G1 (component 0) or G2 (component 1) of the pairs over Eq. (7)."""
     psi, nu, nu2 = np.array(PAIRS).T
-    modulus = evidence.material.shear_modulus
+    modulus = psi * evidence.material.shear_modulus
     pairs = main_text(
-        evidence, poisson_ratio=nu, second_shear_modulus=psi * modulus, second_poisson_ratio=nu2
+        evidence, poisson_ratio=nu, second_shear_modulus=modulus, second_poisson_ratio=nu2
     )
     expected = [printed.bimaterial_transfer(*pair)[component] for pair in PAIRS]
     return pairs.transfer_functions(1.0)[component] / expected
@@ -171,13 +188,8 @@ def _over_printed(cases: Iterable[tuple[float, float]]) -> list[float]:
     ]
 
 
-def _bimaterial_slope(evidence: Evidence) -> xr.DataArray:
-    ratio = evidence.theory["bimaterial_length_ratio"]
-    return (ratio.diff("f_beta") / np.diff(ratio["f_beta"])).max()
-
-
-def _least_contrast(a: float, zeta: float) -> float:
-    """The least f beta for which two half-spaces have a length, by bisection."""
+def _over_threshold(a: float, zeta: float) -> float:
+    """The least f beta for which two half-spaces have a length, by bisection, over the printed."""
     stable, unstable = 0.0, 50.0
     while unstable - stable > 1e-12:
         middle = 0.5 * (stable + unstable)
@@ -185,14 +197,15 @@ def _least_contrast(a: float, zeta: float) -> float:
             stable = middle
         else:
             unstable = middle
-    return unstable
+    return unstable / printed.strengthening_threshold(a, zeta)
 
 
-def _strengthening_cases() -> Iterator[tuple[float, float]]:
-    """f beta above the threshold, and zeta/a."""
-    for a, zeta in STRENGTHENING:
-        for factor in (1.2, 2.0):
-            yield factor * printed.strengthening_threshold(a, zeta), zeta / a
+def _strengthening_length(evidence: Evidence) -> list[float]:
+    """L_c over Eq. (9) above the threshold, for zeta < 0."""
+    cases = itertools.product(STRENGTHENING, (1.2, 2.0))
+    return _over_printed(
+        (factor * printed.strengthening_threshold(a, zeta), zeta / a) for (a, zeta), factor in cases
+    )
 
 
 # -- blocks of finite height --------------------------------------------------------------------
@@ -201,13 +214,7 @@ def _strengthening_cases() -> Iterator[tuple[float, float]]:
 def _block(evidence: Evidence, component: int) -> Any:
     """G1 (component 0) or G2 (component 1) of a block on a rigid base over Eq. (10)."""
     expected = [printed.block_transfer(q, evidence.nu)[component] for q in LAYER_NUMBERS]
-    return block_transfer(evidence, np.array(LAYER_NUMBERS))[component] / expected
-
-
-def _coupling(evidence: Evidence, q: float) -> float:
-    """G2 over G1 of a block of kH = q."""
-    g1, g2 = block_transfer(evidence, q)
-    return float(g2 / g1)
+    return block(evidence, LAYER_NUMBERS).transfer_functions(1.0)[component] / expected
 
 
 def _thin_length(evidence: Evidence) -> Estimate:
@@ -226,12 +233,7 @@ def _thin_over_curve(evidence: Evidence) -> xr.DataArray:
 
 def _response_error(q: float, nu: float, expected: ComplexArray) -> float:
     """Difference of the matrix M of a layer from `expected`, over its largest entry."""
-    layer = Layers(
-        np.array(1.0),
-        np.array(nu),
-        np.array(q),
-        "velocity",
-    )
+    layer = Layers(np.array(1.0), np.array(nu), np.array(q), "velocity")
     found = layer.stiffness(1.0)
     stiffness = np.array([[found.xx, 1j * found.xy], [-1j * found.xy, found.yy]])
     difference = np.abs(-np.linalg.inv(stiffness) - expected)
@@ -244,35 +246,43 @@ def _block_field(evidence: Evidence) -> list[float]:
     lame = 2.0 * nu / (1.0 - 2.0 * nu)
     differences = []
     for q in LAYER_NUMBERS[1:]:
-        below, at, above = printed.block_field(
-            q,
-            np.array([-step, 0.0, step]),
-            nu,
-        ).T
+        y = np.array([-step, 0.0, step])
+        below, at, above = printed.block_field(q, y, nu).T
         u, w = at[0].real, at[1].imag
         du, dw = (above - below) / (2.0 * step * q)
-        stresses = -(du.real + w), (lame + 2.0) * dw.imag - lame * u
-        expected = block_transfer(evidence, q)
-        differences += [
-            abs(one / u / g - 1.0)
-            for one, g in zip(
-                stresses,
-                expected,
-                strict=True,
-            )
-        ]
+        g1, g2 = block(evidence, q).transfer_functions(1.0)
+        differences.append(abs(-(du.real + w) / u / g1 - 1.0))
+        differences.append(abs(((lame + 2.0) * dw.imag - lame * u) / u / g2 - 1.0))
     return differences
 
 
 NUMBERS: dict[str, Computation] = {
+    "f0-table": lambda e: e.at_v.f0,
+    "f0-main": lambda e: e.at_v.f0,
+    "a-table": lambda e: e.at_v.a,
+    "a-main": lambda e: e.at_v.a,
+    "zeta-table": lambda e: e.at_v.zeta,
+    "zeta-main": lambda e: e.at_v.zeta,
+    "weakening-at-v": lambda e: e.at_v.zeta,
+    "slip-rate-over-v0": lambda e: math.log10(e.velocity / e.friction.regularisation_slip_rate),
+    "friction-vanishes": _vanishing,
+    "logarithmic-law": _logarithmic,
+    "steady-agreement": _decades_of_agreement,
+    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.velocity,
+    "weakening-branch": lambda e: e.velocity / steady_extremes(e)[0],
+    "state-rate-at-v": lambda e: e.friction.slip_speed(e.velocity) / e.velocity,
     "evolution-slope": _slopes,
-    "spring-stiffness": _spring_stiffness,
+    "spring-stiffness": lambda e: marginal_stiffness(0.0, *e.at_v[1:])[1] / e.at_v.zeta,
     "half-spaces-g1": lambda e: Result(
         main_text(e).transfer_functions(1.0)[0], formula(1.0 / (2.0 * (1.0 - e.nu)))
     ),
     "half-spaces-g2": lambda e: main_text(e).transfer_functions(1.0)[1],
-    "symmetric-g2": _mirrored,
-    "half-spaces-wavenumber": _wavenumber,
+    "symmetric-g2": lambda e: main_text(
+        e, height=LAYER_NUMBERS, second_height=LAYER_NUMBERS
+    ).transfer_functions(1.0)[1],
+    "half-spaces-wavenumber": lambda e: Result(
+        main_text(e).critical_mode().wavenumber, formula(2.0 * (1.0 - e.nu) / _softness(e))
+    ),
     "eta": lambda e: Result(_eta(e), formula(math.pi / (1.0 - e.nu), r"$\pi/(1 - \nu)$")),
     "eta-over-literature": _eta_over_largest,
     "eta-larger": lambda e: 0.75 * _eta(e) - 1.0,
@@ -280,7 +290,7 @@ NUMBERS: dict[str, Computation] = {
     "friction-perturbation": _friction_perturbation,
     "spectrum-in-time": lambda e: e.dispersion["disagreement"],
     "growth-changes-sign": lambda e: [
-        _zero_of_growth(e.dispersion.sel(height=h)) for h in e.dispersion["height"].values
+        _zero_of_growth(e.dispersion.isel(height=i)) for i in range(e.dispersion.sizes["height"])
     ],
     "short-waves-stable": _short_waves,
     "bimaterial-g1": lambda e: _bimaterial(e, 0),
@@ -297,30 +307,26 @@ NUMBERS: dict[str, Computation] = {
     "bimaterial-smaller": lambda e: (
         e.theory["bimaterial_length_ratio"].where(e.theory["f_beta"] > 0.0).max()
     ),
-    "bimaterial-decreasing": _bimaterial_slope,
-    "strengthening-threshold": lambda e: [
-        _least_contrast(*pair) / printed.strengthening_threshold(*pair) for pair in STRENGTHENING
-    ],
-    "strengthening-length": lambda e: _over_printed(_strengthening_cases()),
+    "bimaterial-decreasing": lambda e: (
+        e.theory["bimaterial_length_ratio"].diff("f_beta") / np.diff(e.theory["f_beta"])
+    ).max(),
+    "strengthening-threshold": lambda e: [_over_threshold(*pair) for pair in STRENGTHENING],
+    "strengthening-length": _strengthening_length,
     "block-g1": lambda e: _block(e, 0),
     "block-g2": lambda e: _block(e, 1),
     "block-high-limit": lambda e: Result(
         _coupling(e, HALF_SPACE), formula((1.0 - 2.0 * e.nu) / (2.0 * (1.0 - e.nu)))
     ),
     "block-thin-g1": lambda e: Result(
-        block_transfer(e, 1e-6)[0] / 2e-6, formula(1.0 / (1.0 - e.nu), r"$1/(1 - \nu)$")
+        block(e, 1e-6).transfer_functions(1.0)[0] / 2e-6,
+        formula(1.0 / (1.0 - e.nu), r"$1/(1 - \nu)$"),
     ),
     "block-thin-g2": lambda e: _coupling(e, 1e-3),
     "thin-length": _thin_length,
     "thin-agreement": lambda e: _thin_over_curve(e)[0],
     "thin-deviation": lambda e: _thin_over_curve(e).interp(height=0.1) - 1.0,
     "response-matrix": lambda e: [
-        _response_error(
-            q,
-            e.nu,
-            printed.response_matrix(q, e.nu),
-        )
-        for q in LAYER_NUMBERS[1:]
+        _response_error(q, e.nu, printed.response_matrix(q, e.nu)) for q in LAYER_NUMBERS[1:]
     ],
     "response-matrix-limit": lambda e: _response_error(
         HALF_SPACE, e.nu, printed.half_space_response(e.nu)
