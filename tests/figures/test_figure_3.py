@@ -43,7 +43,7 @@ def test_runs_without_a_length_and_unknown_studies_are_left_out(
 ):
     assert len(points(axes)) == 3  # the run without a length has added none
     assert sum(len(c[0].get_xdata()) for c in points(axes).values()) == 11
-    other = lengths.assign(role=("run", np.full(lengths.sizes["run"], "sensitivity")))
+    other = lengths.assign(role=("run", np.full(lengths.sizes["run"], "own")))
     drawn = figure_3.draw(theory, other, thick, thick_row)
     assert not drawn.axes[0].containers
 
