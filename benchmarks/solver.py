@@ -14,8 +14,8 @@ from nucleation.fem.body import Body
 from nucleation.fem.operator import Operator
 from nucleation.model.settings import KINDS
 from nucleation.run.run import Run
-from nucleation.simulation.bodies import body_of, grid_of
-from nucleation.simulation.run import composed, instants, simulate
+from nucleation.simulation.run import instants, simulate
+from nucleation.simulation.start import body_of, composed, grid_of
 from nucleation.simulation.stepping import BDF, rung_value
 from replication.configuration.load import Configuration
 

@@ -1,13 +1,12 @@
 """Runs with other parts, which tests keep as objects."""
 
 import copy
-
-from nucleation.model.quantities import plain
+import dataclasses
 
 
 def law_values(law):
     """The parameters of a friction law by their names in runs."""
-    return {law.called.get(name, name): value for name, value in plain(law).items()}
+    return {law.called.get(name, name): value for name, value in dataclasses.asdict(law).items()}
 
 
 def with_parts(run, law=None, **parts):

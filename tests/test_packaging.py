@@ -224,7 +224,7 @@ for command in COMMANDS:
 
 @pytest.mark.slow
 def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_path):
-    advice = "this needs numba, rocket_fft, netCDF4, tqdm: pip install 'nucleation-length[solver]'"
+    advice = "this needs numba, rocket_fft, netCDF4: pip install 'nucleation-length[solver]'"
     *lengths, said = outside(light, tmp_path, "-c", THEORY).splitlines()
     assert lengths == ["2.513", "1.947", "True 0.005"] and said.startswith(advice)
     assert "2.513 m" in outside(light, tmp_path, *LENGTH)

@@ -22,7 +22,7 @@ from warm_jobs import serve_jobs
 PACKAGES = (
     "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "snakemake.script",
     "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "click",
-    "numba", "scipy.linalg", "scipy.fft", "netCDF4", "tqdm", "matplotlib.figure", "jinja2",
+    "numba", "scipy.linalg", "scipy.fft", "netCDF4", "matplotlib.figure", "jinja2",
     "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf",
 )  # fmt: skip
 """What a call and its jobs would import. One that is missing here costs time, no more."""

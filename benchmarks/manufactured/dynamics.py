@@ -24,9 +24,9 @@ from nucleation.fem.grid import Field, Motion
 from nucleation.fem.modes import BlockModes
 from nucleation.fem.operator import Operator, Response
 from nucleation.run.run import Run
-from nucleation.simulation.bodies import grid_of
 from nucleation.simulation.drive import Drive, Imposed
 from nucleation.simulation.interface import Interface, InterfaceSolution, Past
+from nucleation.simulation.start import grid_of
 from nucleation.simulation.step import Dynamics, State, StepReport
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array

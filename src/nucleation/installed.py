@@ -11,7 +11,7 @@ DISTRIBUTION = "nucleation-length"
 """The project's name for pip: ``nucleation`` is another project, with a package of that name."""
 
 EXTRAS = {
-    "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
+    "solver": ("numba", "rocket_fft", "netCDF4", "pandas"),
     "figures": ("matplotlib",),
 }
 """Modules of each extra."""

@@ -10,8 +10,8 @@ from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import annotate
 from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate
-from nucleation.simulation.to_file import simulation_code
 from replication.tables.curves import theory_dataset
 
 

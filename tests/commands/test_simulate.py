@@ -15,8 +15,8 @@ from nucleation.extraction.extraction import extract
 from nucleation.model.friction import Friction
 from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
+from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate
-from nucleation.simulation.to_file import simulation_code
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = [

@@ -12,7 +12,8 @@ from nucleation.extraction.record import Record
 from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, instants
+from nucleation.simulation.run import instants
+from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 pytestmark = pytest.mark.slow
@@ -37,7 +38,7 @@ def recorded(parameters, uneven=0.0):
     usual = composed(parameters)
     wave = np.cos(2.0 * np.pi * COARSE * usual.grid.x / parameters.block.length)
     rough = with_parts(parameters, perturbation=ROUGH)
-    drive = dataclasses.replace(composed(rough).drive, strength=uneven, uneven=wave)
+    drive = dataclasses.replace(composed(rough).drive, factor=1.0 + uneven * wave)
     dynamics = Dynamics(usual.body, usual.interface, drive, usual.scheme)
     recorder = Recorder(parameters, dynamics)
     for instant in instants(parameters, dynamics=dynamics):

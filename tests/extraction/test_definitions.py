@@ -5,8 +5,7 @@ import pytest
 from extraction.made_up_patch import force_record
 
 from nucleation.extraction.definitions import find_onset
-from nucleation.simulation.event import DropWatch
-from nucleation.simulation.patch import slipping_edge, slipping_zone
+from nucleation.simulation.event import DropWatch, slipping_edge, slipping_zone
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 

@@ -15,7 +15,8 @@ from nucleation.model.friction import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, instants, simulate
+from nucleation.simulation.run import instants, simulate
+from nucleation.simulation.start import composed
 from nucleation.theory.creep.lengths import stability_point
 from replication.configuration.runs import StudyRun
 from replication.tables.stability import STABILITY, gather_stability

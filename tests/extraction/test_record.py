@@ -8,7 +8,7 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.record import Record
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.patch import slipping_edge
+from nucleation.simulation.event import slipping_edge
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
 

@@ -14,8 +14,9 @@ import pytest
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.frozen import Freezer
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.patch import slipping_edge
-from nucleation.simulation.run import composed, instants
+from nucleation.simulation.event import slipping_edge
+from nucleation.simulation.run import instants
+from nucleation.simulation.start import composed
 from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
 from nucleation.theory.creep.front import advance, oscillating
 

@@ -148,7 +148,7 @@ def code_edited_during_a_run(place, reference, random):
         shutil.copytree(ROOT / part, checkout / part)
     shutil.copy(ROOT / "Snakefile", checkout)
     other.mkdir()
-    file = checkout / "src/nucleation/simulation/control.py"
+    file = checkout / "src/nucleation/simulation/run.py"
     text = file.read_text()
     running = place.start(checkout=checkout, NUCLEATION_STORES=str(other))
     running.spend(random.uniform(0.0, 1.0) * reference.cpu)

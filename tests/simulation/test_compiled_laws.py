@@ -4,17 +4,21 @@ import numpy as np
 import pytest
 
 from nucleation.model.friction import EVOLUTIONS, LAWS, Friction
-from nucleation.simulation import compiled_laws
+from nucleation.simulation.interface import compiled_friction
 
 RATES = np.array([-1e-5, 0.0, 1e-40, 1e-9, 1e-6, 1e-3, 1.0])
 STATES = np.linspace(-12.0, 9.0, RATES.size)
 STEP = 0.01  # s
 
 
+def compiled(law):
+    return compiled_friction(type(law).formula, law.evolution_law.implicit_log_state)
+
+
 def at_end_of_step(law, rates):
     """State, friction coefficient and its total slope, compiled."""
     v0, distance = law.regularisation_slip_rate, law.slip_distance
-    return compiled_laws.friction(law)(rates, STATES, STEP, v0, distance, law.constants)
+    return compiled(law)(rates, STATES, STEP, v0, distance, law.constants)
 
 
 @pytest.mark.parametrize("evolution", sorted(EVOLUTIONS))
@@ -35,5 +39,5 @@ def test_friction_at_the_end_of_a_step(name, evolution):
 def test_compiled_functions_have_names_of_their_own():
     """Two of one name, kept by two processes, were one symbol in a third, which failed."""
     laws = [Friction(law=name, evolution=e) for name in LAWS for e in EVOLUTIONS]
-    names = {compiled_laws.friction(law).py_func.__qualname__ for law in laws}
+    names = {compiled(law).py_func.__qualname__ for law in laws}
     assert len(names) == len(laws)

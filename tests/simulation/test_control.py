@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.simulation.control import _step_factor
+from nucleation.simulation.run import _step_factor
 from nucleation.simulation.stepping import BDF
 
 

@@ -7,8 +7,7 @@ import numpy as np
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.run import composed
-from nucleation.simulation.start import at_rest
+from nucleation.simulation.start import at_rest, composed
 from nucleation.simulation.step import Dynamics
 
 PARAMETERS = PAPER_RUN.replaced(

@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.record import Record
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation import remarks, start
+from nucleation.simulation import event, start
 from nucleation.simulation.event import DropWatch, Outcome, PatchBursts
-from nucleation.simulation.run import composed, simulate
+from nucleation.simulation.run import simulate
+from nucleation.simulation.start import composed
 
 forces = st.lists(st.floats(0.0, 1e5) | st.sampled_from([0.0, 1.0, 100.0]), min_size=1, max_size=60)
 seeds = st.integers(0, 2**32 - 1)
@@ -28,7 +29,7 @@ def fastest_elsewhere(record):
     After the onset of an event all fast slip belongs to it.
     """
     made = record.simulation
-    return remarks.fastest_elsewhere(
+    return event.fastest_elsewhere(
         record.run,
         record.step_time,
         record.fastest,

@@ -13,7 +13,8 @@ from nucleation.model.quantities import ParameterError
 from nucleation.model.settings import Perturbation
 from nucleation.run.checks import require_consistent
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.run import composed, simulate
+from nucleation.simulation.run import simulate
+from nucleation.simulation.start import composed
 
 SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)
 REMOTE = PAPER_RUN.replaced(

@@ -11,7 +11,8 @@ from nucleation.extraction.extraction import extract
 from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed, instants
+from nucleation.simulation.run import instants
+from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 

@@ -8,8 +8,8 @@ import pytest
 from nucleation.extraction.frozen import frozen_patch
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
-from nucleation.simulation.bodies import body_of
-from nucleation.simulation.run import composed, instants, simulate
+from nucleation.simulation.run import instants, simulate
+from nucleation.simulation.start import body_of, composed
 
 COARSE = PAPER_RUN.replaced(
     height=0.02,

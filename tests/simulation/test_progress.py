@@ -51,16 +51,16 @@ def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
     assert max(np.diff(done)) <= 10 and min(np.diff(done)) >= 0
 
 
-def test_terminal_gets_a_bar_that_goes_away(monkeypatch):
+def test_terminal_gets_a_line_that_goes_away(monkeypatch):
     monkeypatch.setattr(progress, "PAUSE_ON_TERMINAL", 0.0)
     terminal = Terminal()
     short = COARSE.replaced(end_time=0.5)
-    bar = Progress(short, terminal)
-    simulate(short, progress=bar)
-    bar.close()
+    line = Progress(short, terminal)
+    simulate(short, progress=line)
+    line.close()
     shown = terminal.getvalue()
     assert "\n" not in shown.rstrip("\n")
-    assert "%|" in shown and "max v = " in shown and "patch " in shown
+    assert " % of the way" in shown and "max v = " in shown and "patch " in shown
     assert shown.endswith("\r") and shown.split("\r")[-2].strip() == ""
 
 

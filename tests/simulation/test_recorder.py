@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from nucleation.run.run import PAPER_RUN
+from nucleation.simulation import recording
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import composed
-from nucleation.simulation.start import at_rest
+from nucleation.simulation.start import at_rest, composed
 
 PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=0.4, n_x=16, n_y=4)
 V = PARAMETERS.fault.velocity
@@ -53,3 +53,19 @@ def test_a_frame_when_a_slip_rate_has_changed_by_half_its_logarithm(start):
     times = 1e-6 * MEMORY * np.arange(21)
     record = recorded(start, times, rates)
     np.testing.assert_array_equal(record["time"], times[[0, 5, 10, 15, 20]])
+
+
+@pytest.mark.parametrize(
+    ("width", "remarks"),
+    [(1.2, ["not resolved: at the onset the front is 1.2 elements wide"]), (1.3, [])],
+)
+def test_a_front_within_an_element_and_a_quarter_is_not_resolved(
+    start, monkeypatch, width, remarks
+):
+    monkeypatch.setattr(recording, "front_width", lambda *_: width)
+    dynamics, state, report = start
+    recorder = Recorder(PARAMETERS, dynamics)
+    recorder.record(state, report)
+    assert recorder.remarks() == []  # no event yet
+    recorder._onset_time = 0.0
+    assert recorder.remarks() == remarks

@@ -10,8 +10,7 @@ from nucleation.extraction.record import Record
 from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import start
-from nucleation.simulation.event import FEW, long_after
-from nucleation.simulation.remarks import front_width, of_front
+from nucleation.simulation.event import FEW, front_width, long_after
 from nucleation.simulation.run import simulate
 
 COARSE = PAPER_RUN.replaced(
@@ -60,11 +59,6 @@ def test_a_patch_is_long_from_the_frame_nearest():
 def test_the_patch_slips_faster_than_a_hundredth_of_the_imposed_velocity(rate, slips):
     rates = np.full((2, X.size), rate * COARSE.fault.velocity)
     assert (long_after(COARSE, X, np.array([0.0, 1.0]), rates) == -np.inf) == slips
-
-
-def test_a_front_within_an_element_and_a_quarter_is_not_resolved():
-    assert of_front(1.2) == ["not resolved: at the onset the front is 1.2 elements wide"]
-    assert of_front(1.3) == []
 
 
 @pytest.mark.parametrize(("fall", "width"), [(0.9, np.inf), (1.1, 1.0)])

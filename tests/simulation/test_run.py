@@ -9,11 +9,11 @@ import pytest
 from nucleation.extraction.extraction import extract
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.run.run import PAPER_RUN, Run
-from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.event import Outcome
 from nucleation.simulation.interface import Interface, NewtonFailure
 from nucleation.simulation.recorded import RECORDED
-from nucleation.simulation.run import composed, instants, simulate
+from nucleation.simulation.run import SimulationFailure, instants, simulate
+from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 COARSE = PAPER_RUN.replaced(

@@ -3,8 +3,7 @@
 import pytest
 
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.bodies import grid_of
-from nucleation.simulation.run import interface_of
+from nucleation.simulation.start import grid_of, interface_of
 
 
 def tolerance(**values):

@@ -25,7 +25,7 @@ from nucleation.api import (
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.bodies import body_of
+from nucleation.simulation.start import body_of
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.creep.thin import thin_limit
 

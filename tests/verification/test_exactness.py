@@ -14,8 +14,7 @@ from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.run import composed
-from nucleation.simulation.start import at_rest
+from nucleation.simulation.start import at_rest, composed
 
 VELOCITY = 1e-3  # m/s; a patch forms within some steps
 # growing steps, then many of 3e-5 s, some of them shorter, while the first nodes break loose

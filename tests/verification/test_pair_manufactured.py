@@ -10,7 +10,7 @@ from benchmarks.manufactured.fields import Displacement, Loads, Term, power, sin
 from benchmarks.manufactured.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
 from nucleation.fem.grid import Motion
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.bodies import body_of
+from nucleation.simulation.start import body_of
 
 pytestmark = pytest.mark.slow
 

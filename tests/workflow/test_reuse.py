@@ -31,10 +31,10 @@ def test_without_notes_changed_parameters_and_code_are_seen(plain):
     values = read_yaml(plain.config)
     values["friction"] = {"aging_coefficient": 0.085}
     assert plain.configured(values, "yaml").planned("lengths")["simulate"] == SIMULATIONS
-    edit(plain, "src/nucleation/simulation/control.py", "SAFETY = 0.85", "SAFETY = 0.86")
+    edit(plain, "src/nucleation/simulation/run.py", "SAFETY = 0.85", "SAFETY = 0.86")
     planned = plain.planned()
     assert planned["simulate"] == SIMULATIONS and planned["extract"] == 2
-    edit(plain, "src/nucleation/simulation/control.py", "SAFETY = 0.86", "SAFETY = 0.85")
+    edit(plain, "src/nucleation/simulation/run.py", "SAFETY = 0.86", "SAFETY = 0.85")
     assert plain.planned() == {}, "back to the first code, its results are used again"
 
 
@@ -70,7 +70,7 @@ def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
     edit(plain, "src/replication/pipeline/job.py", "    began = time.monotonic()\n",
          "    began = time.monotonic()\n"
-         "    _f = Path(__file__).parents[2] / 'nucleation/simulation/control.py'\n"
+         "    _f = Path(__file__).parents[2] / 'nucleation/simulation/run.py'\n"
          "    _c = _f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5')\n"
          "    _f.write_text(_c)\n")  # fmt: skip
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},

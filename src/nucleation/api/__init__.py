@@ -86,7 +86,7 @@ def _simulate(self: Fault, *, progress: bool | None = None, **settings: Any) -> 
     Parameters
     ----------
     progress : bool, optional
-        Whether a bar shows how far the run is; by default on a terminal and in a notebook.
+        Whether a line shows how far the run is; by default on a terminal and in a notebook.
     **settings
         Of the run by name, in SI units: ``n_x``, ``perturbation``, ``block_length``, ... By default
         the block is 6 L_c long; half-spaces become blocks that are 4 L_c high and 35 L_c long,

@@ -129,7 +129,7 @@ def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == _SIMULATION:
-            from ..simulation.to_file import simulation_code
+            from ..simulation.checkpoints import simulation_code
 
             differs = digest != simulation_code(parameters_of(dataset))
             verdict = f", {'NOT ' if differs else ''}that of this installation"

@@ -94,7 +94,7 @@ def command(
     A fault with its own f, a and b at V has the regularised Dieterich-Ruina law, with scales that
     follow from V and D/V, and two identical bodies. With --paper all other parameters are the
     paper's. Without an end time the run continues until its event, or until the event is long
-    overdue by the theory. The terminal shows a progress bar, a log file a line from time to time.
+    overdue by the theory. A terminal shows a line that changes, a log file one from time to time.
     Ctrl-C and SIGTERM leave a checkpoint from which the same command resumes. The record of a
     simulation that fails numerically is kept in a file that ends in .failed.nc.
 
@@ -184,21 +184,18 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
     from ..datasets import netcdf, provenance
     from ..extraction.extraction import extract
-    from ..simulation.checkpoints import Stopped
+    from ..simulation.checkpoints import Stopped, run_to_file, simulation_code
     from ..simulation.progress import Progress
-    from ..simulation.to_file import checkpoint_of, run_to_file, simulation_code
 
     digest = simulation_code(run)
     attributes = provenance.attributes(run.to_dict(), digest, _command(output, run))
-    checkpoint = checkpoint_of(run, output, digest)
     progress = Progress(run, sys.stderr)
 
     def write(dataset: xr.Dataset, path: Path) -> None:
         netcdf.write(dataset, path, **attributes)
 
     try:
-        with checkpoint.listening():
-            dataset, path = run_to_file(run, output, write, checkpoint, progress)
+        dataset, path = run_to_file(run, output, write, digest, progress)
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED

@@ -4,7 +4,7 @@ The onset is the start of the abrupt drop: the maximum from which ``|f_d|`` fall
 Small rises during the fall, as under a fluctuating load, belong to the fall. A rupture may drive
 the front on before the force at the pushed edge falls, and may raise that force when it arrives
 there; the onset is then the maximum before the rupture. How far the patch extends is defined in
-:mod:`nucleation.simulation.patch`.
+:mod:`nucleation.simulation.event`.
 """
 
 import dataclasses

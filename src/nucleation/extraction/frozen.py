@@ -21,9 +21,8 @@ from numpy.typing import NDArray
 from ..fem.operator import Operator
 from ..model.friction import Friction
 from ..run.run import Run
-from ..simulation.bodies import body_of
 from ..simulation.event import NEAR
-from ..simulation.run import interface_of
+from ..simulation.start import body_of, interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array
 

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from ..datasets import DatasetError
 from ..run.run import Run
-from ..simulation.event import WINDOW, PatchBursts, long_after
-from ..simulation.patch import patch_lengths
+from ..simulation.event import WINDOW, PatchBursts, long_after, patch_lengths
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 

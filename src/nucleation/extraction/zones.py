@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..simulation.patch import slipping_zone
+from ..simulation.event import slipping_zone
 from ..types import Array
 
 

@@ -203,6 +203,13 @@ class Body:
         along_x = velocity.modes[: first.levels, 0] @ self.modes.x_integral
         return first.material.density * float(first.row_sums @ along_x)
 
+    def kinetic_energy(self, velocity: Field, of_edge: float) -> float:
+        """Kinetic energy (J/m) at a velocity w_t and that of the driven edge (m/s)."""
+        momentum = self.inertia_load(1.0, [(1.0, velocity)], self.zero_field())
+        modes = (momentum.modes * velocity.modes).sum(axis=(0, 1)) @ self.modes.norms
+        own = 0.5 * float(modes + momentum.edge @ velocity.edge)
+        return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
+
     def nodal_values(self, field: Field, number: int = 0) -> Components:
         """Nodal w_x and u_y of a layer, by its number, levels from the interface on.
 

@@ -174,3 +174,24 @@ class LayerFactors:
             forces[component] += weights[1] * product(against_slope, x)
             forces[component] += weights[2] * product(against_y, y)
         return forces
+
+
+def elastic_energy(layer: Layer, displacement: Field) -> float:
+    """Elastic energy (J/m) of a displacement (m) of one layer."""
+    material, modes = layer.material, layer.modes
+    x, y = displacement.modes[:, 0], displacement.modes[:, 1]
+    coupling = material.lame_modulus * layer.derivative
+    coupling = coupling - material.coupling_modulus * transposed(layer.derivative)
+    shear, stretch = material.shear_modulus, material.p_wave_modulus
+    by_x = stretch * modes.x_stiffness * product(layer.mass, x)
+    by_x = by_x + shear * modes.x_mass * product(layer.stiffness, x)
+    by_x = by_x + 2.0 * modes.sine * product(coupling, y)
+    by_y = stretch * modes.x_mass * product(layer.stiffness, y)
+    by_y = by_y + shear * modes.x_stiffness * product(layer.mass, y)
+    twice = float((x * by_x + y * by_y).sum(axis=0) @ modes.norms)
+    rows = LayerFactors(layer, 0.0)
+    none = np.zeros_like(displacement.edge)
+    for edge in (none, displacement.edge):
+        forces = rows.residual(Field(displacement.modes, none), displacement.modes, edge)
+        twice -= float(displacement.edge @ forces)
+    return 0.5 * twice

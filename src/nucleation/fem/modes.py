@@ -24,6 +24,7 @@ class _Modes:
     ) -> None:
         self.n_x = grid.n_x
         self.scale = 2.0 / grid.n_x  # of all loads and stiffnesses per mode
+        self.norms = np.full(grid.n_x, 0.5 * grid.n_x)  # sums of each mode's squares over the nodes
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
         self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
         self.sine = np.sin(theta)
@@ -139,6 +140,7 @@ class PeriodModes(_Modes):
                 0.0,
             ),
         )
+        self.norms[0] *= 2.0  # of the mean
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
         """The mean, A and B."""

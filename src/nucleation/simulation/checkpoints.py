@@ -1,4 +1,4 @@
-"""Checkpoints: a simulation that is killed loses at most the last minute.
+"""Simulations that are kept in files; one that is killed loses at most the last minute.
 
 A run resumes from the arrays of a checkpoint and gives the same result to the last bit as if it had
 never stopped. A checkpoint also holds a fingerprint of the parameters and of the code. It consists
@@ -12,17 +12,24 @@ import os
 import signal
 import sys
 import time
-import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 import numpy as np
 
+from ..datasets import code, provenance
 from ..datasets.files import replacing
+from ..model.friction import plugins
 from ..model.quantities import ParameterError
+from ..run.run import Run
 from ..types import Arrays
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .run import Instant
 
 EVERY = 60.0  # wall time (s) between checkpoints, unless the variable gives another
 VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"
@@ -43,13 +50,13 @@ class Checkpoint:
 
     def __init__(
         self,
-        path: str | os.PathLike[str],
+        path: Path,
         fingerprint: str,
         *,
         every: float | None = None,
         log: TextIO | None = None,
     ) -> None:
-        self.path = Path(path)
+        self.path = path
         self._fingerprint = fingerprint
         self._every = interval() if every is None else every
         self._log = log or sys.stderr
@@ -63,30 +70,22 @@ class Checkpoint:
         """
         if not self.path.exists():
             return None
+        resumes = False
         try:
-            arrays = self._read()
+            with np.load(self.path, allow_pickle=False) as stored:
+                arrays = dict(stored)
             fingerprint = str(arrays.pop("fingerprint"))
-            content = str(arrays.pop("content"))
-            if content != _digest(arrays):
+            if str(arrays.pop("content")) != _digest(arrays):
                 raise ValueError("its content has changed since it was stored")
+            resumes = fingerprint == self._fingerprint
+            state = "belongs to other code or parameters"
         except Exception as error:  # damaged bytes make the archive's reader raise all sorts
-            self._report(f"{self.path} is damaged ({error}): the run starts at the beginning")
-            return None
-        if fingerprint != self._fingerprint:
-            self._report(
-                f"{self.path} belongs to other code or parameters: the run starts at the beginning"
-            )
-            return None
-        self._report(f"the run resumes from {self.path}")
-        return arrays
-
-    def _read(self) -> Arrays:
-        """All arrays of the file, with fingerprint and digest."""
-        with np.load(self.path, allow_pickle=False) as stored:
-            for part in stored.zip.infolist():
-                if part.compress_type != zipfile.ZIP_STORED:
-                    raise ValueError("it is compressed, and may be larger than the memory")
-            return {name: stored[name] for name in stored.files}
+            state = f"is damaged ({error})"
+        message = f"{self.path} {state}: the run starts at the beginning"
+        if resumes:
+            message = f"the run resumes from {self.path}"
+        print(message, file=self._log, flush=True)
+        return arrays if resumes else None
 
     def keep(self, arrays: Callable[[], Arrays]) -> None:
         """Store a checkpoint if the interval is over, or if a signal stops the run.
@@ -106,29 +105,19 @@ class Checkpoint:
         if self._signal is not None:
             raise Stopped(f"stopped by {self._signal}; a further run resumes from {self.path}")
 
-    def remove(self) -> None:
-        """Delete the checkpoint, once the result is safe."""
-        self.path.unlink(missing_ok=True)
-
     @contextlib.contextmanager
     def listening(self) -> Iterator[None]:
         """In this context a signal of :data:`SIGNALS` stops the run after its present step."""
-        before = {number: signal.signal(number, self._stop) for number in SIGNALS}
+
+        def stop(number: int, _: FrameType | None) -> None:
+            self._signal = signal.Signals(number).name
+
+        before = {number: signal.signal(number, stop) for number in SIGNALS}
         try:
             yield
         finally:
             for number, handler in before.items():
                 signal.signal(number, handler)
-
-    def _stop(
-        self,
-        number: int,
-        _: FrameType | None,
-    ) -> None:
-        self._signal = signal.Signals(number).name
-
-    def _report(self, message: str) -> None:
-        print(message, file=self._log, flush=True)
 
 
 def interval() -> float:
@@ -152,3 +141,36 @@ def _digest(arrays: Arrays) -> str:
         summary.update(f"{name} {values.dtype} {values.shape}\n".encode())
         summary.update(np.ascontiguousarray(values).tobytes())
     return summary.hexdigest()
+
+
+def run_to_file(
+    run: Run,
+    output: Path,
+    write: "Callable[[xr.Dataset, Path], None]",
+    code_digest: str,
+    progress: "Callable[[Instant], None]",
+) -> "tuple[xr.Dataset, Path]":
+    """Run a simulation from its checkpoint and write its record; return the record and its file.
+
+    The record of a failed run is in `output` with the suffix ``.failed.nc``. A signal raises
+    Stopped and leaves a checkpoint beside the output; one of other code or parameters is refused.
+    """
+    from .run import simulate
+
+    fingerprint = provenance.fingerprint(run.to_dict(), code_digest)
+    checkpoint = Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
+    failed = output.with_suffix(".failed.nc")
+    with checkpoint.listening():
+        start = checkpoint.load()
+        dataset = simulate(run, progress=progress, start=start, keep=checkpoint.keep)
+        path = output if dataset.attrs["completed"] else failed
+        write(dataset, path)
+        checkpoint.path.unlink(missing_ok=True)
+        if path == output:
+            failed.unlink(missing_ok=True)
+    return dataset, path
+
+
+def simulation_code(run: Run) -> str:
+    """Digest of the code of a simulation, as in the workflow."""
+    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(run.law))

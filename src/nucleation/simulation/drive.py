@@ -6,19 +6,13 @@ a function of time alone: independent of the steps, and the same after a restart
 """
 
 import dataclasses
-from collections.abc import Mapping
 from typing import ClassVar, NamedTuple
-
-import numpy as np
 
 from ..fem.body import Body
 from ..fem.grid import Field
 from ..run.run import Run
 from ..types import Array
 from .realisation import Series, Sheet, profile
-
-_Recorded = tuple[tuple[str, ...], Array]
-"""A variable of a record: its dimensions, and its values."""
 
 
 class Imposed(NamedTuple):
@@ -45,13 +39,6 @@ class Drive:
     def load(self, time: float) -> Field:
         """External load (N/m) on the body at a time (s)."""
         raise NotImplementedError
-
-    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
-        """The relative perturbation as a variable of a record, None if nothing is perturbed.
-
-        `times` (s) are those along the dimensions ``step`` (all steps) and ``time`` (the frames).
-        """
-        return None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,36 +69,20 @@ class _Remote(Drive):
     moves: ClassVar[bool] = False
 
     def at(self, time: float) -> Imposed:
-        return self.near.at(time)._replace(
-            displacement=0.0,
-            velocity=0.0,
-            acceleration=0.0,
-        )
+        return self.near.at(time)._replace(displacement=0.0, velocity=0.0, acceleration=0.0)
 
     def load(self, time: float) -> Field:
         displacement = self.near.at(time).displacement
         risen = self.rising.times(displacement)
         return self.near.load(time).plus(self.start).plus(risen)
 
-    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
-        return self.near.realised(times)
-
 
 @dataclasses.dataclass(frozen=True)
-class _InTime(Steady):
-    """A steady drive with a perturbation ``eps xi(t)``, the same everywhere."""
+class _FluctuatingVelocity(Steady):
+    """An edge that moves at ``V [1 + eps xi(t)]``."""
 
     strength: float  # eps
     series: Series
-
-    def realised(self, times: Mapping[str, Array]) -> _Recorded:
-        values = np.array([self.series.value(time) for time in times["step"]])
-        return ("step",), self.strength * values
-
-
-@dataclasses.dataclass(frozen=True)
-class _FluctuatingVelocity(_InTime):
-    """An edge that moves at ``V [1 + eps xi(t)]``."""
 
     def at(self, time: float) -> Imposed:
         size = self.strength
@@ -126,8 +97,11 @@ class _FluctuatingVelocity(_InTime):
 
 
 @dataclasses.dataclass(frozen=True)
-class _FluctuatingLoad(_InTime):
+class _FluctuatingLoad(Steady):
     """A stress ``sigma0 [1 + eps xi(t)]`` on the top."""
+
+    strength: float  # eps
+    series: Series
 
     def load(self, time: float) -> Field:
         larger = self.strength * self.series.value(time)
@@ -138,32 +112,22 @@ class _FluctuatingLoad(_InTime):
 class _UnevenStrength(Steady):
     """A friction coefficient ``f(v, phi) [1 + eps xi(x)]``."""
 
-    strength: float  # eps
-    uneven: Array  # xi at the nodes 0..n_x
+    factor: Array  # at the nodes 0..n_x
 
     def at(self, time: float) -> Imposed:
-        factor = 1.0 + self.strength * self.uneven
-        return super().at(time)._replace(strength=factor)
-
-    def realised(self, times: Mapping[str, Array]) -> _Recorded:
-        return ("x",), self.strength * self.uneven
+        return super().at(time)._replace(strength=self.factor)
 
 
 @dataclasses.dataclass(frozen=True)
 class _ForcedState(Steady):
     """A state variable that evolves by ``d log(phi)/dt = g + eps (V/D) xi(x, t)``."""
 
-    strength: float  # eps
-    rate: float  # V/D, 1/s
+    rate: float  # eps V/D, 1/s
     sheet: Sheet
 
     def at(self, time: float) -> Imposed:
-        forcing = (self.strength * self.rate) * self.sheet.values(time)
+        forcing = self.rate * self.sheet.values(time)
         return super().at(time)._replace(state_forcing=forcing)
-
-    def realised(self, times: Mapping[str, Array]) -> _Recorded:
-        values = np.array([self.sheet.values(time) for time in times["time"]])
-        return ("time", "x"), self.strength * values
 
 
 def drive_of(run: Run, body: Body) -> Drive:
@@ -192,8 +156,7 @@ def _near_drive(run: Run, body: Body) -> Steady:
     if declared.kind == "normal_load":
         return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
     if declared.kind == "strength":
-        uneven = profile(seed, length, body.grid.x)
-        return _UnevenStrength(velocity, load, strength, uneven)
-    rate = 1.0 / run.memory_time
-    sheet = Sheet(seed, time, length, body.grid.x)
-    return _ForcedState(velocity, load, strength, rate, sheet)
+        factor = 1.0 + strength * profile(seed, length, body.grid.x)
+        return _UnevenStrength(velocity, load, factor)
+    rate = strength * (1.0 / run.memory_time)
+    return _ForcedState(velocity, load, rate, Sheet(seed, time, length, body.grid.x))

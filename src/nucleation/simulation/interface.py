@@ -15,17 +15,22 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from functools import cached_property
+from collections.abc import Callable
+from functools import cache, cached_property
+from inspect import getmembers, getsource, isfunction
+from sys import modules
 from typing import NamedTuple
 
 import numpy as np
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
+from ..fem.compiling import compiled
 from ..fem.operator import Operator, Response
-from ..model.friction import Friction
+from ..model.friction import Friction, evolutions
 from ..types import Array
-from . import compiled_laws, passes
+from . import passes
 from .drive import Imposed
 from .event import Outcome
 
@@ -67,6 +72,54 @@ class Past(NamedTuple):
     at_rest: bool  # whether the interface has not slipped yet
 
 
+CompiledFriction = Callable[..., tuple[Array, Array, Array]]
+"""Function of slip rates (m/s), the past part of log(phi), beta (s), v0 (m/s), D (m) and the law's
+constants. It returns psi, f and df/dv (s/m) at the end of a step."""
+
+
+@cache
+def compiled_friction(
+    formula: Callable[..., tuple[Array, Array, Array]],
+    implicit_log_state: Callable[..., tuple[Array, Array]],
+) -> CompiledFriction:
+    """Compile ``psi = past + beta dpsi/dt`` at the end of a step, f, and its total slope df/dv.
+
+    A law's formula and its state evolution are defined once, in NumPy, for arrays of any shape
+    (:mod:`nucleation.model.friction`). numba compiles the same functions into one pass over the
+    nodes of the interface for each of their lines.
+    """
+    own = [
+        modules[formula.__module__],
+        modules[implicit_log_state.__module__],
+        evolutions,
+    ]
+    for module in own:
+        for _, function in getmembers(module, isfunction):
+            if function.__module__ == module.__name__:
+                register_jitable(function)
+    register_jitable(formula)
+
+    def _at_end(  # type: ignore[no-untyped-def]
+        v,
+        past,
+        beta,
+        v0,
+        distance,
+        constants,
+    ):
+        speed = np.sqrt(v * v + v0 * v0)
+        psi, psi_by_rate = implicit_log_state(past, beta, speed / distance)
+        coefficient, by_rate, by_log_state = formula(v, psi, constants)
+        slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
+        return psi, coefficient, slope
+
+    # numba finds compiled code by its name; processes share it, so the name has to be unique
+    names = [module.__name__.rpartition(".")[2] for module in own]
+    _at_end.__qualname__ = "_".join(names)
+    content = "".join(map(getsource, own))
+    return compiled(_at_end, content=content)
+
+
 @dataclasses.dataclass(frozen=True)
 class Interface:
     """Friction between a body and its base or a second body, and the accuracy of its solution."""
@@ -90,6 +143,7 @@ class Interface:
         the solution is tensile.
         """
         law, modes = self.friction, operator.body.modes
+        compiled_law = compiled_friction(type(law).formula, law.evolution_law.implicit_log_state)
         beta, velocity = past.beta, imposed.velocity
         strength = np.ones(rates.size) if imposed.strength is None else imposed.strength
         elastic = beta * operator.diagonal
@@ -100,10 +154,13 @@ class Interface:
         normal = response.normal + self.extra_normal
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
-            found = self._friction(
+            found = compiled_law(
                 rates[:anew],
                 past.log_state[:anew],
                 beta,
+                law.regularisation_slip_rate,
+                law.slip_distance,
+                law.constants,
             )
             if anew == rates.size:
                 psi, coefficient, slope = found
@@ -167,21 +224,6 @@ class Interface:
         """Whether the law is the same at all nodes."""
         values = *self.friction.constants, self.friction.slip_distance
         return all(np.ndim(value) == 0 for value in values)
-
-    @cached_property
-    def _compiled(self) -> compiled_laws.CompiledFriction:
-        return compiled_laws.friction(self.friction)
-
-    def _friction(
-        self,
-        v: Array,
-        past_log_state: Array,
-        beta: float,
-    ) -> tuple[Array, Array, Array]:
-        """Log state at the end of the step, friction coefficient, and its total slope (s/m)."""
-        law = self.friction
-        v0 = law.regularisation_slip_rate
-        return self._compiled(v, past_log_state, beta, v0, law.slip_distance, law.constants)
 
 
 def _solved(

@@ -17,6 +17,9 @@ RECORDED = {
     "driving_force": Variable("N/m", "force per depth that loads the fault", "f_d"),
     "maximal_slip_rate": Variable("m/s", "maximal slip rate", "max v"),
     "fastest_position": Variable("m", "position of the maximal slip rate", "x"),
+    "elastic_energy": Variable("J/m", "elastic energy per depth at the end, since the start"),
+    "kinetic_energy": Variable("J/m", "kinetic energy per depth at the end, since the start"),
+    "work": Variable("J/m", "work per depth of the driven edge and the loads, since the start"),
+    "friction_work": Variable("J/m", "energy per depth that friction dissipated since the start"),
     "newton_iterations": Variable("1", "Newton iterations of the step"),
-    "perturbation": Variable("1", "declared relative perturbation, as realised", "eps xi"),
 }

@@ -9,8 +9,18 @@ from ..datasets.variables import annotate
 from ..model.settings import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
-from . import passes, remarks
-from .event import WINDOW, DropWatch, PatchBursts, long_after
+from . import passes
+from .energy import Energy
+from .event import (
+    FEW,
+    RESOLVED,
+    WINDOW,
+    DropWatch,
+    PatchBursts,
+    fastest_elsewhere,
+    front_width,
+    long_after,
+)
 from .recorded import RECORDED
 from .step import Dynamics, State, StepReport
 
@@ -35,31 +45,25 @@ PER_STEP = (
 class Recorder:
     """Collects the states of one run and makes the dataset."""
 
-    def __init__(
-        self,
-        run: Run,
-        dynamics: Dynamics,
-    ) -> None:
+    def __init__(self, run: Run, dynamics: Dynamics) -> None:
         self.run = run
         self.grid = dynamics.grid
         self._body = dynamics.body
         self._drive = dynamics.drive
-        self._whole = run.recording.record == "interface"
         self._velocity = run.fault.velocity
         self._longest_pause = LONGEST_PAUSE * run.memory_time
-        self._fields = INTERFACE if self._whole else FOR_LENGTHS
+        self._fields = INTERFACE if run.recording.record == "interface" else FOR_LENGTHS
         self._rows: list[tuple[float, ...]] = []  # of PER_STEP
         self._frame_times: list[float] = []
         self._frames: list[Array] = []  # of the fields
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        window = WINDOW * run.memory_time
-        self._watch = DropWatch(window, run.stepping.event_drop)
+        self._energy = Energy(dynamics) if self._fields == INTERFACE else None
+        self._watch = DropWatch(WINDOW * run.memory_time, run.stepping.event_drop)
         self._bursts = PatchBursts(run)
         self._event_time = np.inf
         self._onset_time = np.inf
         self._short_drop_time = np.inf  # of the first drop with too short a patch
-        self._time = 0.0
 
     @property
     def steps(self) -> int:
@@ -69,19 +73,14 @@ class Recorder:
     @property
     def covers_event(self) -> bool:
         """Whether the event has begun, and ``stepping.time_after_event`` has passed since then."""
-        return self._time >= self._event_time + self.run.stepping.time_after_event
+        return self._rows[-1][0] >= self._event_time + self.run.stepping.time_after_event
 
-    def record(
-        self,
-        state: State,
-        report: StepReport,
-    ) -> None:
+    def record(self, state: State, report: StepReport) -> None:
         """Take in the initial state or one accepted step."""
         interface = report.interface
         node = passes.largest_at(interface.slip_rate)
         fastest = float(abs(interface.slip_rate[node]))
         position = float(self.grid.x[node])
-        self._time = state.time
         row = (
             state.time,
             report.driving_force,
@@ -97,6 +96,8 @@ class Recorder:
             self._take_in_drop()
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
+        if self._energy is not None:
+            self._energy.take(state, report)
 
     def _take_in_drop(self) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
@@ -105,34 +106,34 @@ class Recorder:
         rates = np.array([fields[0] for fields in self._frames])
         long_enough = long_after(self.run, self.grid.x, times, rates)
         if onset > long_enough:
-            self._event_time = self._time
+            self._event_time = self._rows[-1][0]
             self._onset_time = onset
         else:
             self._short_drop_time = min(self._short_drop_time, onset)
 
     def remarks(self) -> list[str]:
         """Reasons to doubt the event, or that there is none."""
+        found = []
+        if np.isfinite(self._onset_time):
+            distances = np.abs(np.array(self._frame_times) - self._onset_time)
+            state = self._frames[int(distances.argmin())][1]
+            width = front_width(self.run, self.grid.x, state)
+            if width < RESOLVED:
+                found.append(f"not resolved: at the onset the front is {width:.1f} elements wide")
         times, _, rates, positions = np.array([row[:4] for row in self._rows]).T
-        elsewhere = remarks.fastest_elsewhere(self.run, times, rates, positions, self._onset_time)
-        return [
-            *remarks.of_front(self._front_width()),
-            *remarks.of_slip_elsewhere(elsewhere),
-            *remarks.of_short_patch(self._short_drop_time),
-        ]
+        elsewhere = fastest_elsewhere(self.run, times, rates, positions, self._onset_time)
+        if elsewhere is not None:
+            time, rate, place = elsewhere
+            where = f"at x = {place:.4g} m and t = {time:.4g} s"
+            found.append(f"slip elsewhere: {rate:.3g} m/s {where}")
+        if np.isfinite(self._short_drop_time):
+            found.append(
+                f"no event: the drop at t = {self._short_drop_time:.4g} s began with a patch of "
+                f"{FEW} elements or fewer"
+            )
+        return found
 
-    def _front_width(self) -> float:
-        """Width of the front (elements) at the onset; infinite without an event."""
-        if np.isinf(self._onset_time):
-            return np.inf
-        distances = np.abs(np.array(self._frame_times) - self._onset_time)
-        state = self._frames[int(distances.argmin())][1]
-        return remarks.front_width(self.run, self.grid.x, state)
-
-    def _frame_is_due(
-        self,
-        time: float,
-        slip_rate: Array,
-    ) -> bool:
+    def _frame_is_due(self, time: float, slip_rate: Array) -> bool:
         if not self._frames:
             return True
         if time - self._frame_times[-1] >= self._longest_pause:
@@ -142,11 +143,7 @@ class Recorder:
         change = passes.changed(slip_rate, self._last_scaled, self._velocity)
         return bool(change >= FRAME_CHANGE)
 
-    def _take_frame(
-        self,
-        state: State,
-        report: StepReport,
-    ) -> None:
+    def _take_frame(self, state: State, report: StepReport) -> None:
         interface = report.interface
         lengths = self.grid.nodal_lengths
         displacement = self._drive.at(state.time).displacement
@@ -160,8 +157,7 @@ class Recorder:
         self._last_scaled = np.arcsinh(interface.slip_rate / self._velocity)
         self._last_frame_step = len(self._rows)
         self._frame_times.append(state.time)
-        recorded = [values[name] for name in self._fields]
-        self._frames.append(np.array(recorded))
+        self._frames.append(np.array([values[name] for name in self._fields]))
 
     def to_arrays(self) -> Arrays:
         """The exact record as plain arrays by name, to be stored."""
@@ -171,14 +167,9 @@ class Recorder:
             "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
             "watched": self._watch.maxima,
-            "event_times": np.array(
-                [
-                    self._event_time,
-                    self._onset_time,
-                    self._short_drop_time,
-                ]
-            ),
+            "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
             "own_burst": np.array(self._bursts.own),
+            **({} if self._energy is None else self._energy.to_arrays()),
         }
 
     def restore(self, arrays: Mapping[str, Array]) -> None:
@@ -193,32 +184,22 @@ class Recorder:
         self._watch.maxima = arrays["watched"]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
-        self._time = self._rows[-1][0]
+        if self._energy is not None:
+            self._energy.restore(arrays)
 
     def dataset(self) -> xr.Dataset:
         """The record of the run so far, with the variables of :data:`RECORDED`."""
-        return annotate(self._dataset(), RECORDED)
-
-    def _dataset(self) -> xr.Dataset:
         data: dict[str, tuple[Sequence[str], Array]] = {}
-        per_step = zip(*self._rows, strict=True)
-        for name, values in zip(PER_STEP, per_step, strict=True):
+        for name, values in zip(PER_STEP, zip(*self._rows, strict=True), strict=True):
             data[name] = ("step",), np.array(values)
         frames = np.array(self._frames)
         for i, name in enumerate(self._fields):
             data[name] = ("time", "x"), frames[:, i]
         dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.run.to_json()
-        if not self._whole:
-            return self._for_lengths(dataset)
-        times = {
-            "step": dataset["step_time"].values,
-            "time": dataset["time"].values,
-        }
-        realised = self._drive.realised(times)
-        if realised is not None:
-            dataset["perturbation"] = realised
-        return dataset
+        if self._energy is None:
+            return annotate(self._for_lengths(dataset), RECORDED)
+        return annotate(dataset.assign(self._energy.since_start()), RECORDED)
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:
         """The smallest record: only the variables for lengths, zero where the fault is stuck."""

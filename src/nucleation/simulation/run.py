@@ -1,10 +1,11 @@
-"""The simulation: physics, finite elements and stepping put together.
+"""The simulation: steps of a controlled size, one after the other, and their record.
 
 :func:`instants` yields one state after another; :func:`simulate` records them into a dataset. Both
 can resume from stored arrays, and give the same result to the last bit as if they had never
 stopped.
 """
 
+import dataclasses
 import resource
 import sys
 import time
@@ -14,59 +15,101 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from ..fem.grid import Grid
-from ..model.settings import FIRST_STEP
+from ..model.settings import FIRST_STEP, Stepping
 from ..run.run import Run
-from ..types import Array, Arrays
-from .bodies import body_of
-from .control import Control, Instant, SimulationFailure, accepted_step
-from .drive import drive_of
+from ..types import Arrays
 from .event import Outcome
-from .interface import Interface
+from .interface import NewtonFailure
 from .recording import Recorder
-from .start import at_rest
-from .step import Dynamics, State
-from .stepping import BDF
+from .start import at_rest, composed
+from .step import Dynamics, State, StepReport
+from .stepping import BDF, rung_below, rung_value
 
-NEWTON = 1e-3
-"""Largest tolerance of Newton's method over that of the step, if the run is perturbed."""
-
-
-def composed(run: Run) -> Dynamics:
-    """The dynamics of a run: a further drive or scheme is chosen here."""
-    body = body_of(run)
-    interface = interface_of(run, body.grid)
-    drive = drive_of(run, body)
-    return Dynamics(body, interface, drive, BDF(body.crossing_time))
+SAFETY = 0.85  # of the step size against the estimated error
+SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
+RESOLVED = 16.0  # shortest step over the round-off of the time
 
 
-def interface_of(run: Run, grid: Grid) -> Interface:
-    """The frictional interface of a run, with its heterogeneity.
+class SimulationFailure(RuntimeError):
+    """The time integration cannot continue after a state."""
 
-    Parameters
-    ----------
-    run : Run
-    grid : Grid
-        The mesh of its body.
+    def __init__(
+        self,
+        outcome: Outcome,
+        state: State,
+        reason: str,
+    ) -> None:
+        super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
+        self.outcome = outcome
 
-    Returns
-    -------
-    Interface
+
+@dataclasses.dataclass(frozen=True)
+class Control:
+    """Memory of the step-size control between accepted steps."""
+
+    wanted: float  # leading coefficient beta (s) of the next step
+    steps: int = 0  # accepted so far
+    rejected: int = 0  # so far
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant:
+    """One accepted step of a run."""
+
+    state: State
+    report: StepReport
+    control: Control
+
+
+def accepted_step(
+    dynamics: Dynamics,
+    stepping: Stepping,
+    state: State,
+    control: Control,
+    longest: float,
+) -> Instant:
+    """Make the next step, so short that its error is within the tolerance.
+
+    `longest` is the largest leading coefficient beta (s). Raises SimulationFailure if the step
+    would have to be shorter than ``stepping.shortest_step``.
     """
-    varied = run.heterogeneity
-    friction = run.law
-    tolerance = Interface.tolerance  # an unperturbed run is perturbed by round-off alone
-    if run.perturbation.acts:
-        coarse = NEWTON * run.stepping.tolerance
-        tolerance = max(tolerance, min(coarse, run.perturbation.strength))
-    if varied.varies == "none":
-        return Interface(friction, tolerance)
-    factor = varied.factor(grid.x, grid.length, grid.periodic)
-    friction = varied.friction(friction, run.fault.velocity, factor)
-    extra: Array | float = 0.0
-    if varied.varies == "normal_stress":
-        extra = run.fault.normal_stress * (factor - 1.0) * grid.nodal_lengths
-    return Interface(friction, tolerance, extra_normal=extra)
+    scheme = dynamics.scheme
+    wanted = control.wanted
+    rejected = control.rejected
+    growth = scheme.largest_growth
+    cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
+    shortest = max(stepping.shortest_step, RESOLVED * float(np.spacing(state.time)))
+    while True:
+        rung = rung_below(min(wanted, longest))
+        beta = rung_value(rung)
+        if beta < shortest:
+            outcome = Outcome.STEP_UNDERFLOW if cause is None else cause.outcome
+            raise SimulationFailure(outcome, state, f"step {beta:.3g} s; {cause}")
+        try:
+            new, report = dynamics.advance(state, rung)
+        except NewtonFailure as failure:
+            cause = failure
+            rejected += 1
+            wanted = 0.5 * beta
+            growth = 1.0  # the next step does not return to a size at which Newton's method failed
+            continue
+        factor = _step_factor(report.error / stepping.tolerance, scheme)
+        if report.error > stepping.tolerance and np.isfinite(report.error):
+            cause = None
+            rejected += 1
+            wanted = beta * min(factor, 0.9)
+            continue
+        step = new.last_step * min(factor, growth)
+        wanted = scheme.coefficient(step, new.last_step)
+        return Instant(new, report, Control(wanted, control.steps + 1, rejected))
+
+
+def _step_factor(error: float, scheme: BDF) -> float:
+    """Factor on the step size for a local error given over the tolerance."""
+    if not np.isfinite(error):
+        return 1.0  # the first step has no estimate
+    ideal = SAFETY * max(error, 1e-9) ** (-1.0 / scheme.error_order)
+    return min(scheme.largest_growth, max(SMALLEST_SHRINKING, ideal))
 
 
 def instants(

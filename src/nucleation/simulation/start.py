@@ -1,18 +1,79 @@
-"""The start of a run: the body at rest under its load, on an interface that can carry the stress.
+"""The parts of a run put together, and its start.
 
-If an elastic body is pressed down without slip, the shear stress at its free corner grows without
-bound as the mesh is refined: the base prevents the expansion by Poisson's ratio. Where that stress
-exceeds the strength, the interface has slipped already while the block was loaded.
+A run starts at rest under its load, on an interface that can carry the stress. If an elastic body
+is pressed down without slip, the shear stress at its free corner grows without bound as the mesh is
+refined: the base prevents the expansion by Poisson's ratio. Where that stress exceeds the strength,
+the interface has slipped already while the block was loaded.
 """
 
 import numpy as np
 
-from ..fem.grid import Field
+from ..fem.body import Body
+from ..fem.grid import Field, Grid
 from ..fem.operator import Operator, Response
+from ..run import run as runs
+from ..run.checks import require_consistent
 from ..run.run import Run
 from ..types import Array
-from .interface import InterfaceSolution
+from .drive import drive_of
+from .interface import Interface, InterfaceSolution
 from .step import Dynamics, State, StepReport
+from .stepping import BDF
+
+NEWTON = 1e-3
+"""Largest tolerance of Newton's method over that of the step, if the run is perturbed."""
+
+
+def grid_of(body: runs.Body, periodic: bool = False) -> Grid:
+    """The mesh of a block."""
+    return Grid(body.length, body.height, body.n_x, body.n_y, body.grading, periodic)
+
+
+def body_of(run: Run) -> Body:
+    """The body of a run: pushed at its left edge, or periodic under a remote load.
+
+    A ParameterError names contradictions.
+    """
+    require_consistent(run)
+    return _layers_of(run, periodic=run.fault.loading == "remote")
+
+
+def period_of(run: Run) -> Body:
+    """One period, as long as the block, of a run's body or bodies; ``n_x`` is odd."""
+    return _layers_of(run, periodic=True)
+
+
+def _layers_of(run: Run, periodic: bool) -> Body:
+    upper, below = run.upper, run.below
+    first = grid_of(upper, periodic), upper.material
+    if below is None:
+        return Body(first)
+    return Body(first, (grid_of(below, periodic), below.material), below.far_side)
+
+
+def interface_of(run: Run, grid: Grid) -> Interface:
+    """The frictional interface of a run on the mesh of its body, with its heterogeneity."""
+    varied = run.heterogeneity
+    friction = run.law
+    tolerance = Interface.tolerance  # an unperturbed run is perturbed by round-off alone
+    if run.perturbation.acts:
+        coarse = NEWTON * run.stepping.tolerance
+        tolerance = max(tolerance, min(coarse, run.perturbation.strength))
+    if varied.varies == "none":
+        return Interface(friction, tolerance)
+    factor = varied.factor(grid.x, grid.length, grid.periodic)
+    friction = varied.friction(friction, run.fault.velocity, factor)
+    extra: Array | float = 0.0
+    if varied.varies == "normal_stress":
+        extra = run.fault.normal_stress * (factor - 1.0) * grid.nodal_lengths
+    return Interface(friction, tolerance, extra_normal=extra)
+
+
+def composed(run: Run) -> Dynamics:
+    """The dynamics of a run: a further drive or scheme is chosen here."""
+    body = body_of(run)
+    interface = interface_of(run, body.grid)
+    return Dynamics(body, interface, drive_of(run, body), BDF(body.crossing_time))
 
 
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:

@@ -135,13 +135,7 @@ class Dynamics:
     inertia acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(
-        self,
-        body: Body,
-        interface: Interface,
-        drive: Drive,
-        scheme: BDF,
-    ) -> None:
+    def __init__(self, body: Body, interface: Interface, drive: Drive, scheme: BDF) -> None:
         self.body = body
         self.interface = interface
         self.drive = drive
@@ -160,20 +154,14 @@ class Dynamics:
         time = state.time + step.length
         operator = self.operator(step.s)
         imposed = self.drive.at(time)
-        external = self.drive.load(time)
-        load = self._load_with_past(state, step, self.in_frame(external, imposed))
+        load = self._load_with_past(state, step, self.in_frame(self.drive.load(time), imposed))
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         rates = self.body.modes.on_all_nodes(guess.slip_rate[1:], imposed.velocity)
         past = self._past(state, step, imposed)
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
-        fields = [motion.displacement for motion in state.motions]
-        before = Before(
-            step.body.past,
-            step.body.beta,
-            fields[0],
-            fields[-1],
-        )
+        newest, oldest = state.displacement, state.motions[-1].displacement
+        before = Before(step.body.past, step.body.beta, newest, oldest)
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
@@ -186,25 +174,17 @@ class Dynamics:
         motion = Motion(balance.displacement, balance.velocity, momentum)
         new = self._pushed(state, time, solution, motion, balance.edge_error)
         force = self._driving_force(state, step, imposed, solution, motion)
-        error = step.error(guess.distance(solution))
-        return new, StepReport(solution, force, error)
+        distance = passes.distance(
+            guess.scaled, guess.log_state, solution.slip_rate, solution.log_state, guess.scale
+        )
+        return new, StepReport(solution, force, step.error(distance))
 
-    def _past(
-        self,
-        state: State,
-        step: Step,
-        imposed: Imposed,
-    ) -> Past:
+    def _past(self, state: State, step: Step, imposed: Imposed) -> Past:
         formula = step.interface
         log_state = formula.from_past(state.past_log_states)
         if imposed.state_forcing is not None:
             log_state = log_state + formula.beta * imposed.state_forcing
-        return Past(
-            formula.from_past(state.past_w),
-            log_state,
-            formula.beta,
-            step.first,
-        )
+        return Past(formula.from_past(state.past_w), log_state, formula.beta, step.first)
 
     def operator(self, s: float) -> Operator:
         """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
@@ -227,19 +207,10 @@ class Dynamics:
         """Force (N/m) by which the driven edge accelerates the whole body with it."""
         return self.body.total_mass * imposed.acceleration
 
-    def _load_with_past(
-        self,
-        state: State,
-        step: Step,
-        load: Field,
-    ) -> Field:
+    def _load_with_past(self, state: State, step: Step, load: Field) -> Field:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
-        for c, motion in zip(
-            step.body.past,
-            state.motions,
-            strict=False,
-        ):
+        for c, motion in zip(step.body.past, state.motions, strict=False):
             terms.append((c, motion.displacement))
             terms.append((c * step.body.beta, motion.velocity))
         return self.body.inertia_load(step.s, terms, load)
@@ -258,7 +229,10 @@ class Dynamics:
         """
         force = solution.tangential[self.grid.own].sum()
         if self.drive.moves:
-            force = force - _rate_of_momentum(step, motion, state.motions)
+            change = motion.momentum
+            for c, past in zip(step.body.past, state.motions, strict=False):
+                change -= c * past.momentum
+            force = force - change / step.body.beta
         return float(force) - self.frame_inertia(imposed)
 
     def _pushed(
@@ -283,18 +257,6 @@ class Dynamics:
         )
 
 
-def _rate_of_momentum(
-    step: Step,
-    motion: Motion,
-    motions: tuple[Motion, ...],
-) -> float:
-    """Rate of the momentum along x (N/m) by the step's formula."""
-    change = motion.momentum
-    for c, past in zip(step.body.past, motions, strict=False):
-        change -= c * past.momentum
-    return change / step.body.beta
-
-
 class _Guess(NamedTuple):
     """Extrapolated slip rates and states of the interface at the end of a step, nodes 0..n_x."""
 
@@ -302,16 +264,6 @@ class _Guess(NamedTuple):
     slip_rate: Array  # m/s
     log_state: Array
     scale: float  # m/s
-
-    def distance(self, solution: InterfaceSolution) -> float:
-        """Largest distance to the solution, in asinh(v / scale) and log(phi)."""
-        return passes.distance(
-            self.scaled,
-            self.log_state,
-            solution.slip_rate,
-            solution.log_state,
-            self.scale,
-        )
 
 
 def _extrapolated(

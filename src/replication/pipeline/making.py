@@ -119,14 +119,12 @@ class _Maker:
     def _simulated(self, recipe: Recipe) -> xr.Dataset:
         """The record of a run, from its checkpoint; a signal leaves a new one."""
         from nucleation.run.run import Run
-        from nucleation.simulation.checkpoints import Stopped
+        from nucleation.simulation.checkpoints import Stopped, run_to_file
         from nucleation.simulation.progress import Progress
-        from nucleation.simulation.to_file import checkpoint_of, run_to_file
 
         name = recipe.name.rpartition("/")[2]
         parameters = Run.from_dict(recipe.values["parameters"])
         place = Path(recipe.results, UNFINISHED, f"{name}.nc")
-        checkpoint = checkpoint_of(parameters, place, recipe.code)
 
         def write(dataset: xr.Dataset, path: Path) -> None:
             if path == place:
@@ -136,8 +134,7 @@ class _Maker:
 
         progress = Progress(parameters, sys.stderr, name=name)
         try:
-            with checkpoint.listening():
-                dataset, path = run_to_file(parameters, place, write, checkpoint, progress)
+            dataset, path = run_to_file(parameters, place, write, recipe.code, progress)
         except Stopped as stopped:
             sys.exit(f"{name}: {stopped}")
         status = dataset.attrs["status"]

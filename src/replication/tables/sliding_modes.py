@@ -12,9 +12,9 @@ import numpy as np
 
 from nucleation.fem.operator import Operator
 from nucleation.run.run import Run
-from nucleation.simulation.bodies import period_of
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
+from nucleation.simulation.start import period_of
 from nucleation.simulation.step import Dynamics, State
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array, ComplexArray
