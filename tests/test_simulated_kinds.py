@@ -1,0 +1,76 @@
+"""A simulated fault of each kind does as the library answers: strong, weak, specimen, patch."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from nucleation.api import Fault, Run, extract, simulate
+from nucleation.lengths.patch_outcomes import DYNAMIC, bounds
+from replication.configuration.load import load
+
+ROOT = Path(__file__).parents[1]
+NOISE = {"perturbation": "normal_load", "strength": 1e-5}
+
+STRONG = Fault(
+    shear_modulus=3.1e9, poisson_ratio=1 / 3, density=1200.0, normal_stress=1e6, a=0.005, b=0.02,
+    slip_distance=0.5e-6, friction=0.4, velocity=1e-5, height=0.02, second_shear_modulus=math.inf,
+)  # fmt: skip
+WEAK = STRONG.replace(zeta=0.0025)
+PLATES = Fault(
+    shear_modulus=3.1e9, poisson_ratio=0.33, density=1200.0, normal_stress=1e6, a=0.0068,
+    zeta=0.0156, slip_distance=0.5e-6, friction=0.41, velocity=1e-5, height=0.1, plane="stress",
+)  # fmt: skip
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::UserWarning"),
+]
+
+
+@pytest.mark.parametrize(
+    ("fault", "settings"),
+    [
+        pytest.param(STRONG, {"n_x": 960, "n_y": 10}, id="strong: at L_c and noise"),
+        pytest.param(WEAK, {"n_x": 240, "n_y": 6, "block_length": 3.56}, id="weak: at L_run"),
+    ],
+)
+def test_the_force_drops_where_it_is_expected(fault, settings):
+    """Within three deviations: 68 % of the realisations are between `low` and `high`."""
+    answer = fault.lengths(**NOISE)["drop_length"]
+    found = extract(simulate(Run(fault, **settings, **NOISE)))
+    assert abs(found["length"] - answer.value) < 1.5 * (answer.high - answer.low)
+
+
+@pytest.mark.parametrize("length", [0.25, 0.15])
+def test_a_specimen_that_may_nucleate_does(length):
+    """L_s is 0.168 m: one specimen is longer, the other shorter, and L_c longer than both."""
+    verdict = PLATES.stability_length()
+    assert PLATES.critical_length() > 0.25 > verdict > 0.15
+    run = Run(PLATES, block_length=length, n_x=100, n_y=16, time_after_event=0.1, **NOISE)
+    waves = math.sqrt(PLATES.shear_modulus / PLATES.density)
+    dynamic = 2.0 * PLATES.a * PLATES.normal_stress * waves / PLATES.shear_modulus
+    assert float(simulate(run).maximal_slip_rate.max()) > dynamic
+
+
+def patches():
+    """Simulated patches of one friction, zeta/a = 1 among surroundings of half that strength."""
+    runs = load(ROOT / "config" / "beyond.yaml").runs
+    return [
+        run.run for run in runs if run.study == "weakening_patches" and run.run.fault.height == 1.77
+    ]
+
+
+def test_patches_creep_below_the_bounds_and_have_events_above():
+    ends, events = bounds("zeta", 1.0, 0.5)
+    tried = set()
+    for run in patches():
+        inside = run.fault.replace(zeta=0.0068)
+        ratio = run.heterogeneity.width / inside.weakening_patch_length(outside_zeta=-0.0034)
+        peak = float(simulate(run).maximal_slip_rate.max()) / run.fault.velocity
+        if ratio <= ends:
+            assert peak < DYNAMIC[0]
+        if ratio >= events:
+            assert peak > DYNAMIC[0]
+        tried |= {ratio <= ends, ratio >= events}
+    assert tried == {True, False}
