@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.extraction.extraction import extract
-from nucleation.extraction.record import Record
+from nucleation.extraction.extraction import Record, extract
 from nucleation.run.run import Run
 from nucleation.simulation.run import simulate
 from replication.configuration.load import load

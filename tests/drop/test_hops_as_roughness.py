@@ -7,8 +7,7 @@ import pytest
 from parts import with_parts
 from scipy.signal import savgol_filter
 
-from nucleation.extraction.extraction import extract
-from nucleation.extraction.record import Record
+from nucleation.extraction.extraction import Record, extract
 from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder

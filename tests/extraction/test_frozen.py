@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eig
 from scipy.optimize import brentq
 
-from nucleation.extraction.frozen import frozen_patch
+from nucleation.extraction.growth import frozen_patch
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator

@@ -1,7 +1,6 @@
 """Where growth of the patch begins: few frames instead of all, and the fit at the crossing."""
 
 import dataclasses
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -75,32 +74,18 @@ def test_rough_crossing_ignores_single_instants_and_gaps():
     assert np.isnan(rough_crossing(np.arange(7.0), np.full(7, np.nan)))
 
 
-def test_a_narrow_window_of_oscillation_is_found(monkeypatch):
+def test_a_narrow_window_of_oscillation_is_found():
     """Between two of the instants scanned the pair begins to grow, and stops to oscillate."""
     growth_begins, length = 0.31, np.linspace(0.1, 0.6, 4001)
 
-    class Spectra:
-        grid = SimpleNamespace(dx=1e-3, n_x=600)
+    def rates(frames):
+        near = length[frames] - growth_begins
+        fastest = np.where(near > 0.0, 300.0 * near, -0.01) + 0j
+        return fastest, np.where(np.abs(near) < 0.004, 300.0 * near + 9j, np.nan + 0j)
 
-        def __init__(self, record):
-            self.length = length
-
-        def rates(self, frames):
-            near = length[frames] - growth_begins
-            fastest = np.where(near > 0.0, 300.0 * near, -0.01) + 0j
-            return fastest, np.where(np.abs(near) < 0.004, 300.0 * near + 9j, np.nan + 0j)
-
-        def patch(self, frame):
-            mode = np.ones(0)
-            return SimpleNamespace(nodes=np.arange(0), mode=lambda rate: (mode, mode)), 0j
-
-        def dataset(self, fit, mode):
-            return xr.Dataset(fit)
-
-    monkeypatch.setattr(growth, "_Spectra", Spectra)
-    monkeypatch.setattr(growth, "Record", lambda simulation, settings: None)
-    found = follow_patch(xr.Dataset(), ExtractionSettings())
-    assert float(found["stability_length"]) == pytest.approx(growth_begins, rel=1e-6)
+    found, frame = growth.beginning_of_growth(np.arange(length.size), length, rates)
+    assert found["stability_length"] == pytest.approx(growth_begins, rel=1e-6)
+    assert length[frame] == pytest.approx(growth_begins, abs=5e-4)
 
 
 def test_line_through_the_crossing():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from made_up_runs import PARAMETERS, record
 
-from nucleation.extraction.extraction import extract
+from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.measures import (
     ALWAYS,
     BY_DEFINITION,
@@ -12,7 +12,6 @@ from nucleation.extraction.measures import (
     _state_rate_well_approximated,
     measure,
 )
-from nucleation.extraction.record import Record
 from nucleation.model.friction import Friction
 
 ONSET = 8.0  # s: the front has not come half-way along the block

@@ -5,8 +5,7 @@ import pytest
 from extraction.made_up_patch import VELOCITY, synthetic_simulation
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import extract
-from nucleation.extraction.record import Record
+from nucleation.extraction.extraction import Record, extract
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.event import slipping_edge
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.frozen import Freezer
+from nucleation.extraction.growth import freezer
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.event import slipping_edge
 from nucleation.simulation.run import instants
@@ -34,8 +34,8 @@ PERIODS, SKIPPED, FROZEN = 3.0, 0.5, 8  # followed, left out at first; instants 
 class Twin:
     """A kicked run beside the run it started from, and what is seen of the two."""
 
-    def __init__(self, freezer, instant, length, kick=KICK):
-        self.freezer, self.dynamics = freezer, composed(PARAMETERS)
+    def __init__(self, frozen, instant, length, kick=KICK):
+        self.patch, self.dynamics = frozen, composed(PARAMETERS)
         patch, self.rate = self.freeze(instant)
         self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
         shape = np.zeros(PARAMETERS.block.n_x + 1)
@@ -48,8 +48,7 @@ class Twin:
 
     def freeze(self, instant):
         at = instant.report.interface
-        patch = self.freezer.frozen(at.slip_rate, np.exp(at.log_state), at.normal)
-        return patch, self.freezer.oscillating(patch, at.slip_rate)
+        return self.patch(at.slip_rate, np.exp(at.log_state), at.normal)
 
     def advance(self, instant, length):
         """Take the step that the run has taken, whose patch is as long (m)."""
@@ -81,17 +80,17 @@ class Twin:
 def twins(shares, kick=KICK):
     """Twins of the run, each followed to its end."""
     threshold = ExtractionSettings().edge_threshold * PARAMETERS.fault.velocity
-    freezer = Freezer(PARAMETERS, threshold)
+    frozen, x = freezer(PARAMETERS, threshold), composed(PARAMETERS).grid.x
     length, waiting, active, found = 0.0, [*shares], [], []
     for instant in instants(PARAMETERS):
         rate = instant.report.interface.slip_rate
-        length = max(length, float(slipping_edge(freezer.grid.x, rate, threshold)))
+        length = max(length, float(slipping_edge(x, rate, threshold)))
         for twin in active:
             twin.advance(instant, length)
         active = [twin for twin in active if instant.state.time < twin.end]
         if waiting and length >= waiting[0] * THEORY:
             waiting.pop(0)
-            active.append(Twin(freezer, instant, length, kick))
+            active.append(Twin(frozen, instant, length, kick))
             found.append(active[-1])
         if not (active or waiting):
             return found, instant.state

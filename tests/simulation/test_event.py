@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nucleation.extraction.definitions import find_onset
-from nucleation.extraction.record import Record
+from nucleation.extraction.extraction import Record
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import event, start
 from nucleation.simulation.event import DropWatch, Outcome, PatchBursts

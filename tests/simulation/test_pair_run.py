@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from nucleation.extraction.frozen import frozen_patch
+from nucleation.extraction.growth import frozen_patch
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import instants, simulate

@@ -8,9 +8,8 @@ import pytest
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import extract
+from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import follow_patch
-from nucleation.extraction.record import Record
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 

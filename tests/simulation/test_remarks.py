@@ -6,7 +6,7 @@ import square_evolution
 from simulation.test_event import THICK, fastest_elsewhere
 
 from nucleation.extraction.definitions import find_onset
-from nucleation.extraction.record import Record
+from nucleation.extraction.extraction import Record
 from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import start

@@ -14,8 +14,7 @@ import numpy as np
 import xarray as xr
 
 from ..datasets import DatasetError, netcdf, provenance
-from ..extraction.extraction import extract
-from ..extraction.record import parameters_of
+from ..extraction.extraction import extract, parameters_of
 from ..installed import require
 from ..model.quantities import ParameterError
 from ..theory.critical import critical_length_of

@@ -33,7 +33,7 @@ def run_of_dataset(path: Path) -> Run:
     require("solver")
     # imported here, since the libraries take a second
     from ..datasets import netcdf
-    from ..extraction.record import parameters_of
+    from ..extraction.extraction import parameters_of
 
     return parameters_of(netcdf.read(path, requires=["slip_rate", "driving_force"]))
 

@@ -1,18 +1,24 @@
-"""The critical nucleation length, read from a simulation by the drop of its driving force.
+"""A recorded run, and the critical nucleation length that the drop of its driving force gives.
 
-It is the patch's length at the onset (both in :mod:`.definitions`). The error bar spans other
-reasonable definitions: edges from 0.5 V to 1e-3 V, and instants up to the one where the drop is
-complete.
+All analysis reads a simulation's dataset through a :class:`Record`, so that parameters, thresholds,
+onset and length of the patch are the same everywhere. The critical length is the patch's length at
+the onset (both in :mod:`.definitions`). The error bar spans other reasonable definitions: edges
+from 0.5 V to 1e-3 V, and instants up to the one where the drop is complete.
 """
 
 import warnings
+from functools import cached_property
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from ..datasets import DatasetError
 from ..datasets.variables import Variable
-from ..simulation.event import Outcome
-from .definitions import ExtractionSettings
-from .record import Record
+from ..run.run import Run
+from ..simulation.event import WINDOW, Outcome, PatchBursts, long_after, patch_lengths
+from ..types import Array
+from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
 MEASURED = {
     "onset_time": Variable("s", "onset of the event", "t"),
@@ -23,6 +29,112 @@ MEASURED = {
     "length_high": Variable("m", "largest length over the definitions", "L"),
 }
 """Results of :func:`extract`."""
+
+
+def parameters_of(dataset: xr.Dataset) -> Run:
+    """The parameters of the run that made a dataset, or from which it was derived."""
+    return Run.from_json(dataset.attrs["parameters"])
+
+
+class Record:
+    """The dataset of one simulation, or of another solver, as the analysis sees it.
+
+    Times (s) are those of the frames and of the steps, `fastest` is the largest slip rate (m/s) at
+    each step, and `threshold` that at the edge of the patch.
+    """
+
+    def __init__(
+        self,
+        simulation: xr.Dataset,
+        settings: ExtractionSettings = ExtractionSettings(),
+    ) -> None:
+        self.simulation = simulation
+        self.settings = settings
+        self.run = parameters_of(simulation)
+        self.velocity = self.run.fault.velocity  # the imposed one, V (m/s)
+        self.threshold = settings.edge_threshold * self.velocity
+        self.x = simulation["x"].values
+        self.time = simulation["time"].values
+        self.step_time = simulation["step_time"].values
+        self.fastest = simulation["maximal_slip_rate"].values
+
+    def require(self, *names: str) -> None:
+        """Make sure of variables that not every level of recording has.
+
+        The message of the DatasetError names the level.
+        """
+        missing = [name for name in names if name not in self.simulation]
+        if missing:
+            raise DatasetError(
+                f"{', '.join(missing)}: not recorded, as the run's recording.record is "
+                f"{self.run.recording.record}; simulate with interface"
+            )
+
+    @cached_property
+    def onset(self) -> Onset | None:
+        """The first event, as indices into the steps; None if there is none."""
+        rates = self.simulation["slip_rate"].values
+        ruptures = None
+        if self.run.fault.loading == "edge":
+            ruptures = self.fastest > RUPTURE * self.velocity
+        return find_onset(
+            self.step_time,
+            np.abs(self.simulation["driving_force"].values),
+            WINDOW * self.run.memory_time,
+            self.settings.drop,
+            self._fast,
+            self.step_time > long_after(self.run, self.x, self.time, rates),
+            ruptures,
+        )
+
+    @property
+    def _fast(self) -> NDArray[np.bool_]:
+        """Whether the patch slips fast at each step; another solver records no position."""
+        bursts = PatchBursts(self.run)
+        places = np.zeros(self.step_time.size)
+        if "fastest_position" in self.simulation:
+            places = self.simulation["fastest_position"].values
+        steps = zip(self.step_time, self.fastest, places, strict=True)
+        return np.array([bursts.at(*step) for step in steps])
+
+    @property
+    def drop_times(self) -> Array:
+        """Times (s) at which the force's drop starts, is steep and is complete, (3,)."""
+        if self.onset is None:
+            raise ValueError("the run has no event")
+        return self.step_time[[self.onset.start, self.onset.steep, self.onset.end]]
+
+    def frames_at(self, times: Array) -> NDArray[np.intp]:
+        """The frames nearest to some times (s)."""
+        return np.abs(self.time[:, None] - times).argmin(axis=0)
+
+    @cached_property
+    def creep(self) -> NDArray[np.intp]:
+        """The frames up to the onset, all of them if there is none."""
+        last = np.inf if self.onset is None else self.drop_times[0]
+        return np.flatnonzero(self.time <= last)
+
+    @cached_property
+    def lengths(self) -> Array:
+        """Length of the patch (m) at every frame: the largest one so far."""
+        return self._lengths(self.settings.edge_threshold)
+
+    @cached_property
+    def lengths_at_drop(self) -> Array:
+        """Those (m) by usual, high and low edge, and by start, steepest part and end, (3, 3)."""
+        high = self._lengths(self.settings.edge_threshold_high)
+        low = self._lengths(self.settings.edge_threshold_low)
+        return np.array([self.lengths, high, low])[:, self.frames_at(self.drop_times)]
+
+    def _lengths(self, share: float) -> Array:
+        """Largest length (m) so far, for an edge at this share of V."""
+        lengths = patch_lengths(
+            self.run.fault.loading,
+            self.x,
+            self.simulation["slip_rate"].values,
+            share * self.velocity,
+        )
+        return np.maximum.accumulate(lengths)
 
 
 def extract(

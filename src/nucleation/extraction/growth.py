@@ -1,25 +1,42 @@
 """The length at which the creep patch of a simulation turns linearly unstable, free of its noise.
 
-Growth of the frozen patch (:mod:`nucleation.extraction.frozen`) begins where the first of its modes
-stops decaying; that mode oscillates there (:mod:`nucleation.theory.creep.lengths`). Each instant of
-a run needs the spectrum of a dense matrix, and a run has some hundred of them. So a few instants,
-spaced evenly in patch length, give the rough crossing by the fastest growing mode. A line through
-the oscillating mode at the instants around it gives the length.
+The paper replaces the patch by homogeneous sliding. Here friction, state and the static elastic
+response of the block are linearised about the fields of the simulation at one instant: the patch is
+frozen. For perturbations of the displacement w and of psi = log(phi) at the slipping nodes, force
+balance reads (p = -f R at each node, R the nodal normal force)
+
+    (D + f N) dw + R (f_v dv + f_psi dpsi) = 0,      d(dw)/dt = dv,
+    d(dpsi)/dt = g_v dv + g_psi dpsi,
+
+with the condensed static operators D (tangential) and N (normal stress coupling) of the finite
+elements and the evolution law ``dpsi/dt = g(v, psi)``. Eliminating dv leaves the eigenvalue problem
+of :mod:`nucleation.theory.creep.linearised`, of twice the number of slipping nodes.
+
+Growth begins where the first of the patch's modes stops decaying; that mode oscillates there
+(:mod:`nucleation.theory.creep.lengths`). Each instant of a run needs the spectrum of a dense
+matrix, and a run has some hundred of them. So a few instants, spaced evenly in patch length, give
+the rough crossing by the fastest growing mode. A line through the oscillating mode at the instants
+around it gives the length.
 """
 
-from collections.abc import Iterable
+import copy
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
+from ..fem.operator import Operator
+from ..model.friction import Friction
+from ..run.run import Run
+from ..simulation.event import NEAR as NEAR_EDGE
 from ..simulation.recorded import RECORDED
-from ..theory.creep.linearised import FrozenPatch
+from ..simulation.start import body_of, grid_of, interface_of
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array, ComplexArray
 from .definitions import ExtractionSettings
-from .frozen import Freezer
-from .record import Record
+from .extraction import Record
 
 FEWEST_NODES = 8  # a shorter patch is not resolved
 SCANNED = 40  # instants that give the rough crossing
@@ -51,6 +68,68 @@ FOLLOWED = {
 }
 
 
+def frozen_patch(
+    operator: Operator,
+    law: Friction,
+    slip_rate: Array,
+    state: Array,
+    normal_force: Array,
+    slowest: float,
+) -> FrozenPatch:
+    """Linearise a patch about fields at the nodes 0..n_x, at those that slip.
+
+    The operator is the static one; the law's parameters may vary along the interface; fields are in
+    m/s, s and N/m (positive in compression); nodes below the `slowest` slip rate (m/s) are stuck.
+    """
+    grid = operator.body.grid
+    slipping = slip_rate > slowest
+    if not grid.periodic:
+        slipping &= grid.x <= NEAR_EDGE * grid.length
+    nodes = np.flatnonzero(slipping[1:]) + 1  # node 0 is driven, or repeats another
+    v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
+    own_law = copy.copy(law)  # with its parameters at these nodes
+    for name, value in vars(law).items():
+        if np.ndim(value):
+            object.__setattr__(own_law, name, value[nodes])  # frozen, and checked for all nodes
+    f = own_law.coefficient(v, phi)
+    f_v, f_phi = own_law.derivatives(v, phi)
+    g_v, g_psi = log_state_derivatives(own_law, v, phi)
+    stiffness, coupling = operator.tangent(nodes)
+    by_force = (f_v * force)[:, None]
+    return FrozenPatch(
+        nodes=nodes,
+        by_w=-(stiffness + f[:, None] * coupling) / by_force,
+        by_log_state=-f_phi * phi / f_v,
+        evolution_by_rate=g_v,
+        evolution_by_log_state=g_psi,
+    )
+
+
+Freezer = Callable[[Array, Array, Array], tuple[FrozenPatch, complex]]
+"""Function of slip rates, states and normal forces (m/s, s, N/m) at the nodes 0..n_x. It returns
+the frozen patch and the eigenvalue (1/s) of its fastest growing oscillating mode, or NaN."""
+
+
+def freezer(run: Run, threshold: float) -> Freezer:
+    """The function that freezes patches of a run, nodes slower than a threshold (m/s) being stuck.
+
+    A mode oscillates by the scale V/D of its frequency; without an edge that moves at V the scale
+    is v/D of the patch itself.
+    """
+    body = body_of(run)
+    operator = Operator(body, 0.0)
+    law = interface_of(run, body.grid).friction
+
+    def frozen(slip_rate: Array, state: Array, normal_force: Array) -> tuple[FrozenPatch, complex]:
+        patch = frozen_patch(operator, law, slip_rate, state, normal_force, threshold)
+        rate_over_v = 1.0
+        if run.fault.loading != "edge":
+            rate_over_v = float(slip_rate.max()) / run.fault.velocity
+        return patch, patch.oscillating(rate_over_v * OSCILLATING / run.memory_time)
+
+    return frozen
+
+
 def follow_patch(
     simulation: xr.Dataset,
     settings: ExtractionSettings,
@@ -70,120 +149,77 @@ def follow_patch(
         The variables :data:`FOLLOWED`: patches on ``instant``, the mode where growth begins on
         ``x``. NaN where no mode oscillates, and where growth does not begin.
     """
-    spectra = _Spectra(Record(simulation, settings))
-    frames = np.flatnonzero(spectra.length >= FEWEST_NODES * spectra.grid.dx)
-    scanned = evenly(frames, spectra.length, SCANNED)
-    fastest, _ = spectra.rates(scanned)
-    crossing = rough_crossing(spectra.length[scanned], fastest.real)
+    record = Record(simulation, settings)
+    creep, length = record.creep, record.lengths[record.creep]
+    slip_rate, state = (simulation[name].values[creep] for name in ("slip_rate", "state"))
+    frozen = freezer(record.run, record.threshold)
+    grid = grid_of(record.run.upper, record.run.fault.loading == "remote")
+    force = -simulation["sigma_yy"].values[creep] * grid.nodal_lengths
+    known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating, by frame
+
+    def rates(frames: Iterable[int]) -> tuple[ComplexArray, ComplexArray]:
+        for frame in frames:
+            if frame not in known:
+                patch, pair = frozen(slip_rate[frame], state[frame], force[frame])
+                fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
+                known[frame] = fastest, pair
+        found = np.array([known[frame] for frame in frames], dtype=complex).reshape(-1, 2)
+        return found[:, 0], found[:, 1]
+
+    frames = np.flatnonzero(length >= FEWEST_NODES * grid.dx)
+    fit, nearest = beginning_of_growth(frames, length, rates)
+    mode = np.zeros(grid.n_x + 1, dtype=complex)
+    if nearest is not None:
+        patch, pair = frozen(slip_rate[nearest], state[nearest], force[nearest])
+        mode[patch.nodes], _ = patch.mode(pair)
+    instants = sorted(known)
+    fastest, oscillating = rates(instants)
+    found = xr.Dataset(
+        {
+            "instant_time": ("instant", record.time[creep][instants]),
+            "patch_length": ("instant", length[instants]),
+            "growth_rate": ("instant", fastest.real),
+            "growth_frequency": ("instant", np.abs(fastest.imag)),
+            "oscillation_growth": ("instant", oscillating.real),
+            "oscillation_frequency": ("instant", oscillating.imag),
+            **fit,
+            "mode_real": ("x", mode.real),
+            "mode_imaginary": ("x", mode.imag),
+        },
+        coords={"x": grid.x},
+        attrs={"parameters": record.run.to_json()},
+    )
+    return annotate(found, FOLLOWED)
+
+
+def beginning_of_growth(
+    frames: NDArray[np.intp],
+    length: Array,
+    rates: Callable[[Iterable[int]], tuple[ComplexArray, ComplexArray]],
+) -> tuple[dict[str, float], int | None]:
+    """Values of :data:`FITTED`, and the frame nearest to where growth begins, None if it does not.
+
+    `rates` gives eigenvalues (1/s) of frames: the fastest growing and the oscillating mode's.
+    """
+    scanned = evenly(frames, length, SCANNED)
+    fastest, _ = rates(scanned)
+    crossing = rough_crossing(length[scanned], fastest.real)
     fit = dict.fromkeys(FITTED, float("nan"))
     near = frames
     for _ in range(REFITS):
         if np.isfinite(crossing):
-            near = frames[np.abs(spectra.length[frames] / crossing - 1.0) < AROUND]
-            near = evenly(near, spectra.length, NEAR)
-            _, oscillating = spectra.rates(near)
-            fit = fitted_crossing(spectra.length[near], oscillating)
+            near = frames[np.abs(length[frames] / crossing - 1.0) < AROUND]
+            near = evenly(near, length, NEAR)
+            _, oscillating = rates(near)
+            fit = fitted_crossing(length[near], oscillating)
             crossing = fit["stability_length"]
-    mode = np.zeros(spectra.grid.n_x + 1, dtype=complex)
-    if np.isfinite(crossing):
-        distance = np.abs(spectra.length[near] - crossing)
-        patch, rate = spectra.patch(near[distance.argmin()])
-        mode[patch.nodes], _ = patch.mode(rate)
-    return spectra.dataset(fit, mode)
+    if not np.isfinite(crossing):
+        return fit, None
+    return fit, int(near[np.abs(length[near] - crossing).argmin()])
 
 
-class _Spectra(Freezer):
-    """The frozen patches of a recorded run up to its onset, their eigenvalues computed once."""
-
-    def __init__(self, record: Record) -> None:
-        super().__init__(record.run, record.threshold)
-        names = ("slip_rate", "state", "sigma_yy")
-        self._fields = [record.simulation[name].values[record.creep] for name in names]
-        self.time = record.time[record.creep]
-        self.length = record.lengths[record.creep]
-        self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
-
-    def patch(self, frame: int) -> tuple[FrozenPatch, complex]:
-        """The frozen patch at a frame, and its oscillating mode."""
-        rate, state, stress = (field[frame] for field in self._fields)
-        patch = self.frozen(rate, state, -stress * self.grid.nodal_lengths)
-        return patch, self.oscillating(patch, rate)
-
-    def rates(self, frames: Iterable[int]) -> tuple[ComplexArray, ComplexArray]:
-        """Eigenvalues (1/s) of the fastest growing mode and of the oscillating one, or NaN."""
-        rates = [self._rates(frame) for frame in frames]
-        fastest, oscillating = np.array(rates, dtype=complex).reshape(-1, 2).T
-        return fastest, oscillating
-
-    def _rates(self, frame: int) -> tuple[complex, complex]:
-        if frame not in self._known:
-            patch, pair = self.patch(frame)
-            fastest = complex(np.nan, np.nan)
-            if patch.nodes.size:
-                fastest = patch.eigenvalues[0]
-            self._known[frame] = (fastest, pair)
-        return self._known[frame]
-
-    def dataset(
-        self,
-        fit: dict[str, float],
-        mode: ComplexArray,
-    ) -> xr.Dataset:
-        """The dataset of :func:`follow_patch`.
-
-        Parameters
-        ----------
-        fit : dict
-            Values of :data:`FITTED`, by name.
-        mode : ndarray
-            Slip in the mode where growth begins, (n_x + 1,).
-
-        Returns
-        -------
-        Dataset
-            The variables :data:`FOLLOWED` at all frames with known eigenvalues.
-        """
-        frames = sorted(self._known)
-        fastest, oscillating = self.rates(frames)
-        found = xr.Dataset(
-            {
-                "instant_time": ("instant", self.time[frames]),
-                "patch_length": ("instant", self.length[frames]),
-                "growth_rate": ("instant", fastest.real),
-                "growth_frequency": ("instant", np.abs(fastest.imag)),
-                "oscillation_growth": ("instant", oscillating.real),
-                "oscillation_frequency": ("instant", oscillating.imag),
-                **fit,
-                "mode_real": ("x", mode.real),
-                "mode_imaginary": ("x", mode.imag),
-            },
-            coords={"x": self.grid.x},
-            attrs={"parameters": self.run.to_json()},
-        )
-        return annotate(found, FOLLOWED)
-
-
-def evenly(
-    frames: NDArray[np.intp],
-    length: Array,
-    number: int,
-) -> NDArray[np.intp]:
-    """Some of the frames, spaced evenly in patch length.
-
-    Parameters
-    ----------
-    frames : ndarray
-        Indices of frames, rising.
-    length : ndarray
-        Patch length (m) at each frame of the run.
-    number : int
-        At most as many are chosen.
-
-    Returns
-    -------
-    ndarray
-        Indices of frames.
-    """
+def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.intp]:
+    """At most a number of rising frames, spaced evenly in patch length (m at each frame)."""
     if frames.size <= number:
         return frames
     lengths = length[frames]
@@ -193,26 +229,11 @@ def evenly(
     return frames[np.unique(nearest)]
 
 
-def rough_crossing(
-    length: Array,
-    growth: Array,
-) -> float:
-    """Patch length that best divides decay from growth.
+def rough_crossing(length: Array, growth: Array) -> float:
+    """Patch length (m) that best divides decay from growth (1/s), NaN without either.
 
     The range of lengths with the wrong sign is the least possible: on a coarse mesh the growth rate
     fluctuates as the front moves from node to node.
-
-    Parameters
-    ----------
-    length : ndarray
-        Patch lengths (m), rising, (n,).
-    growth : ndarray
-        Growth rates (1/s), or NaN, (n,).
-
-    Returns
-    -------
-    float
-        The length (m), NaN without growth or without decay.
     """
     usable = np.isfinite(growth)
     length, growth = length[usable], growth[usable]
@@ -226,26 +247,12 @@ def rough_crossing(
     return float(length[min(at, length.size - 1)])
 
 
-def fitted_crossing(
-    length: Array,
-    growth: ComplexArray,
-) -> dict[str, float]:
-    """Where a line through eigenvalues over patch length crosses zero growth.
+def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
+    """Values of :data:`FITTED`: where a line through eigenvalues (1/s) over patch length (m) is 0.
 
     The front advances by one node at a time, and growth varies within each hop. The scatter about
-    the line over its slope gives the range of lengths at which growth may begin.
-
-    Parameters
-    ----------
-    length : ndarray
-        Patch lengths (m), (n,).
-    growth : ndarray
-        Eigenvalues (1/s), or NaN, (n,).
-
-    Returns
-    -------
-    dict
-        Values of :data:`FITTED`, by name; NaN if the line does not cross zero within the lengths.
+    the line over its slope gives the range of lengths at which growth may begin. Values are NaN if
+    the line does not cross zero within the lengths.
     """
     none = dict.fromkeys(FITTED, float("nan"))
     usable = np.isfinite(growth)

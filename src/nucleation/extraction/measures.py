@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..datasets.variables import Variable
 from ..model.friction import Friction
 from ..types import Array
-from .record import Record
+from .extraction import Record
 
 SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches

@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..extraction.record import Record, parameters_of
+from ..extraction.extraction import Record, parameters_of
 from ..types import Array
 from . import style
 

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from nucleation.extraction.record import parameters_of
+from nucleation.extraction.extraction import parameters_of
 from nucleation.pictures import style
 from nucleation.types import Array
 
