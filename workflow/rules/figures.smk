@@ -213,22 +213,6 @@ rule figure_patch_theory:
         JOB
 
 
-rule figure_convergence:
-    """Length at the drop against mesh and steps"""
-    input:
-        table=f"{RESULTS}/convergence.nc",
-        recipe=recipe("figure_convergence"),
-    output:
-        drawn("figure_convergence", "Why to believe it"),
-    log:
-        f"{RESULTS}/logs/figures/figure_convergence.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_convergence:draw",
-    shell:
-        JOB
-
-
 def theory_of_identical_blocks():
     """The theory's lengths over the height, by study of identical blocks."""
     found = {}

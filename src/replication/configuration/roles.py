@@ -125,7 +125,7 @@ ROLES = {
         study=(_STABILITY, _BATCHES),
     ),
     "convergence": _Role(
-        "mesh and steps refined, for `figure_convergence`",
+        "mesh and steps refined, for `convergence`",
         several=True,
         one_by_one=False,
     ),

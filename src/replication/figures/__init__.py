@@ -22,7 +22,6 @@ ROLES: dict[str, tuple[str, ...]] = {
     "figure_pairs": ("pairs_identical",),
     "figure_2_simulated": ("pairs_identical", "figure_2_simulated"),
     "figure_literature": ("literature",),
-    "figure_convergence": ("convergence", "convergence_quiet"),
 }
 """Roles of studies by figure; figures of a user's studies are not in it."""
 
