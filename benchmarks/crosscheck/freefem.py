@@ -16,7 +16,7 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.model.settings import IN_TIME
 from nucleation.run.run import Run
 from nucleation.simulation.event import FAST
-from nucleation.simulation.realisation import Series, Sheet
+from nucleation.simulation.perturbed import Series, Sheet
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # Debian's directory; by default the program searches another one
@@ -107,7 +107,7 @@ def realisation(run: Run) -> str:
     """The declared perturbation on its own grid, up to the end of a run, for the script to read.
 
     Spacing of the splines (s), phase, number of splines and of places, and the coefficients a_i of
-    :mod:`nucleation.simulation.realisation`: one line for each spline, of all places.
+    :mod:`nucleation.simulation.perturbed`: one line for each spline, of all places.
     """
     declared = run.perturbation
     time = declared.correlation_time * run.memory_time

@@ -12,7 +12,7 @@ from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.extraction.extraction import extract
 from nucleation.model.settings import Perturbation, spectral_density
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.realisation import Series, Sheet, profile
+from nucleation.simulation.perturbed import Series, Sheet, profile
 from nucleation.simulation.run import simulate
 
 PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=2.7, n_x=400, n_y=8)

@@ -6,7 +6,7 @@ from parts import with_parts
 
 from nucleation.model.settings import KINDS, Perturbation
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.realisation import Series, profile
+from nucleation.simulation.perturbed import Series, profile
 from nucleation.simulation.run import simulate
 from nucleation.simulation.start import composed
 

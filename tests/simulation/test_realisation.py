@@ -6,7 +6,7 @@ from scipy.interpolate import BSpline
 from scipy.stats import kstest
 
 from nucleation.model.settings import MEAN_SQUARE, correlation, spectral_density
-from nucleation.simulation.realisation import (
+from nucleation.simulation.perturbed import (
     Series,
     Sheet,
     normals,

@@ -11,8 +11,8 @@ import click
 
 from ..lengths import formulas
 from ..lengths.answer import Answer
-from ..lengths.draws import parse_range
-from ..lengths.in_use import LENGTHS, WEAKENING_RATE
+from ..lengths.draws import WEAKENING_RATE, parse_range
+from ..lengths.in_use import LENGTHS
 from ..lengths.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
 from ..model.quantities import ParameterError, declarations
 from ..model.settings import Perturbation

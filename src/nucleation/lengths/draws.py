@@ -15,9 +15,10 @@ from ..model.units import NUMBER, magnitude, parse
 from ..theory.status import BEYOND, STABLE
 from ..theory.values import QUANTITIES, checked
 from ..types import Array
-from .in_use import WEAKENING_RATE
 
 DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
+_FALL = "rate of linear slip weakening of the shear strength"
+WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
 SAMPLED = {name: entry for name, entry in QUANTITIES.items() if not entry.worded}
 SAMPLED["weakening_rate"] = WEAKENING_RATE
 SAMPLED["zeta_over_a"] = ZETA_OVER_A

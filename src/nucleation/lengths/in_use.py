@@ -9,15 +9,12 @@ import math
 from collections.abc import Iterable
 from operator import methodcaller
 
-from ..model.quantities import declared
 from ..theory.values import FaultLike, Numbers, Values, checked, where
 from . import formulas
+from .draws import WEAKENING_RATE
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import Setting, nan0, valid
 from .length import HALF_SPACES, RIGID_BASE, Length, number
-
-_FALL = "rate of linear slip weakening of the shear strength"
-WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
 
 
 def _crack(s: Setting) -> Numbers:

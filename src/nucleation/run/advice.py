@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterator
 
 from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION
-from ..theory.creep.lengths import stability_length_of
 from .estimates import element_height
 from .run import Run
 
@@ -157,6 +156,8 @@ def changing_friction(run: Run, critical: float) -> Iterator[Advice]:
 
 def _stability_length(run: Run, critical: float, constant: bool) -> str:
     """L_s as text, with the friction law's own or with constant a and b."""
+    from ..theory.creep.lengths import stability_length_of
+
     ratio = stability_length_of(run.patches, critical, constant) / critical
     return "none up to 3 L_c" if math.isnan(ratio) else f"{ratio:.2g} L_c"
 

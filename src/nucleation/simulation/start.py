@@ -15,7 +15,7 @@ from ..run import run as runs
 from ..run.checks import require_consistent
 from ..run.run import Run
 from ..types import Array
-from .drive import drive_of
+from .drive import Drive, Remote, Steady
 from .interface import Interface, InterfaceSolution
 from .step import Dynamics, State, StepReport
 from .stepping import BDF
@@ -67,6 +67,22 @@ def interface_of(run: Run, grid: Grid) -> Interface:
     if varied.varies == "normal_stress":
         extra = run.fault.normal_stress * (factor - 1.0) * grid.nodal_lengths
     return Interface(friction, tolerance, extra_normal=extra)
+
+
+def drive_of(run: Run, body: Body) -> Drive:
+    """The drive of a run: a moving edge, or a far load that rises."""
+    load = body.far_load(run.fault.normal_stress)
+    near = Steady(run.fault.velocity, load)
+    if run.perturbation.acts:
+        from .perturbed import perturbed
+
+        near = perturbed(run, body, load)
+    if run.fault.loading != "remote":
+        return near
+    shear = body.far_load(0.0, 1.0)
+    start = shear.times(run.start.initial_shear_stress)
+    per_displacement = run.start.stress_rate / run.fault.velocity
+    return Remote(near.velocity, near, start, shear.times(per_displacement))
 
 
 def composed(run: Run) -> Dynamics:

@@ -1,4 +1,4 @@
-"""Realisations of a smooth Gaussian process in time, along x, or in both.
+"""Perturbed drives, by realisations of a smooth Gaussian process in time, along x, or in both.
 
 A realisation has its own grid of spacing ``d``. On it, it is a series of cubic B-splines with
 independent standard normal coefficients ``a_i`` and a random phase,
@@ -18,14 +18,19 @@ Philox and the inverse of the normal distribution. So any part of a realisation 
 without the parts before it, and it is the same on every mesh, with all steps and after a restart.
 """
 
+import dataclasses
 from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
 from scipy.special import ndtri
 
+from ..fem.body import Body
+from ..fem.grid import Field
 from ..model.settings import MEAN_SQUARE
+from ..run.run import Run
 from ..types import Array
+from .drive import Imposed, Steady
 
 BLOCK = 256  # coefficients drawn at a time
 ROWS_KEPT = 8  # of a sheet; four are in use at one time
@@ -177,3 +182,74 @@ class Sheet:
         """Coefficients ``a_i(x)`` of the values up to a time (s), shape (i, n)."""
         first = int(until / self.spacing + self.phase)
         return np.array([self._row(i) for i in range(first + 4)])
+
+
+@dataclasses.dataclass(frozen=True)
+class _FluctuatingVelocity(Steady):
+    """An edge that moves at ``V [1 + eps xi(t)]``."""
+
+    strength: float  # eps
+    series: Series
+
+    def at(self, time: float) -> Imposed:
+        size = self.strength
+        ahead = size * self.series.integral(time)
+        faster = size * self.series.value(time)
+        return Imposed(
+            time,
+            displacement=self.velocity * (time + ahead),
+            velocity=self.velocity * (1.0 + faster),
+            acceleration=self.velocity * size * self.series.slope(time),
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class _FluctuatingLoad(Steady):
+    """A stress ``sigma0 [1 + eps xi(t)]`` on the top."""
+
+    strength: float  # eps
+    series: Series
+
+    def load(self, time: float) -> Field:
+        larger = self.strength * self.series.value(time)
+        return self.constant_load.times(1.0 + larger)
+
+
+@dataclasses.dataclass(frozen=True)
+class _UnevenStrength(Steady):
+    """A friction coefficient ``f(v, phi) [1 + eps xi(x)]``."""
+
+    factor: Array  # at the nodes 0..n_x
+
+    def at(self, time: float) -> Imposed:
+        return super().at(time)._replace(strength=self.factor)
+
+
+@dataclasses.dataclass(frozen=True)
+class _ForcedState(Steady):
+    """A state variable that evolves by ``d log(phi)/dt = g + eps (V/D) xi(x, t)``."""
+
+    rate: float  # eps V/D, 1/s
+    sheet: Sheet
+
+    def at(self, time: float) -> Imposed:
+        forcing = self.rate * self.sheet.values(time)
+        return super().at(time)._replace(state_forcing=forcing)
+
+
+def perturbed(run: Run, body: Body, load: Field) -> Steady:
+    """The moving edge and the normal load (N/m) of a run, with their declared perturbation."""
+    declared = run.perturbation
+    velocity = run.fault.velocity
+    strength, seed = declared.strength, declared.seed
+    time = declared.correlation_time * run.memory_time
+    length = declared.correlation_length
+    if declared.kind == "drive_velocity":
+        return _FluctuatingVelocity(velocity, load, strength, Series(seed, time))
+    if declared.kind == "normal_load":
+        return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
+    if declared.kind == "strength":
+        factor = 1.0 + strength * profile(seed, length, body.grid.x)
+        return _UnevenStrength(velocity, load, factor)
+    rate = strength * (1.0 / run.memory_time)
+    return _ForcedState(velocity, load, rate, Sheet(seed, time, length, body.grid.x))
