@@ -1,5 +1,6 @@
 """What a run shows of itself while it works."""
 
+import dataclasses
 import io
 import re
 
@@ -9,7 +10,7 @@ import pytest
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import progress
 from nucleation.simulation.progress import Progress
-from nucleation.simulation.run import simulate
+from nucleation.simulation.run import instants, simulate
 
 COARSE = PAPER_RUN.replaced(
     height=0.005,
@@ -38,8 +39,7 @@ def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
     assert len(lines) == record.sizes["step"]
     pattern = (
         r"step (\d+): t = ([\d.e-]+) s, dt = ([\d.e-]+) s, max v = ([\d.e-]+) m/s, "
-        r"patch ([\d.e-]+) m, rejected (\d+), (\d+) % of the way, "
-        r"(begun|[\d.e+]+ steps/s)"
+        r"patch ([\d.e-]+) m, rejected (\d+), (\d+) % of the way"
     )
     found = [re.fullmatch(pattern, line) for line in lines]
     assert all(found)
@@ -78,11 +78,13 @@ def test_a_simulation_of_the_library_shows_itself_on_a_terminal(monkeypatch):
         assert ("max v = " in stream.getvalue()) == shows
 
 
-def test_part_done_is_by_the_patch_or_the_end_time():
-    def part(time, length):
-        return Progress(COARSE, io.StringIO()).part_done(time, length)
-
-    assert part(15.0, 0.0) == 0.5
-    assert 0.3 < part(1.0, 0.1) < 0.6
-    assert part(15.0, 10.0) == 0.99
-    assert part(30.0, 0.0) == 1.0
+@pytest.mark.parametrize(
+    ("changed", "part"),
+    [({}, 50), ({"end_time": 20.0}, 75), ({"end_time": 10.0}, 99)],
+)
+def test_part_of_the_way_is_by_the_end_time_where_no_patch_is_long(changed, part):
+    instant = next(instants(COARSE))
+    state = dataclasses.replace(instant.state, past_times=np.array([15.0]))
+    log = io.StringIO()
+    Progress(COARSE.replaced(**changed), log)(dataclasses.replace(instant, state=state))
+    assert f", {part} % of the way" in log.getvalue()

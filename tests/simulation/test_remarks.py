@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 import square_evolution
-from simulation.test_event import THICK, fastest_elsewhere
 
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.extraction import Record
 from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation import start
 from nucleation.simulation.event import FEW, front_width, long_after
 from nucleation.simulation.run import simulate
 
@@ -92,11 +90,3 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
 def test_a_run_that_its_mesh_resolves_says_nothing():
     made = simulate(COARSE.replaced(n_x=120))
     assert ";" not in made.attrs["status"]
-
-
-def test_slip_elsewhere_is_in_the_status(monkeypatch):
-    """A corner that starts with more shear than its strength."""
-    monkeypatch.setattr(start, "_relaxed", lambda *arguments: arguments[-1])
-    made = simulate(THICK)
-    _, rate, place = fastest_elsewhere(Record(made))
-    assert f"; slip elsewhere: {rate:.3g} m/s at x = {place:.4g} m" in made.attrs["status"]

@@ -22,7 +22,7 @@ from verification.test_page import PAGE
 from benchmarks.assembled import assemble, unknown
 from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.energy import NAMES, Energy
+from nucleation.simulation.recording import ENERGIES, Energy
 from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import composed
 from nucleation.simulation.stepping import BDF, Formula
@@ -189,7 +189,7 @@ def balanced(books, missing=1e-11):
     assert books.most_kinetic > 1e6 * abs(books.residual)
     assert 0.0 < books.scheme < 3e-4 * books.friction
     own = (books.elastic, books.kinetic, books.work, books.friction)
-    for name, value in zip(NAMES, own, strict=True):
+    for name, value in zip(ENERGIES, own, strict=True):
         assert abs(books.recorded[name] - value) < 100 * missing * books.friction, name
 
 
@@ -218,7 +218,7 @@ def test_energy_balance_through_an_event(law):
 def test_a_record_closes_its_balance():
     """Through an event, to what the time scheme dissipates."""
     record = simulate(EDGE.replaced(end_time=30.0, time_after_event=0.02))
-    elastic, kinetic, work, friction = (float(record[name]) for name in NAMES)
+    elastic, kinetic, work, friction = (float(record[name]) for name in ENERGIES)
     assert 0.0 < work - elastic - kinetic - friction < 3e-4 * friction
     assert min(work, friction, elastic) > 0.1 * friction
 

@@ -14,21 +14,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets import DatasetError
-from ..datasets.variables import Variable
 from ..run.run import Run
 from ..simulation.event import WINDOW, Outcome, PatchBursts, long_after, patch_lengths
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
-MEASURED = {
-    "onset_time": Variable("s", "onset of the event", "t"),
-    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
-    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
-    "length": Variable("m", "length at the drop", "L"),
-    "length_low": Variable("m", "smallest length over the definitions", "L"),
-    "length_high": Variable("m", "largest length over the definitions", "L"),
-}
-"""Results of :func:`extract`."""
+READ = ("onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high")
+"""What :func:`extract` returns (s, m), each with the ends of its error bar."""
 
 
 def parameters_of(dataset: xr.Dataset) -> Run:
@@ -156,7 +148,7 @@ def extract(
     Returns
     -------
     dict
-        :data:`MEASURED` by name (s, m); all NaN if the run has no event.
+        :data:`READ` by name (s, m); all NaN if the run has no event.
 
     Examples
     --------
@@ -168,17 +160,18 @@ def extract(
     record = Record(simulation, settings)
     if record.onset is None:
         _warn_of_early_end(record)
-        return dict.fromkeys(MEASURED, float("nan"))
+        return dict.fromkeys(READ, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
-    return {
-        "onset_time": float(instants[0]),
-        "onset_time_low": float(instants.min()),
-        "onset_time_high": float(instants.max()),
-        "length": float(edges[0, 0]),
-        "length_low": float(edges.min()),
-        "length_high": float(edges.max()),
-    }
+    values = (
+        instants[0],
+        instants.min(),
+        instants.max(),
+        edges[0, 0],
+        edges.min(),
+        edges.max(),
+    )
+    return dict(zip(READ, map(float, values), strict=True))
 
 
 def _warn_of_early_end(record: Record) -> None:

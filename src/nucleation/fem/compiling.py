@@ -53,17 +53,12 @@ class _SharedCache(FunctionCache):
                 self._impl.locator.ensure_cache_path()
                 path = os.path.join(self.cache_path, "lock")
                 file = held.enter_context(open(path, "a"))
-                _acquire(file.fileno(), kind)
+                for _ in range(LOCK_ATTEMPTS):
+                    with contextlib.suppress(BlockingIOError):
+                        fcntl.flock(file, kind | fcntl.LOCK_NB)
+                        break
+                    time.sleep(LOCK_INTERVAL)
             yield
-
-
-def _acquire(descriptor: int, kind: int) -> None:
-    """Lock a file, or give up after some time."""
-    for _ in range(LOCK_ATTEMPTS):
-        with contextlib.suppress(BlockingIOError):
-            fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
-            return
-        time.sleep(LOCK_INTERVAL)
 
 
 def compiled(

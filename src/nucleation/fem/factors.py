@@ -6,7 +6,6 @@ system: their Schur complement.
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -84,19 +83,7 @@ class LayerFactors:
         condition = (grid.height / np.diff(grid.y).min()) ** 2
         return ROUND_OFF * np.finfo(float).eps * condition
 
-    def sweep_down(self, load: Field, edge: Array, out: Array) -> None:
-        """Fill `out` with a load (N/m) swept to the interface, with given edge values (m)."""
-        modes = self.layer.modes
-        kernels.eliminate(
-            self.lower,
-            load.modes,
-            self._profiles(edge),
-            modes.edge_weights,
-            modes.scale,
-            out,
-        )
-
-    def _profiles(self, edge: Array) -> Array:
+    def profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
         return kernels.products(self._transposed, edge)
 
@@ -108,18 +95,12 @@ class LayerFactors:
         levels = len(modes)
         kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
 
-    def move(self, before: Before, modes: Array, newest: Array, oldest: Array, rate: Array) -> None:
-        """Sweep a swept load back likewise, and fill `rate` (m/s) by the step's formula."""
-        c1, c2 = before.coefficients
-        kernels.move(self.inverse, self.lower, modes, c1, c2, before.beta, newest, oldest, rate)
-
     def residual(self, load: Field, modes: Array, edge: Array, levels: int = 0) -> Array:
         """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
         weights = self.layer.modes.edge_weights
         levels = levels or edge.size
         return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge, levels)
 
-    @cached_property
     def schur(self) -> Array:
         """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
         sums = self._sums_of_unit_values()
@@ -140,7 +121,7 @@ class LayerFactors:
         sums = np.zeros((levels, 3, levels))
         for i, unit in enumerate(np.eye(levels)):
             first = max(i, 1)
-            profiles = self._profiles(unit)[:, first - 1 : first + 2]
+            profiles = self.profiles(unit)[:, first - 1 : first + 2]
             if first == 1:
                 profiles[:, 0] = 0.0  # the interface is held fixed
             edge_kernels.respond(

@@ -126,7 +126,14 @@ class Operator:
         swept = Field(np.empty_like(load.modes), edge)
         parts = zip(self.factors, self.body.parts(load), self.body.parts(swept), strict=True)
         for factors, own, part in parts:
-            factors.sweep_down(own, part.edge, part.modes)
+            kernels.eliminate(
+                factors.lower,
+                own.modes,
+                factors.profiles(part.edge),
+                self.body.modes.edge_weights,
+                self.body.modes.scale,
+                part.modes,
+            )
         return swept.modes
 
     def reduced(self, swept: Array) -> tuple[Array, Array | float]:
@@ -162,7 +169,19 @@ class Operator:
         rate = np.empty_like(swept)
         given = (before.newest.modes, before.oldest.modes, rate)
         for factors, *own in zip(self.factors, parts, *map(self.body.split, given), strict=True):
-            factors.move(before, *own)
+            c1, c2 = before.coefficients
+            part, newest, oldest, own_rate = own
+            kernels.move(
+                factors.inverse,
+                factors.lower,
+                part,
+                c1,
+                c2,
+                before.beta,
+                newest,
+                oldest,
+                own_rate,
+            )
         return rate
 
     def _move_interface(
@@ -316,7 +335,7 @@ class Operator:
         own = nodes[near:]
         tangential, normal = edge.to_interface
         tangential = tangential[:, own - 1]
-        normal = np.append(normal, edge.schur[:, :1], axis=1)[:, own]
+        normal = normal[:, own]
         response = edge.response[:, own - 1]
         stiffness[near:, near:] += tangential.T @ response
         coupling[near:, near:] += normal.T @ response

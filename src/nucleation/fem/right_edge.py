@@ -6,7 +6,6 @@ Their influence on the interface decays exponentially over some heights of the b
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -14,7 +13,7 @@ from scipy.linalg import cho_factor, cho_solve
 from ..types import Array
 from .body import Body
 from .factors import LayerFactors
-from .grid import Components, Field, Motion
+from .grid import Field, Motion
 from .modes import BlockModes
 
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
@@ -34,8 +33,17 @@ def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> A
 class EdgeValues:
     """The edge values of a block or a pair, stacked, with all other unknowns in balance at given w.
 
-    `series` are compliance and forces of a pair; `moves`: there is inertia. A pair has its corner
-    twice: the lower body is mirrored.
+    A pair has its corner twice: the lower body is mirrored. Stiffnesses are in N/m per m:
+
+    - `schur` of the edge values at fixed w, all else eliminated; its first row and column belong to
+      the upper body's corner and give its normal force. `compliance` is its inverse on the free
+      values, zero on those held fixed.
+    - `to_interface` are nodal forces on the interface, a row for each edge value: tangential at the
+      nodes 1..n_x, also the forces on the edge values per unit of w, and normal at 0..n_x.
+    - `response` are edge values per unit of w at each node, (levels, n_x), and `diagonal` is the
+      edge's part of the diagonal of D.
+    - `felt` is `to_interface` without the corner's own force at the last nodes, above round-off,
+      (2, levels, nodes); `response_near` is the response to these nodes.
     """
 
     def __init__(
@@ -45,13 +53,59 @@ class EdgeValues:
         moves: bool,
         series: tuple[Array, Array] | None,
     ) -> None:
+        """`series` are compliance and forces of a pair; `moves`: there is inertia."""
         assert isinstance(body.modes, BlockModes)
         self._body = body
-        self._modes = body.modes
         self._factors = factors
-        self._moves = moves
-        self._series = series
         self.round_off = max(layer.round_off for layer in factors)
+        if series is None:
+            modal = factors[0].to_modes()
+            self.schur = factors[0].schur()
+            self.compliance = _inverse_within(self.schur, slice(1, None))
+        else:
+            modal = self._put_in_series(*series)
+            self.compliance = self._compliance_of_pair(moves)
+        tangential, normal = body.modes.interface_forces(body.modes.scale * modal)
+        self.response = -self.compliance @ tangential
+        self.diagonal = np.einsum("ji,ji->i", tangential, self.response)
+        forces = np.array([tangential, normal])
+        largest = np.abs(forces).max(axis=(0, 1))
+        first = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
+        self.felt = np.ascontiguousarray(forces[..., first:])
+        self.response_near = np.ascontiguousarray(self.response[:, first:])
+        self.to_interface = tangential, np.append(normal, self.schur[:, :1], axis=1)
+
+    def _put_in_series(self, compliance: Array, forces: Array) -> Array:
+        """Set `schur`, and return forces on the modes of w and u_y per edge value."""
+        above, below = (layer.to_modes() for layer in self._factors)
+        mirror = np.array([1.0, -1.0])[:, None, None]
+        x, y = np.concatenate((above, below * mirror), axis=1)
+        n = above.shape[1]
+        stiffness = np.zeros((len(x), len(x)))
+        stiffness[:n, :n] = self._factors[0].schur()
+        stiffness[n:, n:] = self._factors[1].schur()
+        xx, xy, yy = compliance
+        moved_x = xx * x + xy * y
+        moved_y = xy * x + yy * y
+        self.schur = stiffness - self._body.modes.scale * (x @ moved_x.T + y @ moved_y.T)
+        own_x = np.concatenate((np.zeros_like(above[0]), below[0]))  # on w2
+        own_y = y.copy()
+        own_y[n:] = 0.0  # the upper block's own
+        _, _, yx1, yy1, xx2, xy2, _, _ = forces
+        from_below = xx2 * x + xy2 * y
+        from_above = yx1 * x + yy1 * y
+        return np.array([from_below - own_x, own_y - from_above])
+
+    def _compliance_of_pair(self, moves: bool) -> Array:
+        above = self._body.layers[0].levels
+        held = self._body.is_held_along_y
+        independent = np.delete(np.eye(len(self.schur)), above, axis=1)
+        independent[above, 0] = -1.0  # the corner, mirrored
+        first = None if held or moves else 1
+        last = -1 if held else None
+        stiffness = independent.T @ self.schur @ independent
+        inverse = _inverse_within(stiffness, slice(first, last))
+        return independent @ inverse @ independent.T
 
     def residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
@@ -63,91 +117,6 @@ class EdgeValues:
         )
         found = [layer.residual(own, part.modes, part.edge) for layer, own, part in parts]
         return np.concatenate(found)
-
-    @cached_property
-    def _to_modes(self) -> tuple[Array, Array]:
-        """Forces of a pair on the modes of w1 and u_y, and on those of w2, per edge value."""
-        above, below = (layer.to_modes() for layer in self._factors)
-        mirror = np.array([1.0, -1.0])[:, None, None]
-        joint = np.concatenate((above, below * mirror), axis=1)
-        return joint, np.concatenate((np.zeros_like(above[0]), below[0]))
-
-    @cached_property
-    def schur(self) -> Array:
-        """Stiffness of the edge values (N/m per m), all other unknowns eliminated at fixed w.
-
-        Its first row and column belong to the upper body's corner: they give its normal force.
-        """
-        if self._series is None:
-            return self._factors[0].schur
-        (x, y), _ = self._to_modes
-        n = len(self._factors[0].schur)
-        stiffness = np.zeros((len(x), len(x)))
-        stiffness[:n, :n] = self._factors[0].schur
-        stiffness[n:, n:] = self._factors[1].schur
-        xx, xy, yy = self._series[0]
-        moved_x = xx * x + xy * y
-        moved_y = xy * x + yy * y
-        return stiffness - self._modes.scale * (x @ moved_x.T + y @ moved_y.T)
-
-    @cached_property
-    def compliance(self) -> Array:
-        """Inverse of :attr:`schur` on the free values (m per N/m), zero on those held fixed."""
-        if self._series is None:
-            return _inverse_within(self.schur, slice(1, None))
-        above = self._body.layers[0].levels
-        held = self._body.is_held_along_y
-        independent = np.delete(np.eye(len(self.schur)), above, axis=1)
-        independent[above, 0] = -1.0  # the corner, mirrored
-        first = None if held or self._moves else 1
-        last = -1 if held else None
-        stiffness = independent.T @ self.schur @ independent
-        inverse = _inverse_within(stiffness, slice(first, last))
-        return independent @ inverse @ independent.T
-
-    @cached_property
-    def to_interface(self) -> Components:
-        """Nodal forces (N/m per m) on the interface, bulk eliminated, a row for each edge value.
-
-        Tangential at the nodes 1..n_x and normal at 0..n_x - 1. The tangential ones are also the
-        forces on the edge values per unit of w.
-        """
-        if self._series is None:
-            modal = self._factors[0].to_modes()
-        else:
-            (x, y), lower = self._to_modes
-            above = y.copy()
-            above[self._body.layers[0].levels :] = 0.0  # the upper block's own
-            _, _, yx1, yy1, xx2, xy2, _, _ = self._series[1]
-            from_below = xx2 * x + xy2 * y
-            from_above = yx1 * x + yy1 * y
-            modal = np.array([from_below - lower, above - from_above])
-        return self._modes.interface_forces(self._modes.scale * modal)
-
-    @cached_property
-    def response(self) -> Array:
-        """Edge values per unit of w at each node, bulk and edge in balance, (levels, n_x)."""
-        tangential, _ = self.to_interface
-        return -self.compliance @ tangential
-
-    @cached_property
-    def response_near(self) -> Array:
-        """:attr:`response` to the nodes of :attr:`felt`, (levels, nodes)."""
-        return np.ascontiguousarray(self.response[:, -self.felt.shape[2] :])
-
-    @cached_property
-    def diagonal(self) -> Array:
-        """Contribution of the edge to the diagonal of D at the nodes 1..n_x (N/m per m)."""
-        tangential, _ = self.to_interface
-        return np.einsum("ji,ji->i", tangential, self.response)
-
-    @cached_property
-    def felt(self) -> Array:
-        """:attr:`to_interface` at the last nodes, above round-off, (2, levels, nodes)."""
-        forces = np.array(self.to_interface)
-        largest = np.abs(forces).max(axis=(0, 1))
-        first = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
-        return np.ascontiguousarray(forces[..., first:])
 
 
 def _inverse_within(stiffness: Array, free: slice) -> Array:

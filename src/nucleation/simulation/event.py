@@ -15,7 +15,6 @@ milliseconds. An event needs three things:
 """
 
 import enum
-from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,10 +87,6 @@ def long_after(
     return float(times[first - 1 : first + 1].mean())
 
 
-Burst = tuple[float, float, float]
-"""Time (s), largest slip rate (m/s) and its position (m)."""
-
-
 class PatchBursts:
     """Detects from step to step whether the patch slips fast.
 
@@ -131,21 +126,13 @@ class DropWatch:
     ) -> None:
         self._window = window
         self._drop = drop
-        self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window
-
-    @property
-    def maxima(self) -> Array:
-        """Times (s) and force magnitudes (N/m) that may still matter, shape (n, 2)."""
-        return np.array(self._largest).reshape(-1, 2)
-
-    @maxima.setter
-    def maxima(self, values: Array) -> None:
-        self._largest = deque((time, force) for time, force in values.tolist())
+        # times (s) and forces (N/m) that may still matter: the falling maxima of the window
+        self.maxima: list[tuple[float, float]] = []
 
     @property
     def since(self) -> float:
         """Time (s) of the window's largest force, from which a drop is counted."""
-        return self._largest[0][0]
+        return self.maxima[0][0]
 
     def dropped(
         self,
@@ -154,12 +141,12 @@ class DropWatch:
         fast: bool = True,
     ) -> bool:
         """Take in the next force and return whether it completes an abrupt drop."""
-        while self._largest and self._largest[-1][1] <= force:
-            self._largest.pop()
-        self._largest.append((time, force))
-        while self._largest[0][0] < time - self._window:
-            self._largest.popleft()
-        largest = self._largest[0][1]
+        while self.maxima and self.maxima[-1][1] <= force:
+            self.maxima.pop()
+        self.maxima.append((time, force))
+        while self.maxima[0][0] < time - self._window:
+            self.maxima.pop(0)
+        largest = self.maxima[0][1]
         return bool(fast) and force < (1.0 - self._drop) * largest
 
 
@@ -177,31 +164,6 @@ def front_width(
         return np.inf
     steepest = changes[np.isfinite(changes)].max()
     return float(np.ptp(known) / steepest)
-
-
-def fastest_elsewhere(
-    run: Run,
-    times: Array,
-    rates: Array,
-    positions: Array,
-    until: float,
-) -> Burst | None:
-    """Find the fastest slip outside the patch before a given time."""
-    bursts = PatchBursts(run)
-    steps = list(
-        zip(
-            times.tolist(),
-            rates.tolist(),
-            positions.tolist(),
-            strict=True,
-        )
-    )
-    own = np.array([bursts.at(*step) for step in steps], dtype=bool)
-    fast = rates > FAST * run.fault.velocity
-    counts = fast & ~own & (times < until)
-    if not counts.any():
-        return None
-    return steps[int(np.where(counts, rates, 0.0).argmax())]
 
 
 def slipping_edge(

@@ -210,16 +210,9 @@ def distance(
 
 
 @compiled
-def largest_at(values):
-    """Index of the largest absolute value, the first of several."""
-    found = 0
-    for i in range(1, values.size):
-        if abs(values[i]) > abs(values[found]):
-            found = i
-    return found
-
-
-@compiled
 def largest(values):
     """The largest absolute value."""
-    return abs(values[largest_at(values)])
+    found = 0.0
+    for i in range(values.size):
+        found = max(found, abs(values[i]))
+    return found

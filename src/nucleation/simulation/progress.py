@@ -1,6 +1,5 @@
 """Progress of a simulation on a terminal or in a log, and how the user interrupts it."""
 
-import math
 import signal
 import sys
 import threading
@@ -19,33 +18,35 @@ from .start import grid_of
 
 PAUSE = 10.0  # s of wall time between the lines of a log
 PAUSE_ON_TERMINAL = 0.2
-NEARLY = 0.99  # largest part done by the patch: the event is then at hand, or under way
+NEARLY = 0.99  # largest part of the way that is shown: nobody knows whether the event is over
 
 
 class Progress:
     """Shows how far a run has come; it is called with every accepted step.
 
     A terminal, or a notebook's output, shows one line that changes; any other file gets lines,
-    which begin with the `name` of the run.
+    which begin with the `name` of the run. The part of the way is the time over the end time, or
+    the patch's length over that of the linear theory if that is more. The event comes somewhat
+    before and takes many short steps, so the remaining wall time cannot be predicted.
     """
 
     def __init__(
-        self, run: Run, stream: TextIO, terminal: bool | None = None, name: str = ""
+        self,
+        run: Run,
+        stream: TextIO,
+        terminal: bool | None = None,
+        name: str = "",
     ) -> None:
         self._fault = run.fault
         self._x = grid_of(run.upper).x
         self._length = 0.0  # m, of the patch
+        self._critical_length = run.critical_length
         self._end = run.stepping.end_time
-        critical = run.critical_length
-        self._critical_length = math.inf if math.isnan(critical) else critical
         self._stream = stream
         self._start_of_line = f"{name}: " if name else ""
         self._terminal = stream.isatty() if terminal is None else terminal
         self._shown = 0  # characters of the terminal's line
-        self._began = 0.0
-        self._first_step: int | None = None  # a resumed run does not begin at step 0
-        self._part = 0.0
-        self._next = 0.0
+        self._next = 0.0  # s, wall time
 
     def __call__(self, instant: Instant) -> None:
         """Show an accepted step, unless another one was shown a moment ago."""
@@ -58,35 +59,18 @@ class Progress:
         edge = SLIPPING * self._fault.velocity
         (length,) = patch_lengths(self._fault.loading, self._x, rate[None], edge)
         self._length = max(self._length, float(length))
-        if self._first_step is None:
-            self._first_step = control.steps
-            self._began = now
-        passed = now - self._began
-        speed = f"{(control.steps - self._first_step) / passed:.3g} steps/s" if passed else "begun"
+        part = max(state.time / self._end, self._length / self._critical_length)
         line = (
             f"{self._start_of_line}step {control.steps}: t = {state.time:.5g} s, "
             f"dt = {state.last_step:.3g} s, max v = {float(np.abs(rate).max()):.3g} m/s, "
             f"patch {self._length:.3g} m, rejected {control.rejected}, "
-            f"{int(100.0 * self.part_done(state.time, self._length))} % of the way, {speed}"
+            f"{int(100.0 * min(part, NEARLY))} % of the way"
         )
         if self._terminal:
             print(f"\r{line:<{self._shown}}", end="", file=self._stream, flush=True)
             self._shown = len(line)
         else:
             print(line, file=self._stream, flush=True)
-
-    def part_done(self, simulated: float, length: float) -> float:
-        """Part of the run that is done by its simulated time (s) and the patch's length (m).
-
-        It is the time over the end time, or the length over the linear theory's if that is more,
-        and never falls. It is 1 at the end time only: before that nobody knows whether the event is
-        over. The event comes somewhat before the theory's length and takes many short steps, so
-        the remaining wall time cannot be predicted.
-        """
-        by_length = min(length / self._critical_length, NEARLY)
-        by_time = simulated / self._end
-        self._part = min(max(self._part, by_time, by_length), 1.0)
-        return self._part
 
     def close(self) -> None:
         """Remove the terminal's line."""

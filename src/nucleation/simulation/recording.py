@@ -6,18 +6,17 @@ import numpy as np
 import xarray as xr
 
 from ..datasets.variables import annotate
+from ..fem.factors import elastic_energy
 from ..model.settings import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes
-from .energy import Energy
 from .event import (
     FEW,
     RESOLVED,
     WINDOW,
     DropWatch,
     PatchBursts,
-    fastest_elsewhere,
     front_width,
     long_after,
 )
@@ -40,6 +39,10 @@ PER_STEP = (
     "fastest_position",
     *ONLY_IN_FULL,
 )
+
+ENERGIES = ("elastic_energy", "kinetic_energy", "work", "friction_work")
+"""The work of the driven edge and of the far loads is what is stored as elastic and kinetic energy,
+what friction dissipates, and the little that the time scheme does."""
 
 
 class Recorder:
@@ -78,7 +81,7 @@ class Recorder:
     def record(self, state: State, report: StepReport) -> None:
         """Take in the initial state or one accepted step."""
         interface = report.interface
-        node = passes.largest_at(interface.slip_rate)
+        node = int(np.abs(interface.slip_rate).argmax())
         fastest = float(abs(interface.slip_rate[node]))
         position = float(self.grid.x[node])
         row = (
@@ -93,20 +96,20 @@ class Recorder:
         fast = self._bursts.at(state.time, fastest, position)
         dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
         if dropped and np.isinf(self._event_time):
-            self._take_in_drop()
+            self._take_in_drop(state.time)
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
         if self._energy is not None:
             self._energy.take(state, report)
 
-    def _take_in_drop(self) -> None:
+    def _take_in_drop(self, time: float) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
         onset = self._watch.since
         times = np.array(self._frame_times)
         rates = np.array([fields[0] for fields in self._frames])
         long_enough = long_after(self.run, self.grid.x, times, rates)
         if onset > long_enough:
-            self._event_time = self._rows[-1][0]
+            self._event_time = time
             self._onset_time = onset
         else:
             self._short_drop_time = min(self._short_drop_time, onset)
@@ -120,12 +123,6 @@ class Recorder:
             width = front_width(self.run, self.grid.x, state)
             if width < RESOLVED:
                 found.append(f"not resolved: at the onset the front is {width:.1f} elements wide")
-        times, _, rates, positions = np.array([row[:4] for row in self._rows]).T
-        elsewhere = fastest_elsewhere(self.run, times, rates, positions, self._onset_time)
-        if elsewhere is not None:
-            time, rate, place = elsewhere
-            where = f"at x = {place:.4g} m and t = {time:.4g} s"
-            found.append(f"slip elsewhere: {rate:.3g} m/s {where}")
         if np.isfinite(self._short_drop_time):
             found.append(
                 f"no event: the drop at t = {self._short_drop_time:.4g} s began with a patch of "
@@ -166,7 +163,7 @@ class Recorder:
             "frame_times": np.array(self._frame_times),
             "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
-            "watched": self._watch.maxima,
+            "watched": np.array(self._watch.maxima),
             "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
             "own_burst": np.array(self._bursts.own),
             **({} if self._energy is None else self._energy.to_arrays()),
@@ -181,7 +178,7 @@ class Recorder:
         self._frames = list(arrays["frames"])
         self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
-        self._watch.maxima = arrays["watched"]
+        self._watch.maxima = [tuple(one) for one in arrays["watched"].tolist()]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
         if self._energy is not None:
@@ -211,3 +208,71 @@ class Recorder:
         for name in FOR_LENGTHS:
             reduced[name] = dataset[name].where(slips, 0.0).astype(np.float32)
         return reduced
+
+
+class Energy:
+    """Adds up the works of one run's steps (J/m) by the trapezoidal rule, and compares energies."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self._body = dynamics.body
+        self._drive = dynamics.drive
+        self._works = np.zeros(2)  # of edge and loads, and of friction on the body
+        self._start = np.empty(0)  # elastic and kinetic energy
+        self._last: list[Array] = []  # forces (N/m) and ways (m), external and friction's
+
+    def take(self, state: State, report: StepReport) -> None:
+        """Take in the initial state or a step."""
+        before = self._last
+        self._state = state
+        self._last = [self._external(state, report), self._friction(state, report)]
+        if not before:
+            self._start = self._stored(state)
+        for i, (old, new) in enumerate(zip(before, self._last, strict=False)):
+            self._works[i] += 0.5 * (old[0] + new[0]) @ (new[1] - old[1])
+
+    def _external(self, state: State, report: StepReport) -> Array:
+        """Forces on the driven edge and the far sides, and their ways."""
+        load, field = self._drive.load(state.time), state.displacement
+        moved = self._drive.at(state.time).displacement
+        far = np.cumsum([layer.levels for layer in self._body.layers]) - 1
+        modal = load.modes[far] * self._body.modes.norms
+        forces = np.concatenate(([-report.driving_force], modal.ravel(), load.edge[far]))
+        return np.array(
+            [forces, np.concatenate(([moved], field.modes[far].ravel(), field.edge[far]))]
+        )
+
+    def _friction(self, state: State, report: StepReport) -> Array:
+        """Forces of friction on the interface's nodes, and their ways."""
+        moved = self._drive.at(state.time).displacement
+        slip = moved + self._body.modes.on_all_nodes(report.interface.w, 0.0)
+        return np.array([report.interface.tangential, slip])[:, self._body.grid.own]
+
+    def _stored(self, state: State) -> Array:
+        body, imposed = self._body, self._drive.at(state.time)
+        parts = zip(body.layers, body.parts(state.displacement), strict=True)
+        elastic = sum(elastic_energy(layer, part) for layer, part in parts)
+        return np.array([elastic, body.kinetic_energy(state.velocity, imposed.velocity)])
+
+    def since_start(self) -> dict[str, float]:
+        """:data:`ENERGIES` (J/m) at the present step."""
+        stored = self._stored(self._state) - self._start
+        work, by_friction = self._works
+        values = (*stored, work, -by_friction)
+        return dict(zip(ENERGIES, map(float, values), strict=True))
+
+    def to_arrays(self) -> Arrays:
+        """What is not in the state, as plain arrays by name, to be stored; exact."""
+        external, friction = self._last
+        return {
+            "energy_works": self._works.copy(),
+            "energy_start": self._start,
+            "energy_external": external,
+            "energy_friction": friction,
+        }
+
+    def restore(self, arrays: Mapping[str, Array]) -> None:
+        """The inverse of :meth:`to_arrays`, with the arrays of the state."""
+        self._works = arrays["energy_works"].copy()
+        self._start = arrays["energy_start"]
+        self._last = [arrays["energy_external"], arrays["energy_friction"]]
+        self._state = State.from_arrays(arrays)

@@ -35,15 +35,11 @@ def body_of(run: Run) -> Body:
     A ParameterError names contradictions.
     """
     require_consistent(run)
-    return _layers_of(run, periodic=run.fault.loading == "remote")
+    return layers_of(run, periodic=run.fault.loading == "remote")
 
 
-def period_of(run: Run) -> Body:
-    """One period, as long as the block, of a run's body or bodies; ``n_x`` is odd."""
-    return _layers_of(run, periodic=True)
-
-
-def _layers_of(run: Run, periodic: bool) -> Body:
+def layers_of(run: Run, periodic: bool) -> Body:
+    """The body or bodies of a run, whether they fit or not; a period's ``n_x`` is odd."""
     upper, below = run.upper, run.below
     first = grid_of(upper, periodic), upper.material
     if below is None:
@@ -95,8 +91,7 @@ def composed(run: Run) -> Dynamics:
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest."""
     body = dynamics.body
-    imposed = dynamics.drive.at(0.0)
-    load = dynamics.in_frame(dynamics.drive.load(0.0), imposed)
+    imposed, load = dynamics.driven(0.0)
     operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
@@ -122,7 +117,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
         iterations=0,
     )
     friction = float(interface.tangential[dynamics.grid.own].sum())
-    force = friction - dynamics.frame_inertia(imposed)
+    force = friction - body.total_mass * imposed.acceleration
     return state, StepReport(interface, force, 0.0)
 
 

@@ -153,8 +153,8 @@ class Dynamics:
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
         operator = self.operator(step.s)
-        imposed = self.drive.at(time)
-        load = self._load_with_past(state, step, self.in_frame(self.drive.load(time), imposed))
+        imposed, external = self.driven(time)
+        load = self._load_with_past(state, step, external)
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         rates = self.body.modes.on_all_nodes(guess.slip_rate[1:], imposed.velocity)
         past = self._past(state, step, imposed)
@@ -197,15 +197,12 @@ class Dynamics:
         self._operators.move_to_end(s)
         return self._operators[s]
 
-    def in_frame(self, load: Field, imposed: Imposed) -> Field:
-        """A load (N/m) with the inertia of an accelerated frame."""
-        if imposed.acceleration == 0.0:
-            return load
-        return load.plus(self.body.translation_load(imposed.acceleration))
-
-    def frame_inertia(self, imposed: Imposed) -> float:
-        """Force (N/m) by which the driven edge accelerates the whole body with it."""
-        return self.body.total_mass * imposed.acceleration
+    def driven(self, time: float) -> tuple[Imposed, Field]:
+        """Boundary conditions at a time (s), and the load (N/m) with the inertia of the frame."""
+        imposed, load = self.drive.at(time), self.drive.load(time)
+        if imposed.acceleration != 0.0:
+            load = load.plus(self.body.translation_load(imposed.acceleration))
+        return imposed, load
 
     def _load_with_past(self, state: State, step: Step, load: Field) -> Field:
         """A load at the end of the step, with the past part of inertia."""
@@ -233,7 +230,7 @@ class Dynamics:
             for c, past in zip(step.body.past, state.motions, strict=False):
                 change -= c * past.momentum
             force = force - change / step.body.beta
-        return float(force) - self.frame_inertia(imposed)
+        return float(force) - self.body.total_mass * imposed.acceleration  # of the frame
 
     def _pushed(
         self,

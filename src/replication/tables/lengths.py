@@ -9,8 +9,8 @@ import xarray as xr
 
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import MEASURED, Record, extract
-from nucleation.extraction.measures import MEASURES, measure
+from nucleation.extraction.extraction import Record, extract
+from nucleation.extraction.measures import MEASURED, MEASURES, measure
 from nucleation.run.identity import ensemble, fault
 from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength

@@ -7,9 +7,9 @@ import xarray as xr
 
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import MEASURED as EXTRACTED
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.growth import FITTED
+from nucleation.extraction.measures import MEASURED as EXTRACTED
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 

@@ -14,7 +14,7 @@ from nucleation.fem.operator import Operator
 from nucleation.run.run import Run
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.start import period_of
+from nucleation.simulation.start import layers_of
 from nucleation.simulation.step import Dynamics, State
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array, ComplexArray
@@ -37,7 +37,7 @@ def sliding_period(run: Run) -> Dynamics:
     It is as long as the block and driven by traction; `n_x` must be odd. The driving force of its
     reports has no meaning.
     """
-    body = period_of(run)
+    body = layers_of(run, periodic=True)
     fault, law = run.fault, run.law
     steady = float(law.steady_coefficient(fault.velocity))
     load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
