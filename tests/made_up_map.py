@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from replication.tables.map import COLUMNS
+from replication.tables.ratios import MAP
 
 HEIGHTS, WEAKENINGS, STRENGTHS, SEEDS = [0.01, 0.1, 1.0], [1.0, 3.0], [1e-5, 1e-3], [1, 2]
 
@@ -27,5 +27,5 @@ def lengths(missing=()):
         "length": theory * (0.6 + 0.01 * seed + 10.0 * strength),
         "stability_length": theory * 0.5,
     }
-    others = {name: np.zeros(len(rows)) for name in COLUMNS if name not in columns}
+    others = {name: np.zeros(len(rows)) for name in MAP if name not in columns}
     return xr.Dataset({name: ("run", values) for name, values in (others | columns).items()})

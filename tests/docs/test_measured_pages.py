@@ -15,7 +15,7 @@ from nucleation.lengths.finite_patch import loaded_patch_factor
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.lengths.in_use import LENGTHS
 from nucleation.lengths.patch_outcomes import DYNAMIC, ROOM, simulated
-from replication.tables.pairs import over_realisations
+from replication.tables.ratios import pairs_over_realisations
 from replication.tables.weakening_patches import patch_outcomes_table
 
 
@@ -296,7 +296,7 @@ def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
 def faults():
     """The pairs of the reference, each the mean of its realisations, on the usual mesh."""
     frame = reference("pairs")
-    table = over_realisations(xr.Dataset({n: ("run", frame[n].to_numpy()) for n in frame}))
+    table = pairs_over_realisations(xr.Dataset({n: ("run", frame[n].to_numpy()) for n in frame}))
     rows = table.to_dataframe()
     return rows[rows["n_x"] < 1600]
 

@@ -7,7 +7,7 @@ import xarray as xr
 from asked import lengths_in_use
 from docs.prose import says, span, table
 
-from replication.tables.pairs import over_realisations
+from replication.tables.ratios import pairs_over_realisations
 
 
 @functools.cache
@@ -16,7 +16,7 @@ def pairs():
     frame = table("pairs")
     frame = frame[frame["n_x"] < 1600]
     runs = xr.Dataset({name: ("run", frame[name].to_numpy()) for name in frame})
-    return over_realisations(runs).to_dataframe()
+    return pairs_over_realisations(runs).to_dataframe()
 
 
 def test_half_spaces_as_eta():

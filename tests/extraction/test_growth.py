@@ -18,7 +18,7 @@ from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import composed
 from nucleation.theory.creep.lengths import stability_point
 from replication.configuration.runs import StudyRun
-from replication.tables.stability import STABILITY, gather_stability
+from replication.tables.ratios import STABILITY, gather_stability
 
 pytestmark = pytest.mark.slow
 

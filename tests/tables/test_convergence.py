@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from replication.tables.convergence import COLUMNS, refinement_table, sequences
+from replication.tables.ratios import REFINEMENT, refinement_table, sequences
 
 
 def row(**values):
@@ -49,7 +49,7 @@ def test_table_compares_with_the_finest_run():
         for n in (1600, 400, 800)
     ]
     found = refinement_table([table(rows)])
-    assert tuple(found.data_vars) == tuple(COLUMNS)
+    assert tuple(found.data_vars) == tuple(REFINEMENT)
     assert list(found["id"].values) == ["n400", "n800", "n1600"]
     sizes = np.array([400.0, 800.0, 1600.0])
     length, onset = 0.3 + 10.0 / sizes, 12.0 - 100.0 / sizes

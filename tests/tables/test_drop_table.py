@@ -14,7 +14,7 @@ from nucleation.model.settings import Perturbation
 from nucleation.run.identity import fault
 from replication.figures import figure_drop
 from replication.tables import drops as module
-from replication.tables.drops import COLUMNS, gather_drops
+from replication.tables.drops import COLUMNS, drop_files
 
 FAULT = fault(PARAMETERS)
 STIFF = PARAMETERS.replaced(shear_modulus=9.3e9)
@@ -58,7 +58,7 @@ def histories():
 
 @pytest.fixture(scope="module")
 def table(histories):
-    return gather_drops([drops()], [described(PARAMETERS)])
+    return drop_files([drops()], [described(PARAMETERS)])[".nc"][list(COLUMNS)]
 
 
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
@@ -72,7 +72,7 @@ def test_each_material_has_its_own_law():
     runs = [described(PARAMETERS), described(STIFF)]
     faults = [FAULT, FAULT, fault(STIFF), fault(STIFF)]
     for order in (runs, runs[::-1]):
-        found = gather_drops([drops(fault=faults, height=[0.02] * 4)], order)
+        found = drop_files([drops(fault=faults, height=[0.02] * 4)], order)[".nc"]
         expected = START * np.array([1.0, 1.0, 1.5, 1.5])
         np.testing.assert_allclose(found["front_length"], expected, rtol=2e-3)
 

@@ -7,9 +7,9 @@ from made_up_runs import ONSET, PARAMETERS, changed, record
 from made_up_runs import run as made_up_run
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.run.run import PAPER_RUN
 from replication.tables.lengths import (
     COMPARED,
+    description,
     files,
     join,
     lengths_table,
@@ -17,7 +17,6 @@ from replication.tables.lengths import (
     over_realisations,
     realisations,
     row,
-    second_body,
 )
 
 
@@ -55,15 +54,13 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
 def test_rows_say_what_lies_below(table):
     assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
     assert np.isnan(table["second_height"].item())
-    pair = PAPER_RUN.replaced(
+    pair = changed(
         second_body="deformable", second_far_side="clamped", second_shear_modulus=9e9, height=0.02
     )
-    assert second_body(pair) == {
-        "far_side": "clamped",
-        "second_height": 0.02,
-        "second_shear_modulus": 9e9,
-        "second_poisson_ratio": pair.fault.poisson_ratio,
-    }
+    row = description(made_up_run("pair", pair) | {"study": "made_up", "role": "own"})
+    names = "far_side", "second_height", "second_shear_modulus", "second_poisson_ratio"
+    second = [row[name] for name in names]
+    assert second == ["clamped", 0.02, 9e9, pair.fault.poisson_ratio]
 
 
 RUN = {"status": "completed: made up", "steps": 3, "wall_seconds": 1.0, "peak_megabytes": 1.0}

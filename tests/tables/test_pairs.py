@@ -5,11 +5,10 @@ import pytest
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.growth import follow_patch
-from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 from replication.configuration.load import configure
-from replication.tables.pairs import COLUMNS, gather_pairs, over_realisations, pair_description
+from replication.tables.ratios import PAIRS, gather_pairs, pairs_over_realisations
 
 STUDY = {
     "defaults": {"second_body": "deformable", "n_x": 60, "n_y": 3, "end_time": 0.2,
@@ -26,7 +25,7 @@ def test_rows_say_what_the_runs_are():
     records, settings = [simulate(run.run) for run in runs], ExtractionSettings()
     patches = [follow_patch(record, settings) for record in records]
     table = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
-    assert tuple(table.data_vars) == tuple(COLUMNS)
+    assert tuple(table.data_vars) == tuple(PAIRS)
     assert table["far_side"].values.tolist() == ["free", "clamped"]
     assert table["second_height"].values.tolist() == [0.03, 0.03]
     assert table["kind"].values.tolist() == ["normal_load"] * 2
@@ -50,15 +49,12 @@ def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
     made = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
     assert made["stability_length"].values.tolist() == [0.1, 0.1, 0.2, 0.2]
     lengths, ratio = np.array([1.0, 3.0, 5.0, 9.0]), np.array([0.5, 0.7, 0.6, 0.8])
-    faults = over_realisations(made.assign(length=("run", lengths), length_ratio=("run", ratio)))
+    faults = pairs_over_realisations(
+        made.assign(length=("run", lengths), length_ratio=("run", ratio))
+    )
     assert faults["height"].values.tolist() == [0.02, 0.03]
     assert faults["length"].values.tolist() == [2.0, 7.0]
     assert faults["realisations"].values.tolist() == [2, 2]
     np.testing.assert_allclose(faults["length_ratio"], (0.6, 0.7))
     np.testing.assert_allclose(faults["length_ratio_low"], (0.5, 0.6))
     np.testing.assert_allclose(faults["length_ratio_high"], (0.7, 0.8))
-
-
-def test_a_rigid_base_is_no_pair():
-    with pytest.raises(ValueError, match="rigid base"):
-        pair_description({"parameters": PAPER_RUN.to_dict()})

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import xarray as xr
 
-from replication.tables.rows import ratios, rows_of
+from replication.tables.ratios import ratios
+from replication.tables.rows import rows_of
 
 COLUMNS = {
     "id": ["a", "b"], "n_x": [400, 800], "length": [0.2, np.nan], "critical_length": [0.4, 0.5],

@@ -10,14 +10,16 @@ from nucleation.run.identity import fault
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.thin import thin_limit
 from replication.figures import figure_weakening
-from replication.tables.lengths import COLUMNS as LENGTHS
-from replication.tables.weakening import (
-    CURVES,
-    MEASURED,
+from replication.tables import drops as module
+from replication.tables.drops import (
+    EXPECTED,
+    WEAKENING,
+    WEAKENING_CURVES,
     expected,
-    gather_weakening,
     weakening_curves,
+    weakening_files,
 )
+from replication.tables.lengths import COLUMNS as LENGTHS
 
 STRONG = PAPER_RUN.replaced(perturbation="normal_load", strength=1e-4)
 QUIET = PAPER_RUN
@@ -25,7 +27,8 @@ QUIET = PAPER_RUN
 
 def lengths(parameters, seeds):
     """A table of lengths: the force of each run drops at 0.6 m, plus a tenth for each seed."""
-    columns = {**MEASURED, **{name: LENGTHS[name] for name in REST}}
+    names = [name for name in WEAKENING if name in LENGTHS and name not in EXPECTED]
+    columns = {name: LENGTHS[name] for name in (*names, "zeta", "a")}
     rows = []
     for seed in seeds:
         row = dict.fromkeys(columns, 0.0)
@@ -36,7 +39,11 @@ def lengths(parameters, seeds):
     return table(rows, columns)
 
 
-REST = ("fault", "zeta", "a")
+def gathered(seeds):
+    """The table of runs of one fault, without curves."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(module, "weakening_curves", lambda runs: xr.Dataset())
+        return weakening_files([lengths(STRONG, seeds)], [{"parameters": STRONG.to_dict()}])[".nc"]
 
 
 def test_a_row_has_the_answer_of_the_law():
@@ -55,7 +62,7 @@ def test_a_fault_without_an_answer_has_its_reason():
 
 
 def test_every_run_is_beside_the_theory_of_its_fault():
-    found = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    found = gathered([1, 2])
     assert found["length"].values.tolist() == pytest.approx([0.7, 0.8])
     assert np.unique(found["law_length"]).size == 1
     np.testing.assert_allclose(found["zeta_over_a"], 2.0)
@@ -63,7 +70,7 @@ def test_every_run_is_beside_the_theory_of_its_fault():
 
 def drawn_rows():
     """Two realisations for each of three weakenings."""
-    one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    one = gathered([1, 2])
     return [one.assign(zeta_over_a=("run", np.full(2, value))) for value in (0.5, 1.0, 3.0)]
 
 
@@ -98,7 +105,7 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
         one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
         runs.append(one)
     found = weakening_curves(runs, [2.5, 6.0])
-    assert set(found) == set(CURVES)
+    assert set(found) == set(WEAKENING_CURVES)
     assert found["curve_half_spaces"].values.tolist() == [False, True]
     limits = [thin_limit(ratio).length_ratio for ratio in (2.5, 6.0)]
     np.testing.assert_allclose(found["curve_stability"][0], limits, rtol=0.05)

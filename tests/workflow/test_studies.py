@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nucleation.datasets import netcdf
-from replication.tables import convergence
+from replication.tables.ratios import REFINEMENT
 
 TARGET = "convergence"
 
@@ -22,7 +22,7 @@ def studies(tmp_path_factory, workflow_type):
 
 def test_target_leaves_its_table_and_is_complete(studies):
     results = studies.directory / "results" / "quick"
-    table = netcdf.read(results / "convergence.nc", requires=convergence.COLUMNS)
+    table = netcdf.read(results / "convergence.nc", requires=REFINEMENT)
     assert list(pd.read_csv(results / "convergence.csv")["id"]) == list(table["id"].values)
     assert studies.planned(TARGET) == {}
 

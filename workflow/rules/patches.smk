@@ -50,7 +50,7 @@ rule gather_patches:
         f"{RESULTS}/logs/{{table}}.log",
     localrule: True
     params:
-        call="replication.tables.stability:gather_stability",
+        call="replication.tables.ratios:gather_stability",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES[wildcards.table])},
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.table])),
     shell:

@@ -52,7 +52,7 @@ rule simulate_and_measure:
         ),
         runtime=ceil(settings.limits.runtime),
     params:
-        call="replication.tables.runs:measured_runs",
+        call="replication.tables.lengths:measured_runs",
         loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
         makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
@@ -111,7 +111,7 @@ rule join_batches:
         f"{RESULTS}/logs/lengths/{{study}}.log",
     localrule: True
     params:
-        call="replication.tables.runs:study_table",
+        call="replication.tables.lengths:of_batches",
         ids=lambda wildcards: [run.id for run in runs_of(wildcards.study)],
     shell:
         JOB

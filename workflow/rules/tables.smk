@@ -28,7 +28,7 @@ rule gather_weakening:
     log:
         f"{RESULTS}/logs/weakening.log",
     params:
-        call="replication.tables.weakening:weakening_files",
+        call="replication.tables.drops:weakening_files",
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
     shell:
@@ -45,7 +45,7 @@ rule other_faults:
     log:
         f"{RESULTS}/logs/other_faults.log",
     params:
-        call="replication.tables.weakening:gather_other_faults",
+        call="replication.tables.drops:gather_other_faults",
         loads=lambda wildcards: laws_of(runs_for("other_faults")),
         runs=lambda wildcards: as_dicts(first_realisations(runs_for("other_faults"))),
     shell:
@@ -63,7 +63,7 @@ rule gather_map:
         f"{RESULTS}/logs/map.log",
     localrule: True
     params:
-        call="replication.tables.map:map_files",
+        call="replication.tables.ratios:map_files",
     shell:
         JOB
 
@@ -108,7 +108,7 @@ rule gather_pairs:
         f"{RESULTS}/logs/pairs.log",
     localrule: True
     params:
-        call="replication.tables.pairs:gather_pairs",
+        call="replication.tables.ratios:gather_pairs",
         reads=lambda wildcards: {
             "simulations": simulations(runs_in(*PAIR_STUDIES)),
             "patches": patches(*PAIR_STUDIES),
@@ -129,7 +129,7 @@ rule convergence:
     log:
         f"{RESULTS}/logs/convergence.log",
     params:
-        call="replication.tables.convergence:refinement_table",
+        call="replication.tables.ratios:refinement_table",
     shell:
         JOB
 

@@ -14,12 +14,12 @@ import xarray as xr
 from nucleation.types import Array
 
 from ..tables.pair_modes import measured_response
-from ..tables.pairs import over_realisations
+from ..tables.ratios import pairs_over_realisations
 from . import printed
 from .verdicts import Computation, Estimate, Missing, between
 
 Tables = Mapping[str, xr.Dataset]
-"""The table of ``pairs`` (:mod:`replication.tables.pairs`) and that of their ``modes``."""
+"""The table of ``pairs`` (:mod:`replication.tables.ratios`) and that of their ``modes``."""
 
 _LEAST_HEIGHT = 1.0  # of a block that counts as a half-space, over the theory's length
 _HEIGHT_TOLERANCE = 0.10  # up to which lengths do not depend on the height of the blocks
@@ -39,7 +39,7 @@ def _faults(evidence: Tables) -> tuple[pd.DataFrame, pd.DataFrame]:
     Each is the mean of its realisations. zeta/a and f beta are rounded so that equal values can be
     compared; lengths are also over L_c^M, the length with the modulus M and no contrast.
     """
-    faults = over_realisations(evidence["pairs"]).to_dataframe()
+    faults = pairs_over_realisations(evidence["pairs"]).to_dataframe()
     faults = faults.assign(
         weakening=faults["zeta_over_a"].round(3),
         contrast=faults["f_beta"].round(12),

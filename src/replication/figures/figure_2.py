@@ -14,7 +14,7 @@ from nucleation.pictures import style
 from nucleation.theory.closed_forms import bimaterial_length_ratio
 from nucleation.types import Array
 
-from ..tables.pairs import over_realisations
+from ..tables.ratios import pairs_over_realisations
 from . import laws
 
 DASHES = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)), (0, (9, 1.5, 1, 1.5, 1, 1.5)))
@@ -64,7 +64,7 @@ def draw_simulated(table: xr.Dataset, theory: xr.Dataset) -> Figure:
     The stiffer body is the upper one in the left half of each panel, and the lower one in the right
     half; bars are the range of the realisations. Crosses are runs without the length.
     """
-    rows = over_realisations(laws.where(table, role="figure_2_simulated"))
+    rows = pairs_over_realisations(laws.where(table, role="figure_2_simulated"))
     rows = rows.assign(zeta_over_a=rows["zeta_over_a"].round(3)).sortby("f_beta")
     figure, panels = style.panels(1, 2, 8.8, sharey=True)
     simulated = np.unique(rows["zeta_over_a"].values)

@@ -13,7 +13,6 @@ from scipy.ndimage import convolve1d
 from nucleation.pictures import style
 from nucleation.types import Array
 
-from ..tables.map import mean_over_seeds
 from .study_axes import edges
 
 _RATIOS = (0.45, 1.0)  # range of the colours
@@ -39,8 +38,8 @@ def draw(grid: xr.Dataset) -> Figure:
         2,
         13.0,
     )
-    stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)
-    drop = mean_over_seeds(grid, "length_ratio")
+    stability = grid["stability_ratio"].mean("seed", skipna=False).isel(strength=0)
+    drop = grid["length_ratio"].mean("seed", skipna=False)
     _draw_ratio(stable, stability, r"(a) patch turns unstable, $L_s/L_c$")
     for axes, letter, i in ((quiet, "b", 0), (noisy, "c", -1)):
         exponent = np.log10(grid["strength"].values[i])

@@ -9,7 +9,7 @@ from matplotlib.ticker import LogLocator
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.pictures import style
 
-from ..tables.pairs import over_realisations
+from ..tables.ratios import pairs_over_realisations
 from . import laws
 from .figure_studies import Curves
 
@@ -34,7 +34,7 @@ _THEORY = "theory $L_c$, free far sides"
 def draw(table: xr.Dataset, theory: Curves) -> Figure:
     """Draw (a) lengths of identical blocks and (b) the lengths of all pairs over the theory's."""
     figure, (left, right) = style.panels(1, 2, 7.4)
-    table = over_realisations(table)
+    table = pairs_over_realisations(table)
     table = laws.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check
     identical = laws.where(table, role="pairs_identical").sortby("height")
     _draw_heights(left, identical, theory)

@@ -1,12 +1,12 @@
-"""Simulated drops beside the law's, one row for each run.
+"""Simulated drops beside the theory: the law of the drop, L_s and L_run.
 
-The law uses the theory's patches (:mod:`nucleation.drop.mode_history`). The drop of a quiet run
-depends on mesh, steps and round-off. Its row has the strength at which a fluctuating load, or
-state, would give the law's median at that length: the noise of that mesh with those steps, in the
-units of a declared perturbation.
+One table has the law alone, by the theory's patches (:mod:`nucleation.drop.mode_history`). A quiet
+run has no strength; its row has the strength at which a fluctuating load, or state, would give the
+law's median at that length: the noise of mesh, steps and round-off. The other tables have the
+answer for each fault, from weak to strong weakening: where zeta/a is small the patch slips slowly
+in a limit cycle up to L_run, and where it is large the law of the drop holds.
 """
 
-import contextlib
 import dataclasses
 from collections.abc import Iterable
 from typing import Any
@@ -18,13 +18,16 @@ from nucleation.datasets.variables import Variable, annotate, some, table, to_cs
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.model.settings import Perturbation
-from nucleation.run.identity import fault
+from nucleation.run.drop import drop_of_run
+from nucleation.run.identity import ensemble, fault
 from nucleation.run.run import Run
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS
-from .rows import Row, rows_of
+from .rows import SHARED, Row, rows_of
+
+# -- the law ------------------------------------------------------------------------------------
 
 MEASURED = some(
     LENGTHS,
@@ -32,14 +35,16 @@ MEASURED = some(
     "block_length longest_step onset_time length critical_length",
 )
 
-PREDICTED = {
-    "stability_length": LENGTHS["stability_length"],
-    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+LAW = {
     "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
     "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
-    "closed_form_length": Variable("m", "length at the drop by the law in one line", "L"),
-    "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
+}
+
+PREDICTED = {
+    "stability_length": LENGTHS["stability_length"],
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+    **LAW,
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
     "floor_state": Variable("1", "strength of the state at which the law drops there"),
 }
@@ -50,18 +55,15 @@ CURVES = {
     "curve_fault": Variable("", "fault of a curve, as in the column fault"),
     "curve_kind": Variable("", "kind of perturbation of a curve"),
     "curve_strength": Variable("1", "relative strength", "eps"),
-    "curve_length": Variable("m", "length at the drop by the law, median", "L"),
-    "curve_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
-    "curve_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "curve_length": LAW["law_length"],
+    "curve_low": LAW["law_low"],
+    "curve_high": LAW["law_high"],
     "curve_closed_form": Variable("m", "length at the drop by the law in one line", "L"),
 }
-"""The law over the strength, for each fault under each of :data:`QUIET_KINDS`."""
+"""The law over the strength, for each fault under each of :data:`KINDS`."""
 
+KINDS = ("normal_load", "state")
 CURVE_STRENGTHS = np.geomspace(1e-12, 1e-1, 89)
-
-QUIET_KINDS = ("normal_load", "state")
-"""Kinds of perturbation in which the noise of a quiet run is expressed."""
-
 WEAK = 1e-5  # strength at which the one line gives L_s of a quiet run, which has no strength
 
 
@@ -83,101 +85,216 @@ class _Law:
             self._known[key] = growth(self.history, declared)
         return self._known[key]
 
-    def lengths(self, kind: str, strength: float) -> tuple[float, float, float, float]:
-        """Lengths (m) at the drop: the median, 16 and 84 %, and that of the law in one line."""
-        law = self.growth(kind)
-        drop = law.drop(strength)
-        return drop.length, drop.low, drop.high, law.closed_form(self.history, strength).length
-
     def row(self, run: Row) -> Row:
         """The columns :data:`PREDICTED` of one run; NaN where they do not apply."""
-        none = dict.fromkeys(PREDICTED, float("nan"))
+        found = dict.fromkeys(PREDICTED, float("nan"))
+        found["stability_length"] = self.stability_length
+        strength = run["strength"]
         if run["kind"] == "none":
-            return none | self._row_of_quiet_run(run["length"])
-        law = self.growth(run["kind"], run["correlation_length"])
-        drop = law.drop(run["strength"])
-        closed = law.closed_form(self.history, run["strength"])
-        return none | {
-            "stability_length": self.stability_length,
-            "front_length": closed.front_length,
-            "law_length": drop.length,
-            "law_low": drop.low,
-            "law_high": drop.high,
-            "closed_form_length": closed.length,
-            "effective_strength": closed.effective,
-        }
-
-    def _row_of_quiet_run(self, length: float) -> Row:
-        closed = self.growth("normal_load").closed_form(self.history, WEAK)
-        floors = {f"floor_{kind}": self.growth(kind).strength_at(length) for kind in QUIET_KINDS}
-        return {
-            "stability_length": self.stability_length,
-            "front_length": closed.front_length,
-            **floors,
-        }
-
-
-def gather_drops(
-    drops: Iterable[xr.Dataset], runs: Iterable[Row], quiet: Iterable[xr.Dataset] = ()
-) -> xr.Dataset:
-    """The drops of all runs beside the law, for the faults of some runs."""
-    return _beside(_laws(runs), [*drops, *quiet])
+            law, strength = self.growth("normal_load"), WEAK
+            for kind in KINDS:
+                found[f"floor_{kind}"] = self.growth(kind).strength_at(run["length"])
+        else:
+            law = self.growth(run["kind"], run["correlation_length"])
+            drop = law.drop(strength)
+            found |= dict(zip(LAW, (drop.length, drop.low, drop.high), strict=True))
+        found["front_length"] = law.closed_form(self.history, strength).front_length
+        return found
 
 
 def drop_files(
     drops: Iterable[xr.Dataset], runs: Iterable[Row], quiet: Iterable[xr.Dataset] = ()
 ) -> dict[str, Any]:
-    """The table of :func:`gather_drops` as CSV, and with :data:`CURVES`."""
-    laws = _laws(runs)
-    rows = _beside(laws, [*drops, *quiet])
-    return {".nc": rows.merge(law_curves(laws)), ".csv": to_csv(rows)}
+    """:data:`COLUMNS` of all runs of the faults that have a law as CSV, and with :data:`CURVES`.
+
+    `runs` are one of each fault. Faults without patches that the theory can follow have no law.
+    """
+    laws = {}
+    for run in runs:
+        parameters = Run.from_dict(run["parameters"])
+        own, patches, critical = parameters.fault, parameters.patches, run["critical_length"]
+        stress = parameters.start.initial_shear_stress / own.normal_stress
+        try:
+            history = mode_history(patches, critical, own.initial_state, stress)
+            laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
+        except NoLength:
+            continue
+    rows = [
+        row | laws[row["fault"]].row(row)
+        for measured in (*drops, *quiet)
+        for row in rows_of(measured, names=(*MEASURED, "fault"))
+        if row["fault"] in laws
+    ]
+    listed = table(rows, COLUMNS)
+    return {".nc": listed.merge(law_curves(laws)), ".csv": to_csv(listed)}
 
 
 def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
     """:data:`CURVES` on ``case`` and ``curve``, from the law by fault."""
-    cases = [(name, kind) for name in laws for kind in QUIET_KINDS]
-    values = [[laws[name].lengths(kind, x) for x in CURVE_STRENGTHS] for name, kind in cases]
-    shape = len(cases), CURVE_STRENGTHS.size, 4
-    length, low, high, closed_form = np.moveaxis(
-        np.reshape(values, shape),
-        -1,
-        0,
-    )
+    cases = [(name, kind) for name in laws for kind in KINDS]
+    values = np.empty((4, len(cases), CURVE_STRENGTHS.size))
+    for i, (name, kind) in enumerate(cases):
+        law = laws[name].growth(kind)
+        for j, strength in enumerate(CURVE_STRENGTHS):
+            drop = law.drop(strength)
+            line = law.closed_form(laws[name].history, strength).length
+            values[:, i, j] = drop.length, drop.low, drop.high, line
+    columns = {
+        "curve_fault": ("case", [name for name, _ in cases]),
+        "curve_kind": ("case", [kind for _, kind in cases]),
+        "curve_strength": ("curve", CURVE_STRENGTHS),
+    }
     along = ("case", "curve")
-    found = xr.Dataset(
-        {
-            "curve_fault": ("case", [name for name, _ in cases]),
-            "curve_kind": ("case", [kind for _, kind in cases]),
-            "curve_strength": ("curve", CURVE_STRENGTHS),
-            "curve_length": (along, length),
-            "curve_low": (along, low),
-            "curve_high": (along, high),
-            "curve_closed_form": (along, closed_form),
-        }
-    )
-    return annotate(found, CURVES)
+    lines = {name: (along, line) for name, line in zip(list(CURVES)[3:], values, strict=True)}
+    return annotate(xr.Dataset(columns | lines), CURVES)
 
 
-def _laws(runs: Iterable[Row]) -> dict[str, _Law]:
-    """The law by fault, without faults that have no patches the theory can follow."""
-    laws = {}
+# -- the answer for a fault ---------------------------------------------------------------------
+
+EXPECTED = {
+    "stability_length": LENGTHS["stability_length"],
+    "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
+    "runaway_status": Variable("", "value, or why there is none: stable, beyond or unknown"),
+    "law_length": LAW["law_length"],
+    "expected_length": Variable("m", "expected length at the drop", "L"),
+    "expected_low": Variable("m", "least length at the drop that is expected", "L"),
+    "expected_high": Variable("m", "largest length at the drop that is expected", "L"),
+    "doubt": Variable("", "why the expected length should not be relied upon"),
+}
+
+WEAKENING = {
+    **some(
+        LENGTHS,
+        "study id evolution height below kind strength seed n_x n_y block_length onset_time "
+        "length critical_length",
+    ),
+    "zeta_over_a": SHARED["zeta_over_a"],
+    **EXPECTED,
+    "fault": LENGTHS["fault"],
+}
+
+WEAKENING_CURVES = {
+    "curve_study": LENGTHS["study"],
+    "curve_below": LENGTHS["below"],
+    "curve_height": LENGTHS["height"],
+    "curve_half_spaces": Variable("1", "whether the curves are those of half-spaces"),
+    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
+    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
+    "curve_runaway": Variable("1", "L_run over L_c, NaN where zeta/a > 2", "L_run/L_c"),
+    "curve_law": Variable("1", "length at the drop by the law over L_c, median", "L/L_c"),
+}
+"""The theory over zeta/a for each pair of study, base and height."""
+
+WEAKENINGS = np.geomspace(0.2, 6.0, 22)  # zeta/a of the curves
+AS_HALF_SPACES = 100.0  # factor of a height that makes a block a half-space
+
+OTHER_FAULTS = {
+    "zeta_over_a": SHARED["zeta_over_a"],
+    **some(
+        LENGTHS,
+        "friction_law evolution height below far_side shear_modulus second_shear_modulus kind "
+        "strength critical_length",
+    ),
+    **EXPECTED,
+    "realisations": Variable("1", "number of realisations"),
+    "length": LENGTHS["length"],  # the mean of the realisations
+    "reached_length": LENGTHS["reached_length"],  # the largest of the realisations
+    "inside": Variable("1", "number of realisations in the expected range"),
+}
+
+
+def expected(parameters: Run) -> Row:
+    """The columns :data:`EXPECTED` of one fault under its perturbation; NaN without a drop."""
+    try:
+        known = drop_of_run(parameters)
+    except NoLength as error:
+        none = dict.fromkeys(EXPECTED, float("nan"))
+        return none | {"runaway_status": error.status, "doubt": str(error)}
+    return {
+        "stability_length": known.stability_length,
+        "runaway_length": known.runaway_length,
+        "runaway_status": known.runaway_status,
+        "law_length": known.law.length,
+        "expected_length": known.length,
+        "expected_low": known.low,
+        "expected_high": known.high,
+        "doubt": known.doubt,
+    }
+
+
+def weakening_files(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> dict[str, Any]:
+    """The drops of all runs beside the theory of their faults as CSV, and with the curves."""
+    runs = list(runs)
+    by_fault = {}
     for run in runs:
         parameters = Run.from_dict(run["parameters"])
-        with contextlib.suppress(NoLength):
-            critical = run["critical_length"]
-            own = parameters.fault
-            stress = parameters.start.initial_shear_stress / own.normal_stress
-            patches = parameters.patches
-            history = mode_history(patches, critical, own.initial_state, stress)
-            laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
-    return laws
-
-
-def _beside(laws: dict[str, _Law], tables: Iterable[xr.Dataset]) -> xr.Dataset:
-    """:data:`COLUMNS` of all runs of the faults that have a law."""
+        by_fault[fault(parameters)] = expected(parameters)
     rows = []
-    for measured in tables:
-        for row in rows_of(measured, names=(*MEASURED, "fault")):
-            if row["fault"] in laws:
-                rows.append(row | laws[row["fault"]].row(row))
-    return table(rows, COLUMNS)
+    for lengths in drops:
+        complete = lengths.assign(zeta_over_a=lengths["zeta"] / lengths["a"])
+        for row in rows_of(complete, names=WEAKENING.keys() - EXPECTED.keys()):
+            rows.append(row | by_fault[row["fault"]])
+    listed = table(rows, WEAKENING)
+    return {".nc": listed.merge(weakening_curves(runs)), ".csv": to_csv(listed)}
+
+
+def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) -> xr.Dataset:
+    """Lengths by theory over zeta/a, of each study, base and height.
+
+    Blocks on a deformable base that are higher than L_c in all their runs are as good as
+    half-spaces; they have the curves of half-spaces.
+    """
+    systems: dict[tuple[str, str, float], list[Row]] = {}
+    for run in runs:
+        parameters = Run.from_dict(run["parameters"])
+        base = "rigid" if parameters.below is None else "deformable"
+        systems.setdefault((run["study"], base, parameters.fault.height), []).append(run)
+    ratios = list(ratios)
+    high = []
+    lengths = np.empty((3, len(systems), len(ratios)))
+    for i, ((_, _, height), own) in enumerate(systems.items()):
+        parameters = Run.from_dict(own[0]["parameters"])
+        below = parameters.below
+        is_high = below is not None and height > max(run["critical_length"] for run in own)
+        high.append(is_high)
+        if below is not None and is_high:
+            heights = {"height": height, "second_height": below.height}
+            much = {name: AS_HALF_SPACES * value for name, value in heights.items()}
+            parameters = parameters.replaced(**much)
+        for j, ratio in enumerate(ratios):
+            weaker = parameters.replaced(zeta_over_a=ratio)
+            known = expected(weaker)
+            for k, name in enumerate(("stability_length", "runaway_length", "law_length")):
+                lengths[k, i, j] = known[name] / weaker.critical_length
+    names = ("curve_study", "curve_below", "curve_height")
+    columns = {
+        name: ("system", list(values))
+        for name, values in zip(names, zip(*systems, strict=True), strict=True)
+    }
+    along = ("system", "curve")
+    lines = {
+        name: (along, line) for name, line in zip(list(WEAKENING_CURVES)[5:], lengths, strict=True)
+    }
+    columns |= {"curve_half_spaces": ("system", high), "curve_ratio": ("curve", ratios)}
+    return annotate(xr.Dataset(columns | lines), WEAKENING_CURVES)
+
+
+def gather_other_faults(drops: xr.Dataset, runs: Iterable[Row]) -> xr.Dataset:
+    """The simulated drops of each fault, over its realisations, beside the theory."""
+    rows = []
+    for run in runs:
+        parameters = Run.from_dict(run["parameters"])
+        own = drops.isel(run=drops["ensemble"].values == ensemble(parameters))
+        theory = expected(parameters)
+        lengths = own["length"].values
+        inside = (lengths >= theory["expected_low"]) & (lengths <= theory["expected_high"])
+        first = rows_of(own)[0]
+        simulated = {
+            "zeta_over_a": first["zeta"] / first["a"],
+            "realisations": lengths.size,
+            "length": float(lengths.mean()),
+            "reached_length": float(own["reached_length"].max()),
+            "inside": int(inside.sum()),
+        }
+        rows.append(first | theory | simulated)
+    return table(rows, OTHER_FAULTS)

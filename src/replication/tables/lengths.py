@@ -1,6 +1,7 @@
 """The table of lengths at the drop: one row for each simulation, SI units."""
 
-from collections.abc import Callable, Iterable
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,10 @@ import xarray as xr
 from nucleation.datasets.variables import Variable, some, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
+from nucleation.extraction.growth import follow_patch
 from nucleation.extraction.measures import MEASURED, MEASURES, measure
 from nucleation.run.identity import ensemble, fault
+from nucleation.run.names import parameters as known_parameters
 from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 from nucleation.types import Array
@@ -78,49 +81,50 @@ COLUMNS = {
 }
 """Name of the simulation, its measured lengths, its cost, and its parameters."""
 
-GIVEN = {
-    "evolution": "evolution",
-    "height": "height",
-    "n_x": "n_x",
-    "n_y": "n_y",
-    "grading": "grading",
-    "tolerance": "tolerance",
-    "longest_step": "longest_step",
-    "density": "density",
-    "shear_modulus": "shear_modulus",
-    "poisson_ratio": "poisson_ratio",
-    "plane": "plane",
-    "velocity": "velocity",
-    "initial_stress": "initial_stress",
-    "initial_shear_stress": "initial_shear_stress",
-    "kind": "perturbation",
-    "seed": "seed",
-    "correlation_length": "correlation_length",
-    "initial_state": "initial_state",
-    "loading": "loading",
-    "normal_stress": "normal_stress",
-    "block_length": "block_length",
-    "slip_distance": "slip_distance",
-    "friction_law": "friction_law",
-    "below": "second_body",
-}
-"""Columns that are a parameter, and its name."""
-
-
-COMPARED = (
-    *("id", "study", "role", "evolution", "height", "initial_state", "a", "zeta"),
-    *("kind", "strength", "seed"),
-    *("onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high"),
-    *("critical_length", "stability_length", "stability_status"),
-    *("status", "simulated_time", "reached_length"),
+_OF_SECOND_BODY = (
+    "far_side",
+    "second_height",
+    "second_shear_modulus",
+    "second_poisson_ratio",
 )
-"""Columns of every CSV file."""
 
-PARAMETERS = (
-    *GIVEN,
-    *("friction", "far_side", "second_height", "second_shear_modulus", "second_poisson_ratio"),
+COMPARED = some(
+    COLUMNS,
+    "id study role evolution height initial_state a zeta kind strength seed onset_time "
+    "onset_time_low onset_time_high length length_low length_high critical_length "
+    "stability_length stability_status status simulated_time reached_length",
 )
-"""Columns of a CSV file whose runs differ in them."""
+"""Columns of every CSV file; parameters are there if the runs differ in them."""
+
+
+def measured_runs(
+    runs: Sequence[Row],
+    records: Any,
+    settings: ExtractionSettings,
+    measure: str,
+) -> xr.Dataset:
+    """The rows of a job's runs, which are also printed; without those that have no record.
+
+    ``records.map`` has the results of a function of the number and the record of each run.
+    """
+
+    def measured(i: int, record: xr.Dataset) -> xr.Dataset:
+        row = lengths_table([runs[i]], [record], settings)
+        if measure == "stability":
+            found = follow_patch(record, settings)["stability_length"]
+            row["stability_length"] = ("run", found.values[None], found.attrs)
+        onset, length, steps, seconds = (
+            row[name].item() for name in ("onset_time", "length", "steps", "wall_seconds")
+        )
+        print(
+            f"{runs[i]['id']}: onset {onset:.4f} s, length {length:.5g} m, "
+            f"{steps} steps in {seconds:.1f} s",
+            file=sys.stderr,
+        )
+        return row
+
+    rows = records.map(measured)
+    return join(rows) if rows else xr.Dataset()  # an empty one is not kept
 
 
 def lengths_table(
@@ -186,53 +190,35 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     for column in table.data_vars:
         name = str(column)
         values = table[name].values
-        aggregate = _OVER_REALISATIONS.get(name, _first)
+        aggregate = _OVER_REALISATIONS.get(name, lambda values: values[0])
         columns[name] = np.array([aggregate(values[rows]) for rows in faults])
     columns["realisations"] = np.array([len(rows) for rows in faults])
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
-def _first(values: Array) -> Any:
-    return values[0]
-
-
 def description(run: Row) -> Row:
-    """The columns with the run's parameters, and the theory's length for them."""
+    """The columns with the run's parameters, and the theory's length for them.
+
+    A rigid base has no far side and an infinite modulus.
+    """
     parameters = Run.from_dict(run["parameters"])
     values = run["parameters"]
-    theory = run["theory"]
+    below = parameters.below
+    second = ("none", np.nan, np.inf, np.nan)
+    if below is not None:
+        material = below.material
+        second = (below.far_side, below.height, material.shear_modulus, material.poisson_ratio)
     quiet = values["perturbation"] == "none"
     return {
-        **{name: values[parameter] for name, parameter in GIVEN.items()},
-        **second_body(parameters),
+        **{name: values.get(name) for name in COLUMNS if name in known_parameters()},
+        **dict(zip(_OF_SECOND_BODY, second, strict=True)),
+        "kind": values["perturbation"],
+        "below": values["second_body"],
+        **{name: run[name] for name in ("id", "study", "role", "critical_length")},
+        **{name: run["theory"][name] for name in ("friction", "a", "zeta")},
         "strength": 0.0 if quiet else values["strength"],
         "fault": fault(parameters),
         "ensemble": ensemble(parameters),
-        "id": run["id"],
-        "study": run["study"],
-        "role": run["role"],
-        "critical_length": run["critical_length"],
-        "friction": theory["friction"],
-        "a": theory["a"],
-        "zeta": theory["zeta"],
-    }
-
-
-def second_body(parameters: Run) -> Row:
-    """The columns of the second body: a rigid base has no far side and an infinite modulus."""
-    below = parameters.below
-    if below is None:
-        return {
-            "far_side": "none",
-            "second_height": np.nan,
-            "second_shear_modulus": np.inf,
-            "second_poisson_ratio": np.nan,
-        }
-    return {
-        "far_side": below.far_side,
-        "second_height": below.height,
-        "second_shear_modulus": below.material.shear_modulus,
-        "second_poisson_ratio": below.material.poisson_ratio,
     }
 
 
@@ -262,8 +248,8 @@ def files(table: xr.Dataset) -> dict[str, Any]:
     frame = table.to_dataframe()
     names = []
     for name in map(str, table.data_vars):
-        varies = name in PARAMETERS and frame[name].nunique(dropna=False) > 1
-        if name in COMPARED or varies:
+        is_given = name in ("kind", "below", "far_side") or name in known_parameters()
+        if name in COMPARED or (is_given and frame[name].nunique(dropna=False) > 1):
             names.append(name)
     return {".nc": table, ".csv": frame[names].to_csv(index=False)}
 
@@ -273,6 +259,13 @@ def of_study(
 ) -> dict[str, Any]:
     """:func:`lengths_table` as files."""
     return files(lengths_table(runs, simulations, settings))
+
+
+def of_batches(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> dict[str, Any]:
+    """The table of a study that was run in several batches, in the order of its runs, as files."""
+    joined = join(tables)
+    places = {name: i for i, name in enumerate(joined["id"].values.tolist())}
+    return files(joined.isel(run=[places[name] for name in ids]))
 
 
 def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:

@@ -1,7 +1,7 @@
-"""Rows of a table, the ratios in them, and why a run has no length."""
+"""Rows of tables, and why a run has no length."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import xarray as xr
@@ -36,36 +36,16 @@ SHARED = {
 }
 """Variables that describe the fault in several tables."""
 
-RATIOS = {
-    "length_ratio": ("length", "critical_length"),
-    "stability_ratio": ("stability_length", "critical_length"),
-    "zeta_over_a": ("zeta", "a"),
-}
-"""Ratios by name: the columns of numerator and denominator."""
-
-RATIO_COLUMNS = {
-    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
-    "stability_ratio": Variable("1", "patch length where growth begins over theory", "L_s/L_c"),
-    "zeta_over_a": SHARED["zeta_over_a"],
-}
-
 NEARLY = 0.98
 """Part of the searched half of the block at which the patch counts as having filled it."""
 
 
-def rows_of(
-    table: xr.Dataset, chosen: Iterable[int] | None = None, names: Iterable[str] | None = None
-) -> list[Row]:
+def rows_of(table: xr.Dataset, names: Iterable[str] | None = None) -> list[Row]:
     """Rows of a table as dictionaries of plain Python values."""
     wanted = table.data_vars if names is None else names
     columns = {str(name): table[name].values.tolist() for name in wanted}
-    numbers = range(table.sizes["run"]) if chosen is None else chosen
-    return [{name: values[i] for name, values in columns.items()} for i in numbers]
-
-
-def ratios(columns: Mapping[Any, Any]) -> Row:
-    """:data:`RATIOS` of one row or of a whole table."""
-    return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
+    rows = zip(*columns.values(), strict=True)
+    return [dict(zip(columns, row, strict=True)) for row in rows]
 
 
 def without_event(rows: Iterable[Row]) -> list[str]:

@@ -1,0 +1,242 @@
+"""Tables of lengths over the theory's and over those of other runs.
+
+They are the refinement of mesh and steps, the stability of patches, the map over height and
+weakening, and two deformable bodies.
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from nucleation.datasets.variables import DatasetError, Variable, annotate, some, table, to_csv
+from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.extraction import extract
+from nucleation.extraction.growth import FITTED
+from nucleation.extraction.measures import MEASURED
+from nucleation.run.run import Run
+from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
+
+from . import lengths
+from .lengths import COLUMNS as LENGTHS
+from .lengths import description
+from .rows import SHARED, Row
+
+RATIOS = {
+    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
+    "stability_ratio": Variable("1", "patch length where growth begins over theory", "L_s/L_c"),
+    "zeta_over_a": SHARED["zeta_over_a"],
+}
+
+
+def ratios(columns: Any) -> Row:
+    """:data:`RATIOS` of one row or of a whole table."""
+    return {
+        "length_ratio": columns["length"] / columns["critical_length"],
+        "stability_ratio": columns["stability_length"] / columns["critical_length"],
+        "zeta_over_a": columns["zeta"] / columns["a"],
+    }
+
+
+# -- refinement ---------------------------------------------------------------------------------
+
+REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
+"""Parameters that are refined, and whether a smaller value is the finer one."""
+
+FIXED = ("grading", "block_length", "fault", "kind", "strength", "correlation_length", "seed")
+"""Columns in which the runs of a sequence agree, beside the other refined parameters."""
+
+REFINEMENT = {
+    "refinement": Variable("", "quantity that is refined from level to level"),
+    **some(
+        LENGTHS,
+        "id evolution height initial_state kind strength seed n_x n_y grading "
+        "block_length longest_step tolerance onset_time",
+    ),
+    "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
+    "length": LENGTHS["length"],
+    "length_difference": Variable("1", "relative difference of L from the finest run"),
+    "elements_difference": Variable("1", "the same in elements of the run along x"),
+    "critical_length": LENGTHS["critical_length"],
+    "length_over_theory": RATIOS["length_ratio"],
+    **some(LENGTHS, "steps wall_seconds fault"),
+}
+
+
+def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
+    """The runs that differ in one numerical parameter alone, each from coarse to fine."""
+    fixed = [*(name for name in REFINED if name != refined), *FIXED]
+    ascending = not REFINED[refined]
+    return [
+        own.sort_values(refined, ascending=ascending)
+        for _, own in lengths.groupby(fixed, sort=False, dropna=False)
+        if len(own) > 1
+    ]
+
+
+def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """The sequences found in tables of lengths, each run beside the finest one."""
+    frame = lengths.join(tables).to_dataframe()
+    rows: list[Any] = []
+    for refined in REFINED:
+        for own in sequences(frame, refined):
+            finest = own.iloc[-1]
+            difference = own["length"] - finest["length"]
+            found = own.assign(
+                refinement=refined,
+                onset_difference=own["onset_time"] / finest["onset_time"] - 1.0,
+                length_difference=own["length"] / finest["length"] - 1.0,
+                elements_difference=difference / (own["block_length"] / own["n_x"]),
+                length_over_theory=own["length"] / own["critical_length"],
+            )
+            rows += found.to_dict("records")
+    return table(rows, REFINEMENT)
+
+
+# -- the stability of patches -------------------------------------------------------------------
+
+STABILITY = {
+    **some(
+        LENGTHS,
+        "id study role evolution height initial_state n_x n_y grading tolerance longest_step",
+    ),
+    **FITTED,
+    "critical_length": LENGTHS["critical_length"],
+    "stability_ratio": RATIOS["stability_ratio"],
+    "stability_change": Variable("1", "L_s over that of the converged run, minus one"),
+    "fault": LENGTHS["fault"],
+}
+
+
+def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.Dataset:
+    """The lengths at which the frozen patches turn unstable."""
+    rows = []
+    for run, patch in zip(runs, patches, strict=True):
+        rows.append(description(run) | {name: float(patch[name]) for name in FITTED})
+    converged = {
+        row["fault"]: row["stability_length"] for row in rows if row["role"] == "converged"
+    }
+    for row in rows:
+        reference = converged.get(row["fault"], float("nan"))
+        row["stability_ratio"] = row["stability_length"] / row["critical_length"]
+        row["stability_change"] = row["stability_length"] / reference - 1.0
+    return table(rows, STABILITY)
+
+
+# -- the map ------------------------------------------------------------------------------------
+
+MAP = {
+    **some(LENGTHS, "id height"),
+    "zeta_over_a": RATIOS["zeta_over_a"],
+    **some(LENGTHS, "kind strength seed onset_time length length_low length_high critical_length"),
+    "length_ratio": RATIOS["length_ratio"],
+    "stability_length": FITTED["stability_length"],
+    "stability_ratio": RATIOS["stability_ratio"],
+    **some(LENGTHS, "n_x steps wall_seconds status"),
+}
+
+AXES = ("height", "zeta_over_a", "strength", "seed")
+"""Dimensions of the map's grid."""
+
+ON_GRID = ["length", "length_ratio", "stability_length", "stability_ratio", "onset_time"]
+
+DIGITS = 6
+"""Significant digits by which values of zeta/a are equal."""
+
+
+def map_files(lengths: xr.Dataset) -> dict[str, Any]:
+    """:data:`MAP` of a table of lengths with the stability of each patch as CSV, and on the grid.
+
+    The grid has the dimensions :data:`AXES`, and NaN where the study has no run. The theory's
+    length depends on height and weakening alone.
+    """
+    rows = lengths.assign(ratios(lengths))
+    rounded = [float(f"{value:.{DIGITS}g}") for value in rows["zeta_over_a"].values]
+    rows = annotate(rows.assign(zeta_over_a=("run", rounded))[list(MAP)].drop_attrs(), MAP)
+    frame = rows.to_dataframe().set_index(list(AXES))
+    if not frame.index.is_unique:
+        raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
+    theory = frame["critical_length"].groupby(level=AXES[:2]).first()
+    grid = frame[ON_GRID].to_xarray().assign(critical_length=theory.to_xarray())
+    return {".nc": annotate(grid, MAP), ".csv": to_csv(rows)}
+
+
+# -- two bodies ---------------------------------------------------------------------------------
+
+_OF_RUN = ("onset_time", "length", "length_low", "length_high")
+
+PAIRS = {
+    **some(LENGTHS, "id study role evolution"),
+    **some(
+        SHARED,
+        "far_side height second_height shear_modulus second_shear_modulus poisson_ratio "
+        "second_poisson_ratio friction f_beta zeta_over_a",
+    ),
+    **some(LENGTHS, "n_x n_y"),
+    "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
+    **some(LENGTHS, "kind strength seed"),
+    **{name: MEASURED[name] for name in _OF_RUN},
+    "critical_length": LENGTHS["critical_length"],
+    "length_ratio": RATIOS["length_ratio"],
+    **FITTED,
+    "stability_ratio": RATIOS["stability_ratio"],
+    "half_space_ratio": Variable(
+        "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
+    ),
+    **some(LENGTHS, "steps wall_seconds fault ensemble"),
+}
+"""``f_beta`` is positive where the lower body is the stiffer one."""
+
+
+def gather_pairs(
+    runs: Iterable[Row],
+    simulations: Iterable[xr.Dataset],
+    patches: Iterable[xr.Dataset],
+    settings: ExtractionSettings,
+) -> xr.Dataset:
+    """The table of runs of two bodies; `patches` are those of each fault's first run."""
+    rows = []
+    waiting = iter(patches)
+    fitted: dict[tuple[str, str], dict[str, float]] = {}
+    for run, simulation in zip(runs, simulations, strict=True):
+        parameters = Run.from_dict(run["parameters"])
+        own, below = parameters.fault, parameters.below
+        assert below is not None  # by the role
+        f_beta = own.friction * bimaterial_contrast(parameters.upper.material, below.material)
+        row = description(run) | {
+            "friction": own.friction,
+            "f_beta": f_beta,
+            "a": own.a,
+            "zeta": own.zeta,
+            "second_n_y": below.n_y,
+            "half_space_ratio": float(bimaterial_length_ratio(f_beta, own.zeta / own.a)),
+        }
+        key = row["study"], row["ensemble"]
+        if key not in fitted:
+            patch = next(waiting)
+            fitted[key] = {name: float(patch[name]) for name in FITTED}
+        measured = extract(simulation, settings)
+        row |= fitted[key]
+        row |= {name: float(measured[name]) for name in _OF_RUN}
+        row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
+        rows.append(row | ratios(row))
+    return table(rows, PAIRS)
+
+
+def pairs_over_realisations(table: xr.Dataset) -> xr.Dataset:
+    """A table of pairs with one row for each fault, the mean of its ``realisations``.
+
+    ``length_ratio_low`` and ``length_ratio_high`` are the least and the largest of them, without
+    the range over definitions that ``length_low`` and ``length_high`` have.
+    """
+    ratio = table["length_ratio"].values
+    faults = [ratio[rows] for rows in lengths.realisations(table)]
+    columns = {
+        "length_ratio": [fault.mean() for fault in faults],
+        "length_ratio_low": [fault.min() for fault in faults],
+        "length_ratio_high": [fault.max() for fault in faults],
+    }
+    on_run = {name: ("run", np.array(values)) for name, values in columns.items()}
+    return lengths.over_realisations(table).assign(on_run)
