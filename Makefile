@@ -150,7 +150,8 @@ $(STAMP): environment.txt
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
-	$(BIN)/python -P -m replication.pipeline.bytecode
+	$(BIN)/python -P -c 'from replication.pipeline.launch import compile_imports; \
+		compile_imports("nucleation", "replication", "snakemake.cli")'
 	@touch $(ENVIRONMENT)/environment.stamp
 
 $(DEV_STAMP): environment-dev.txt $(STAMP)

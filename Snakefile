@@ -12,9 +12,11 @@ import atexit
 import functools
 import gc
 import importlib.util
+import logging
 import os
 import runpy
 import shlex
+import signal
 import sys
 import threading
 from dataclasses import asdict
@@ -45,9 +47,9 @@ if missing:
     )
 
 # Outdated bytecode must not run, neither here nor in the jobs.
-bytecode = runpy.run_path(str(Path(SOURCE, "replication", "pipeline", "bytecode.py")))
-bytecode["make_checked"](Path(SOURCE))
-os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nucleation")))
+launch = runpy.run_path(str(Path(SOURCE, "replication", "pipeline", "launch.py")))
+launch["make_checked"](Path(SOURCE))
+os.environ["NUMBA_CACHE_DIR"] = str(launch["cache_of_numba"](Path(SOURCE, "nucleation")))
 
 from replication.configuration.advice import advise, summary_of_meshes, warned
 from replication.configuration.contradictions import directory_problem
@@ -67,12 +69,22 @@ from nucleation.model.friction import plugins
 from nucleation.run.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from replication.pipeline.check import CURRENT
-from replication.pipeline.launch import options
-from replication.pipeline.messages import LOGGER, end_in_one_line
+from replication.pipeline import LOGGER
 from replication.pipeline.planning import Plan
 from replication.pipeline.store import others
 
 gc.freeze()  # searching all loaded objects takes a third of a second in all
+
+ON_CTRL_C = signal.getsignal(signal.SIGINT)
+
+
+def stop_in_one_line(number, frame):
+    """After Ctrl-C, have a line of ours in place of Snakemake's reports on jobs that it stops."""
+    signal.signal(number, ON_CTRL_C)
+    LOGGER.error("Stopped by Ctrl-C; the same command continues from here")
+    logger.addFilter(lambda record: record.levelno < logging.ERROR)
+    ON_CTRL_C(number, frame)
+
 
 PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
 
@@ -89,8 +101,8 @@ except (ParameterError, DatasetError) as error:
     raise WorkflowError("the workflow can't be used like this, see above") from None
 
 if PLANS:
-    end_in_one_line(logger)
-    os.environ["NUCLEATION_CONFIGFILES"] = shlex.join(options().configfile)
+    signal.signal(signal.SIGINT, stop_in_one_line)
+    os.environ["NUCLEATION_CONFIGFILES"] = shlex.join(launch["options"]().configfile)
 
 RESULTS = settings.results
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from nucleation.datasets import code
-from replication.pipeline import bytecode
+from replication.pipeline import launch
 
 SOURCE = str(Path(__file__).parents[2] / "src")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": SOURCE}
@@ -146,7 +146,7 @@ def test_bytecode_is_never_outdated(tmp_path):
             (tmp_path / "part.py").write_text("print(2)\n")
             os.utime(tmp_path / "part.py", (moment, moment))
         subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)  # compiles it
-        bytecode.make_checked(tmp_path)
+        launch.make_checked(tmp_path)
     said = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
     assert said.stdout == "2\n"
 
@@ -155,9 +155,9 @@ def test_what_numba_keeps_is_named_by_content(tmp_path):
     names = set()
     for text in ("import numba\nX = 1\n", "import numba\nX = 2\n"):
         (tmp_path / "part.py").write_text(text)
-        names.add(bytecode.cache_of_numba(tmp_path))
+        names.add(launch.cache_of_numba(tmp_path))
     (tmp_path / "other.py").write_text("X = 1\n")
-    assert len(names | {bytecode.cache_of_numba(tmp_path)}) == 2
+    assert len(names | {launch.cache_of_numba(tmp_path)}) == 2
 
 
 def test_what_jobs_load_has_bytecode(tmp_path):
@@ -167,7 +167,7 @@ def test_what_jobs_load_has_bytecode(tmp_path):
     (package / "__init__.py").write_text("import quarry\n")
     (package / "room.py").write_text("")
     (tmp_path / "quarry.py").write_text("")
-    program = "from replication.pipeline.bytecode import compile_imports; compile_imports('house')"
+    program = "from replication.pipeline.launch import compile_imports; compile_imports('house')"
     given = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
     given["PYTHONPATH"] = os.pathsep.join([str(tmp_path), SOURCE])
     subprocess.run([sys.executable, "-c", program], env=given, check=True)

@@ -8,7 +8,7 @@ from snakemake.io import IOCache
 from nucleation.datasets import code
 from replication.pipeline.making import verify
 from replication.pipeline.planning import Plan
-from replication.pipeline.recipes import Recipe, read
+from replication.pipeline.recipes import Recipe, as_json, read
 
 CALL = "replication.tables.rows:rows_of"
 
@@ -19,7 +19,7 @@ def planned(tmp_path):
     file = tmp_path / "recipe.json"
     part = Recipe("part", ["results/part.nc"], "results", CALL, [], {"n": 1}, {}, [])
     whole = Recipe("whole", ["results/whole.json"], "results", "", [], {}, {}, [part])
-    file.write_text(whole.text(""))
+    file.write_text(as_json({"planned": "", **vars(whole)}))
     return read(file)
 
 
@@ -28,7 +28,7 @@ def test_a_job_has_the_keys_that_were_planned(planned, monkeypatch):
     monkeypatch.setattr(code, "digest", lambda *roots: "of edited code")
     (part,) = planned.parts
     assert part.key != part.key_now()
-    assert planned.manifest() == f'{{"part": "{part.key}"}}\n'
+    assert planned.expected() == {"results/whole.json": f'{{"part": "{part.key}"}}\n'}
 
 
 def test_code_edited_after_the_store_was_asked_is_refused(planned, monkeypatch):

@@ -79,7 +79,7 @@ def test_a_signal_reaches_every_process(tmp_path, number):
 def test_a_batch_tells_how_far_it_is(monkeypatch, capsys, cores):
     """Runs done of all, and the time left by those that were made; it showed nothing."""
     monkeypatch.setattr(batches, "PAUSE", 0.0)
-    tally = batches.Tally(4, kept={0})
+    tally = batches.tally(4, kept={0})
     side_by_side(lambda number: time.sleep(0.1 * (number > 0)), NAMES, cores, tally)
     told = capsys.readouterr().err.splitlines()
     assert [line.split(", ")[0] for line in told] == [f"{n} of 4 runs done" for n in (2, 3)]

@@ -15,7 +15,7 @@ import xarray as xr
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
 from replication.pipeline import store as module
-from replication.pipeline.store import NOTE, VARIABLE, Store, give_all, others, read_note
+from replication.pipeline.store import NOTE, VARIABLE, Store, others, read_note
 
 KEY, OTHER = "0" * 16, "1" * 16
 
@@ -153,7 +153,7 @@ def test_a_changed_byte_is_seen_although_files_came_and_went(store):
 def test_an_entry_without_all_files_is_replaced(store, other, tmp_path, capsys):
     """A result of an earlier state of the project, say, whole in itself."""
     put(store, name="result.txt")
-    other.give(store.entry(KEY))
+    store.give(KEY, [other])
     assert not Store(store.directory).has(KEY, ["result.csv"])
     assert Store(tmp_path / "clone").take(KEY, ["result.csv"], [other]) is None
     assert capsys.readouterr().err.count("lacks files of the result") == 2
@@ -234,7 +234,7 @@ def test_what_is_given_is_taken_by_another(store, other, tmp_path, capsys):
     entry, clone = put(store), Store(tmp_path / "clone")
     assert clone.take(KEY, (), [other]) is None
     for _ in range(2):
-        other.give(entry)
+        store.give(KEY, [other])
     assert clone.take(KEY, (), [other]) == other.directory
     for name in (NOTE, "result.csv"):
         assert (clone.entry(KEY) / name).stat().st_mode & 0o777 == 0o444
@@ -246,15 +246,16 @@ def test_what_is_given_is_taken_by_another(store, other, tmp_path, capsys):
 def test_damaged_entry_elsewhere_is_said_not_taken_and_replaced(
     store, other, how, tmp_path, capsys
 ):
-    entry, clone = put(store), Store(tmp_path / "clone")
-    other.give(entry)
+    put(store)
+    clone = Store(tmp_path / "clone")
+    store.give(KEY, [other])
     damaged(other.entry(KEY), how)
     asked = [other]
     assert clone.take(KEY, (), asked) is None and asked == [other]
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"Not taken from {other.directory}: ")
     assert clone.listed() == [] and not list(tmp_path.rglob("evil*"))
-    other.give(entry)
+    store.give(KEY, [other])
     assert clone.take(KEY, (), asked) == other.directory
 
 
@@ -280,8 +281,9 @@ def test_no_byte_of_a_wrong_file_is_copied(store, other, monkeypatch):
 
 
 def test_first_store_that_is_right_serves(store, other, tmp_path, capsys):
-    first, entry = Store(tmp_path / "first"), put(store)
-    other.give(entry)
+    first = Store(tmp_path / "first")
+    put(store)
+    store.give(KEY, [other])
     first.directory.mkdir()
     shutil.copytree(put(store, OTHER, b"another"), first.entry(KEY))
     assert Store(tmp_path / "clone").take(KEY, (), [first, other]) == other.directory
@@ -296,7 +298,7 @@ def test_result_is_kept_whatever_happens_elsewhere(store, other, monkeypatch, ca
 
     monkeypatch.setattr(module.shutil, "copyfile", full)
     asked = [other]
-    give_all(entry, asked)
+    store.give(KEY, asked)
     assert "Not kept" in capsys.readouterr().err and asked == []
     assert read_note(entry, whole=True) and names(other.directory) == []
 
@@ -374,7 +376,8 @@ def test_special_entry_elsewhere_neither_hangs_nor_is_taken(store, other, how, c
     said = capsys.readouterr().err
     assert said.startswith("Not taken from") and said.count("\n") == 1 and len(said) < 500
     assert said.encode().isascii() and "All is current" not in said
-    give_all(put(store), [other])
+    put(store)
+    store.give(KEY, [other])
     assert read_note(other.entry(KEY), whole=True)["name"] == "a", "the right one is there now"
 
 

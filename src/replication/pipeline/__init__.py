@@ -1,4 +1,25 @@
-"""The workflow: recipes of results, jobs, stores, views of results, checks and archives.
+"""The workflow: recipes of results, jobs, stores, views of results, and checks.
 
-This wing may import every other wing except the command line.
+This room may import every other one. Its messages are one line each, on standard error. A job
+redirects its standard error to its log, with the messages and everything that libraries print;
+progress, warnings and errors of a job also appear on the terminal.
 """
+
+import logging
+import sys
+
+LOGGER = logging.getLogger("replication.pipeline")
+PROGRESS = (logging.INFO + logging.WARNING) // 2
+"""Level of messages that appear on the terminal, too, though nothing is wrong."""
+
+
+class _StandardError(logging.Handler):
+    """Writes to the current standard error, which may have been redirected."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(self.format(record), file=sys.stderr, flush=True)
+
+
+LOGGER.setLevel(logging.INFO)
+LOGGER.propagate = False  # Snakemake's options for quiet or coloured output are about its own lines
+LOGGER.addHandler(_StandardError())

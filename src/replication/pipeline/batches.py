@@ -1,4 +1,4 @@
-"""Batches: the results of one job, made on several cores and shown one by one."""
+"""Batches: work on several cores, and how far it is."""
 
 import multiprocessing
 import os
@@ -7,115 +7,43 @@ import sys
 import time
 import traceback
 from collections.abc import Callable, Collection, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
-from functools import partial
 from threading import Thread
 from types import FrameType
 from typing import Any
 
 from nucleation.simulation.checkpoints import SIGNALS
 
-from .messages import LOGGER, PROGRESS
-from .recipes import Recipe
-from .views import show
+from . import LOGGER, PROGRESS
 
 PAUSE = 60.0  # s between two lines of progress
 _TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
 
 
-class PartFailed(Exception):
-    """A part of a batch has failed; the other parts are made."""
-
-
-class Inputs(Sequence[Any]):
-    """The sources of one role; each is read when it is needed."""
-
-    def __init__(self, open: Callable[[str], Any], paths: list[str]) -> None:
-        self._open = open
-        self._paths = paths
-
-    def __len__(self) -> int:
-        return len(self._paths)
-
-    def __getitem__(self, i: Any) -> Any:
-        return self._open(self._paths[i])
-
-
-class Batch:
-    """The results of a batch, each made from its recipe by a function, on some cores."""
-
-    def __init__(
-        self,
-        result: Callable[[Recipe], Any],
-        parts: Sequence[Recipe],
-        cores: int,
-    ):
-        self._result = result
-        self._parts = parts
-        self._cores = cores
-
-    def map(self, function: Callable[[int, Any], Any] | None = None) -> list[Any]:
-        """Make all results, and return the values of a function of each one's number and result.
-
-        It is called in the process that makes the result. If parts have failed, SystemExit names
-        them once all were tried.
-        """
-        names = [part.name for part in self._parts]
-        kept = {i for i, part in enumerate(self._parts) if part.is_in(part.store)}
-        made = side_by_side(
-            lambda i: self._one(i, function),
-            names,
-            self._cores,
-            Tally(len(names), kept),
-        )
-        failures = [failure for failure, _ in made if failure]
-        if failures and len(names) == 1:
-            sys.exit(failures[0])
-        if failures:
-            count = f"{len(failures)} of {len(names)} runs failed, the others are kept:"
-            sys.exit("\n  ".join([count, *failures]))
-        return [value for _, value in made]
-
-    def _one(self, number: int, function: Callable[[int, Any], Any] | None) -> tuple[str, Any]:
-        """Why a part has failed, and the value of the function if it has not."""
-        part = self._parts[number]
-        try:
-            result = self._result(part)
-        except PartFailed as error:
-            LOGGER.info(error)
-            return str(error), None
-        show(part)
-        return "", None if function is None else function(number, result)
-
-
-class Tally:
-    """Tells now and then how many parts of a batch are done, and about how long the others take.
+def tally(number: int, kept: Collection[int] = ()) -> Callable[[int], None]:
+    """A function that counts parts of a batch, and reports now and then how long the others take.
 
     Parts that were `kept` before take no time.
     """
+    waiting = set(range(number))
+    began = time.monotonic()
+    last = [began]
 
-    def __init__(self, number: int, kept: Collection[int] = ()) -> None:
-        self._waiting = set(range(number))
-        self._number = number
-        self._kept = frozenset(kept)
-        self._made = 0
-        self._began = time.monotonic()
-        self._next = self._began + PAUSE
-
-    def __call__(self, part: int) -> None:
-        """Count a part that is done."""
-        self._waiting.discard(part)
-        self._made += part not in self._kept
+    def done(part: int) -> None:
+        waiting.discard(part)
         now = time.monotonic()
-        if now < self._next or not self._made or not self._waiting:
+        made = number - len(waiting | set(kept))
+        if now < last[0] + PAUSE or not made or not waiting:
             return
-        self._next = now + PAUSE
-        left = (now - self._began) / self._made * len(self._waiting - self._kept)
-        done = self._number - len(self._waiting)
+        last[0] = now
+        left = (now - began) / made * len(waiting - set(kept))
         text = f"{left / 60.0:.0f} min" if left > 90.0 else f"{left:.0f} s"
-        LOGGER.log(PROGRESS, f"{done} of {self._number} runs done, about {text} left")
+        ready = number - len(waiting)
+        LOGGER.log(PROGRESS, f"{ready} of {number} runs done, about {text} left")
+
+    return done
 
 
 def side_by_side(
@@ -149,19 +77,19 @@ def side_by_side(
     before = {number: signal.signal(number, pass_on) for number in SIGNALS}
     try:
         with pool:
-            calls = [pool.submit(_call, i) for i in range(len(names))]
-            for i, call in enumerate(calls):
-                call.add_done_callback(partial(_tell, done, i))
+            calls: dict[Future[Any], int] = {pool.submit(_call, i): i for i in range(len(names))}
+            for call in calls:
+                call.add_done_callback(lambda ended: done(calls[ended]))
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
     reasons = []
-    for name, call in zip(names, calls, strict=True):
+    for call, i in calls.items():
         match call.exception():
             case SystemExit(code=reason):
                 reasons.append(str(reason))
             case BrokenProcessPool():
-                reasons.append(f"{name} is not made: a process was killed")
+                reasons.append(f"{names[i]} is not made: a process was killed")
             case Exception() as error:
                 reasons.append(f"{type(error).__name__}: {error}")
     if reasons:
@@ -169,23 +97,19 @@ def side_by_side(
     return [call.result() for call in calls]
 
 
-def _tell(done: Callable[[int], object], number: int, _call: Any) -> None:
-    done(number)
-
-
 def _begin(work: Callable[[int], Any], ended: Any) -> None:
     """In a process of the pool, before its first call: it ends when the job is killed."""
+
+    def end_with_job() -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None:
+            parent.join()
+        os._exit(1)
+
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
-    Thread(target=_end_with_job, daemon=True).start()
+    Thread(target=end_with_job, daemon=True).start()
     _TASK[:] = [work, ended]
-
-
-def _end_with_job() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-    os._exit(1)
 
 
 def _call(number: int) -> Any:

@@ -18,9 +18,8 @@ from typing import NamedTuple
 from nucleation.datasets import DatasetError
 
 from .planning import PLACES, RECIPES
-from .recipes import key_in, read
+from .recipes import key_in, read, shows
 from .store import DAMAGED, Store, read_note
-from .views import shows_expected
 
 CURRENT = "All is current"
 _HALF = "half a file of a run that was killed: delete it"
@@ -42,9 +41,6 @@ class Finding(NamedTuple):
     path: Path
     state: str  # stale, incomplete, damaged, foreign or unused
     reason: str
-
-    def __str__(self) -> str:
-        return f"{self.state:<10}  {plain(f'{self.path}: {self.reason}')}"
 
 
 def plain(text: str) -> str:
@@ -69,34 +65,22 @@ def unused(store: Store, expected: Expected) -> list[str]:
     """Keys that neither the configuration nor any directory of results refers to."""
     used = {key_in(path) for path in expected.values()}
     for place in store.directory.glob(f"{RECIPES}/*"):
-        if _is_gone(store, place):
-            continue
+        places = []  # of the results and of the work; unknown ones count
+        with contextlib.suppress(OSError, ValueError):
+            places = (place / PLACES).read_text("utf-8").splitlines()
+        if not all((store.directory.resolve() / one).is_dir() for one in places):
+            continue  # one of them is not there any more
         for file in place.rglob("*.json"):
-            used.update(_keys(file))
+            try:
+                recipe = read(file)
+                for one in (recipe, *recipe.parts):
+                    used.add(one.key)
+                    used.update(*one.source_keys.values())
+                    used.update(key_in(os.path.realpath(path)) for path in one.files)
+            except (OSError, ValueError, KeyError, TypeError) as error:
+                message = f"{file} can't be read ({error!r}): delete it, plan again"
+                raise DatasetError(message) from None
     return [key for key in store.listed() if key not in used]
-
-
-def _is_gone(store: Store, place: Path) -> bool:
-    """Whether recipes are of a directory of results or of work that is not there any more."""
-    try:
-        places = (place / PLACES).read_text("utf-8").splitlines()
-    except (OSError, ValueError):
-        return False  # unknown: they count
-    return not all((store.directory.resolve() / one).is_dir() for one in places)
-
-
-def _keys(file: Path) -> Iterator[str | None]:
-    """Keys that a recipe refers to, or that its files show."""
-    try:
-        recipe = read(file)
-        for one in (recipe, *recipe.parts):
-            yield one.key
-            for keys in one.source_keys.values():
-                yield from keys
-            yield from (key_in(os.path.realpath(path)) for path in one.files)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        message = f"{file} can't be read ({error!r}): delete it, plan again"
-        raise DatasetError(message) from None
 
 
 def _entries(store: Store, expected: Expected) -> Iterator[Finding]:
@@ -133,7 +117,7 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
             yield Finding(path, "damaged", "its result is not in the store: make it again")
-        elif not shows_expected(path, wanted):
+        elif not shows(path, wanted):
             yield Finding(path, "stale", "it is of other parameters or other code: make it again")
 
 
@@ -164,20 +148,15 @@ def main(command: str, results: str, expected_file: str) -> None:
     try:
         expected = json.loads(Path(expected_file).read_text("utf-8"))
         if command == "prune":
-            print(
-                prune(
-                    Path(results),
-                    expected,
-                    os.environ.get("PRUNE") == "yes",
-                )
-            )
+            print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
             return
         findings = check_results(Path(results), expected)
     except (DatasetError, OSError) as error:
         sys.exit(plain(str(error)))
+    for path, state, reason in findings:
+        print(f"{state:<10}  {plain(f'{path}: {reason}')}")
     wrong = sum(found.state != UNUSED for found in findings)
-    end = f"{wrong} findings: these results are not current" if wrong else CURRENT
-    print(*findings, end, sep="\n")
+    print(f"{wrong} findings: these results are not current" if wrong else CURRENT)
     sys.exit(bool(wrong))
 
 

@@ -14,10 +14,9 @@ import sys
 import time
 from pathlib import Path
 
-from .messages import LOGGER, PROGRESS
-from .recipes import Recipe, read
-from .store import others
-from .views import show
+from . import LOGGER, PROGRESS
+from .recipes import read
+from .store import Store, others
 
 FORCED = "NUCLEATION_FORCED"
 """Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
@@ -46,24 +45,21 @@ def main(
         contextlib.redirect_stderr(stream),
     ):
         try:
-            _run(read(recipe_file), rule, int(threads))
+            recipe = read(recipe_file)
+            named = os.environ.get(FORCED, "").split("\n")
+            forced = not {"*", rule, *recipe.files}.isdisjoint(named)
+            store = Store(f"{recipe.results}/store")
+            for source in recipe.obtained(store, others(strict=False)):
+                LOGGER.info(f"taken from {source}")
+            if forced or not recipe.is_in(store):
+                from .making import make
+
+                make(recipe, rule, store, int(threads), forced)
+            recipe.show()
         except (SystemExit, KeyboardInterrupt) as error:  # with the reason
             LOGGER.error(error if error.args else f"{rule}: stopped by SIGINT")
             sys.exit(1)
         LOGGER.info(f"done in {time.monotonic() - began:.1f} s")
-
-
-def _run(recipe: Recipe, rule: str, threads: int) -> None:
-    named = os.environ.get(FORCED, "").split("\n")
-    forced = not {"*", rule, *recipe.files}.isdisjoint(named)
-    store = recipe.store
-    for source in recipe.obtained(store, others(strict=False)):
-        LOGGER.info(f"taken from {source}")
-    if forced or not recipe.is_in(store):
-        from .making import make
-
-        make(recipe, rule, threads, forced)
-    show(recipe)
 
 
 if __name__ == "__main__":

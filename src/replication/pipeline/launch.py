@@ -1,20 +1,73 @@
-"""Start Snakemake after a check of its configuration files.
+"""What comes before the workflow: bytecode that is not outdated, and a check of the configuration.
 
 ``python -m replication.pipeline.launch`` takes Snakemake's arguments. Snakemake reads the files of
 ``--configfile`` before the workflow can check them: a missing file, or one that is no text, ends in
 a traceback, and a file with the key ``__use_yte__`` may contain Python that is executed. With zero
 cores Snakemake waits for ever.
+
+The Snakefile executes this module before it imports any other one, so it imports none of them by
+itself. By default Python compares only time and size of a source with its bytecode. If a source
+changes and keeps both (archives, ``rsync -t``, ``touch -r``, two edits within a second), Python
+runs the old bytecode. Checked bytecode is compared with the content of its source.
 """
 
 import argparse
+import contextlib
+import hashlib
+import importlib.util
 import os
+import pkgutil
+import py_compile
 import re
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
-from nucleation.model.quantities import ParameterError
+CHECKED = (0b11).to_bytes(4, "little")
+"""Flags (bytes 4 to 8 of the file) of bytecode that is compared with its source's digest."""
 
-from ..configuration.load import load
+
+def make_checked(root: Path) -> None:
+    """Make all bytecode below a directory of the kind that is compared by content.
+
+    Where it can't be written, the old one is left: then Python compiles the source itself.
+    """
+    for source in root.rglob("*.py"):
+        compiled = Path(importlib.util.cache_from_source(str(source)))
+        with contextlib.suppress(OSError), compiled.open("rb") as file:
+            if file.read(8)[4:] == CHECKED:
+                continue
+        with contextlib.suppress(OSError, SyntaxError, ValueError):
+            mode = py_compile.PycInvalidationMode.CHECKED_HASH
+            py_compile.compile(str(source), doraise=False, quiet=2, invalidation_mode=mode)
+
+
+def cache_of_numba(root: Path) -> Path:
+    """A directory for code that numba has compiled, named by the digest of its sources.
+
+    Like Python, numba compares only time and size.
+    """
+    digest = hashlib.sha256()
+    for source in sorted(root.rglob("*.py")):
+        content = source.read_bytes()
+        uses_numba = b"numba" in content or b"import compil" in content
+        if uses_numba or "friction" in source.parts:  # friction laws are compiled too
+            digest.update(content)
+    return root / "__pycache__" / f"numba-{digest.hexdigest()[:16]}"
+
+
+def compile_imports(*packages: str) -> None:
+    """Import all modules of packages, so that Python keeps bytecode of all that they load.
+
+    uv makes no bytecode, and where PYTHONDONTWRITEBYTECODE is set each job would compile 1600
+    modules again, for two seconds.
+    """
+    sys.dont_write_bytecode = False
+    for name in packages:
+        found = importlib.import_module(name)
+        for module in pkgutil.walk_packages(getattr(found, "__path__", ()), name + "."):
+            if not module.name.endswith("__main__"):
+                importlib.import_module(module.name)
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -28,6 +81,10 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 def problem(arguments: Sequence[str]) -> str | None:
     """The problem with the cores or the configuration files, in words; None if there is none."""
+    from nucleation.model.quantities import ParameterError
+
+    from ..configuration.load import load
+
     given = options(arguments)
     if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"

@@ -12,8 +12,9 @@ import shlex
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import is_dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,10 +26,10 @@ from nucleation.datasets.variables import is_table, to_csv
 from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event
-from .batches import Batch, Inputs, PartFailed
-from .messages import LOGGER
+from . import LOGGER
+from .batches import side_by_side, tally
 from .recipes import Recipe, key_in
-from .store import STEM, Store, give_all, others, read_note
+from .store import STEM, Store, others, read_note
 
 SIMULATE = "nucleation.simulation.run:simulate"
 UNFINISHED = "unfinished"  # directory of checkpoints, and of records of runs that failed
@@ -41,9 +42,28 @@ _OF_MACHINE = {"wall_seconds", "peak_megabytes", "created", "versions", "command
 """Variables that differ between any two results of one recipe."""
 
 
+class PartFailed(Exception):
+    """A part of a batch has failed; the other parts are made."""
+
+
+class Inputs(Sequence[Any]):
+    """The sources of one role; each is read when it is needed."""
+
+    def __init__(self, open: Callable[[str], Any], paths: list[str]) -> None:
+        self._open = open
+        self._paths = paths
+
+    def __len__(self) -> int:
+        return len(self._paths)
+
+    def __getitem__(self, i: Any) -> Any:
+        return self._open(self._paths[i])
+
+
 def make(
     recipe: Recipe,
     rule: str,
+    store: Store,
     threads: int,
     forced: bool,
 ) -> None:
@@ -55,7 +75,14 @@ def make(
     try:
         verify(recipe)
         gc.freeze()  # at its end Python would search all loaded objects, which takes 0.3 s
-        _Maker(rule, recipe.store, forced).make(recipe, threads)
+        maker = _Maker(rule, store, forced)
+        each = partial(maker.each, recipe.parts, threads)
+        if not recipe.parts:
+            maker.result(recipe)
+        elif recipe.call:  # if a run has failed, this ends before the table is kept
+            maker.put(recipe, maker.called(recipe, records=each))
+        else:
+            each()
     except _EXPECTED as error:
         sys.exit(f"{rule}: {error}")
     except Exception as error:
@@ -90,18 +117,39 @@ class _Maker:
         self._forced = forced
         self._others = others(strict=False)
 
-    def make(self, recipe: Recipe, threads: int) -> None:
-        """Make the result of a recipe, or the results of a batch on several cores."""
-        if not recipe.parts:
-            self._result(recipe)
-            return
-        batch = Batch(self._result, recipe.parts, threads)
-        if recipe.call:  # if a run has failed, this ends before the table is kept
-            self._put(recipe, self._called(recipe, records=batch))
-        else:
-            batch.map()
+    def each(
+        self,
+        parts: Sequence[Recipe],
+        cores: int,
+        function: Callable[[int, Any], Any] = lambda number, result: None,
+    ) -> list[Any]:
+        """Make the parts of a batch; return the values of a function of their numbers and results.
 
-    def _result(self, recipe: Recipe) -> Any:
+        It is called in the process that makes the result. If parts have failed, SystemExit names
+        them once all were tried.
+        """
+
+        def one(number: int) -> tuple[str, Any]:
+            """Why a part has failed, and the value of the function if it has not."""
+            try:
+                result = self.result(parts[number])
+            except PartFailed as error:
+                LOGGER.info(error)
+                return str(error), None
+            parts[number].show()
+            return "", function(number, result)
+
+        names = [part.name for part in parts]
+        kept = {i for i, part in enumerate(parts) if part.is_in(self._store)}
+        made = side_by_side(one, names, cores, tally(len(names), kept))
+        failures = [failure for failure, _ in made if failure]
+        if failures and len(names) > 1:
+            failures.insert(0, f"{len(failures)} of {len(names)} runs failed, the others are kept:")
+        if failures:
+            sys.exit("\n  ".join(failures))
+        return [value for _, value in made]
+
+    def result(self, recipe: Recipe) -> Any:
         """The result of a recipe as its function returned it, or the dataset in the store.
 
         A simulation that has failed raises PartFailed.
@@ -110,10 +158,12 @@ class _Maker:
             return self._open(recipe.stored(recipe.files[0]))
         if recipe.call == SIMULATE:
             return self._simulated(recipe)
-        made = self._called(recipe)
-        self._put(recipe, made)
+        made = self.called(recipe)
+        self.put(recipe, made)
         if recipe.name.startswith(_LENGTHS):
-            _warn_of_unusual_runs(recipe, made)
+            rows = rows_of(made[".nc"])
+            for line in (*without_event(rows), *remarked(rows)):
+                LOGGER.warning(f"Warning: study {recipe.name.removeprefix(_LENGTHS)}: {line}")
         return made
 
     def _simulated(self, recipe: Recipe) -> xr.Dataset:
@@ -128,9 +178,9 @@ class _Maker:
 
         def write(dataset: xr.Dataset, path: Path) -> None:
             if path == place:
-                self._put(recipe, dataset)
+                self.put(recipe, dataset)
             else:
-                netcdf.write(dataset, path, **self._origin(recipe))
+                netcdf.write(dataset, path, **_origin(recipe))
 
         progress = Progress(parameters, sys.stderr, name=name)
         try:
@@ -143,17 +193,15 @@ class _Maker:
         LOGGER.info(f"{name}: {status}")
         return dataset
 
-    def _called(self, recipe: Recipe, **more: Any) -> Any:
+    def called(self, recipe: Recipe, **more: Any) -> Any:
         """Call the function of a recipe; it reads each of several sources when it needs it."""
         module, _, name = recipe.call.partition(":")
         function = getattr(importlib.import_module(module), name)
-        values = {**recipe.values, "origin": self._origin(recipe)}
         sources: dict[str, Any] = {}
         for role, paths in recipe.sources.items():
-            if isinstance(paths, list):
-                sources[role] = Inputs(self._open, paths)
-            else:
-                sources[role] = self._open(paths)
+            is_list = isinstance(paths, list)
+            sources[role] = Inputs(self._open, paths) if is_list else self._open(paths)
+        values = {**recipe.values, "origin": _origin(recipe)}
         return function(**arguments(function, values), **sources, **more)
 
     def _open(self, path: str) -> xr.Dataset | Path:
@@ -178,63 +226,42 @@ class _Maker:
             advice = "It was moved aside: run this again, and it is made again"
             raise DatasetError(f"{error}. {advice}") from None
 
-    def _put(self, recipe: Recipe, made: Any) -> None:
+    def put(self, recipe: Recipe, made: Any) -> None:
         """Put the value of a function into the store, or compare it with the stored result."""
-        files = _files_of(made)
-        origin = self._origin(recipe)
+        files = made if isinstance(made, Mapping) else {"": made}  # a figure has several files
+        if isinstance(made, xr.Dataset):  # which is a mapping, too
+            files = {".nc": made}
+        if ".nc" in files and ".csv" not in files and is_table(files[".nc"]):
+            files = {**files, ".csv": to_csv(files[".nc"])}
+        origin = _origin(recipe)
 
         def write(place: Path) -> None:
             for suffix, content in files.items():
                 _write_one(content, place / f"{STEM}{suffix}", origin)
 
         if recipe.is_in(self._store):
-            compared = self._compared(recipe.key, write)
+            found: list[str] = []
+            with tempfile.TemporaryDirectory() as place:
+                write(Path(place))
+                for file in sorted(Path(place).iterdir()):
+                    found += differences(file, self._store.entry(recipe.key) / file.name)
+            compared = "; ".join(found) or "the same as in the store, which is kept"
             LOGGER.info(f"{recipe.name}, made again: {compared}")
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
-        self._store.put(
-            recipe.key,
-            write,
-            {**about, "rule": self._rule, "name": recipe.name},
-        )
-        give_all(self._store.entry(recipe.key), self._others)
-
-    def _compared(self, key: str, write: Callable[[Path], None]) -> str:
-        """The differences of a result that was made again from the stored one, in words."""
-        found: list[str] = []
-        with tempfile.TemporaryDirectory() as place:
-            write(Path(place))
-            for file in sorted(Path(place).iterdir()):
-                found += differences(file, self._store.entry(key) / file.name)
-        return "; ".join(found) or "the same as in the store, which is kept"
-
-    def _origin(self, recipe: Recipe) -> dict[str, str]:
-        """Attributes of a recipe's dataset that record how it was made."""
-        files = os.environ.get("NUCLEATION_CONFIGFILES", "")  # none: the default configuration
-        command = f"snakemake {shlex.quote(recipe.files[0])}"
-        if files:
-            command += f" --configfile {files}"
-        return provenance.attributes(
-            recipe.values, recipe.code, command, recipe.source_keys, key=recipe.key
-        )
+        self._store.put(recipe.key, write, {**about, "rule": self._rule, "name": recipe.name})
+        self._store.give(recipe.key, self._others)
 
 
-def _warn_of_unusual_runs(recipe: Recipe, made: Any) -> None:
-    """Report the runs of a study's table without an event, or with a remark."""
-    study = recipe.name.removeprefix(_LENGTHS)
-    rows = rows_of(made[".nc"])
-    for line in (*without_event(rows), *remarked(rows)):
-        LOGGER.warning(f"Warning: study {study}: {line}")
-
-
-def _files_of(made: Any) -> Mapping[str, Any]:
-    """The contents of a result's files by suffix; a table is also written as CSV."""
-    single = ".nc" if isinstance(made, xr.Dataset) else ""  # or a figure, which has several files
-    files: Mapping[str, Any] = made if not single and isinstance(made, Mapping) else {single: made}
-    dataset = files.get(".nc")
-    if ".csv" not in files and dataset is not None and is_table(dataset):
-        files = {**files, ".csv": to_csv(dataset)}
-    return files
+def _origin(recipe: Recipe) -> dict[str, str]:
+    """Attributes of a recipe's dataset that record how it was made."""
+    files = os.environ.get("NUCLEATION_CONFIGFILES", "")  # none: the default configuration
+    command = f"snakemake {shlex.quote(recipe.files[0])}"
+    if files:
+        command += f" --configfile {files}"
+    return provenance.attributes(
+        recipe.values, recipe.code, command, recipe.source_keys, key=recipe.key
+    )
 
 
 def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
@@ -260,24 +287,18 @@ def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[s
     ``origin`` is dropped if the function has no such argument.
     """
     wanted = inspect.signature(function).parameters
-    found = {}
-    for name, value in values.items():
-        if name in wanted:
-            kind = wanted[name].annotation
-            kind = function.__globals__.get(kind) if isinstance(kind, str) else kind
-            found[name] = _converted(kind, value)
-        elif name != "origin":
-            found[name] = value
+    found = {name: value for name, value in values.items() if name in wanted or name != "origin"}
+    for name in found.keys() & wanted.keys():
+        value, kind = found[name], wanted[name].annotation
+        kind = function.__globals__.get(kind) if isinstance(kind, str) else kind
+        if not (isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping)):
+            continue
+        if hasattr(kind, "from_dict"):
+            found[name] = kind.from_dict(value)
+        else:
+            lists = {key: tuple(own) for key, own in value.items() if isinstance(own, list)}
+            found[name] = kind(**{**value, **lists})  # JSON has no tuples
     return found
-
-
-def _converted(kind: Any, value: Any) -> Any:
-    if not (isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping)):
-        return value
-    if hasattr(kind, "from_dict"):
-        return kind.from_dict(value)
-    lists = {name: tuple(own) for name, own in value.items() if isinstance(own, list)}
-    return kind(**{**value, **lists})  # JSON has no tuples
 
 
 def differences(new: Path, old: Path) -> list[str]:
@@ -285,11 +306,8 @@ def differences(new: Path, old: Path) -> list[str]:
     if not old.is_file():
         return [f"{new.name} is not in the store"]
     if new.suffix != ".nc":
-        same = new.read_bytes() == old.read_bytes()
-        return [] if same else [f"{new.name} differs"]
-    ours = netcdf.read(new).variables
-    theirs = netcdf.read(old).variables
-    names = {*map(str, ours), *map(str, theirs)} - _OF_MACHINE
-    both = ours.keys() & theirs.keys()
-    equal = {name for name in names & both if ours[name].equals(theirs[name])}
-    return [f"{name} differs" for name in sorted(names - equal)]
+        return [] if new.read_bytes() == old.read_bytes() else [f"{new.name} differs"]
+    ours, theirs = netcdf.read(new).variables, netcdf.read(old).variables
+    same = {name for name in ours.keys() & theirs.keys() if ours[name].equals(theirs[name])}
+    names = {*map(str, ours), *map(str, theirs)} - _OF_MACHINE - same
+    return [f"{name} differs" for name in sorted(names)]

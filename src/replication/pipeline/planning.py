@@ -17,17 +17,16 @@ import hashlib
 import os
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+from . import LOGGER
 from .job import FORCED
-from .messages import LOGGER
-from .recipes import Recipe, as_json, listed
+from .recipes import Recipe, as_json, listed, withdraw, write
 from .store import NOTE, Store, others
-from .views import is_broken, is_linked, is_shown, show, withdraw, write
 
 RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
 _PLANNED = "planned"  # file beside recipes with the names and keys of the jobs of the latest run
@@ -35,7 +34,7 @@ PLACES = "places"  # file beside recipes with the two directories that they are 
 _LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 
 Paths = Any
-"""One path, or several in a nested list, as Snakemake's texts or plain ones."""
+"""One path, or several in a list, as Snakemake's texts or plain ones."""
 
 
 class Plan:
@@ -81,11 +80,6 @@ class Plan:
             taken = f", {self._taken} of them taken from other stores" if self._taken else ""
             LOGGER.info(f"Shown without a job: {self._shown} results{taken}")
 
-    @property
-    def results(self) -> str:
-        """The directory of results for Snakemake, with the prefix of a module."""
-        return self.prefix + self._configured
-
     @cached_property
     def prefix(self) -> str:
         """The ``prefix:`` of a module, which Snakemake puts before all paths of its rules."""
@@ -100,21 +94,35 @@ class Plan:
         return before
 
     @cached_property
+    def results(self) -> str:
+        """The directory of results for Snakemake, with the prefix of a module."""
+        return self.prefix + self._configured
+
+    @cached_property
     def store(self) -> Store:
         """The store of the results."""
         return Store(f"{self.results}/store")
 
     @cached_property
-    def _places(self) -> list[str]:
+    def _others(self) -> list[Store]:
+        return others(strict=False)
+
+    @cached_property
+    def _places(self) -> str:
         """The directories of the results and of the work, relative to the store."""
         store = os.path.realpath(self.store.directory)
-        return [os.path.relpath(os.path.realpath(place), store) for place in (self.results, ".")]
+        places = (os.path.realpath(place) for place in (self.results, "."))
+        return "\n".join(os.path.relpath(place, store) for place in places)
 
     @cached_property
     def _place(self) -> str:
         """The directory of the recipes in the store; directories of results may share a store."""
-        mark = hashlib.sha256("\n".join(self._places).encode()).hexdigest()[:8]
+        mark = hashlib.sha256(self._places.encode()).hexdigest()[:8]
         return f"{self.store.directory}/{RECIPES}/{mark}"
+
+    @cached_property
+    def _beside_a_run(self) -> bool:
+        return any(Path(_LOCKS).glob("*"))
 
     @cached_property
     def runs(self) -> bool:
@@ -129,14 +137,9 @@ class Plan:
         asked = workflow.dag_settings
         forced = {*asked.forcerun, *(asked.targets if asked.forcetargets else ())}
         os.environ[FORCED] = "*" if asked.forceall else "\n".join(map(str, forced))
-        Path(self._place).mkdir(parents=True, exist_ok=True)
         write(Path(self._place, _PLANNED), "")
-        write(Path(self._place, PLACES), "\n".join(self._places))
+        write(Path(self._place, PLACES), self._places)
         return True
-
-    @cached_property
-    def _beside_a_run(self) -> bool:
-        return any(Path(_LOCKS).glob("*"))
 
     @cached_property
     def _planned(self) -> dict[str, str]:
@@ -157,10 +160,6 @@ class Plan:
         return found
 
     @cached_property
-    def _others(self) -> list[Store]:
-        return others(strict=False)
-
-    @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
         """Rules by their files, and pairs of a pattern with wildcards and its rule."""
         # the proxy of a rule lacks the constraints of wildcards
@@ -168,61 +167,60 @@ class Plan:
         patterns = [(file, rule) for file, rule in own if "{" in str(file)]
         return {str(file): rule for file, rule in own if "{" not in str(file)}, patterns
 
+    def write_expected(self, more: list[str], checks: bool = False) -> str:
+        """Write which result each file of the workflow should show; return the written path.
+
+        This includes the files of all rules without wildcards, the files `more`, and all their
+        sources, direct or not. A target is left out if the configuration lacks its studies. If it
+        is for the check, the workflow fails at its end unless all is current.
+        """
+        self.checked = checks
+        found: dict[str, str] = {}
+        for path in (*self._makers[0], *more):
+            seen: set[str] = set()
+            waiting = [path]
+            with contextlib.suppress(Exception):
+                while waiting:
+                    recipe = self._recipe(waiting.pop())
+                    if recipe is not None and recipe.name not in seen:
+                        seen.add(recipe.name)
+                        waiting += self._inputs[recipe.name]
+                        for one in (recipe, *recipe.parts):
+                            found |= one.expected()
+        file = f"{self._place}/expected"
+        write(Path(file), as_json(found))
+        return file
+
     def _recipe(self, path: str) -> Recipe | None:
         """The recipe of a file; None if no rule makes it."""
         fixed, patterns = self._makers
         if path in fixed:
             return self._of_rule(fixed[path], {})
-        matches = ((pattern.match(path), rule) for pattern, rule in patterns)
-        found, rule = next(((found, rule) for found, rule in matches if found), (None, ""))
-        return self._of_rule(rule, found.groupdict()) if found else None
-
-    def write_expected(self, more: list[str], checks: bool = False) -> str:
-        """Write which result each file of the workflow should show; return the written path.
-
-        This includes the files of all rules without wildcards, the files `more`, and all their
-        sources. A target is left out if the configuration lacks its studies. If it is for the
-        check, the workflow fails at its end unless all is current.
-        """
-        self.checked = checks
-        found: dict[str, str] = {}
-        for path in (*self._makers[0], *more):
-            with contextlib.suppress(Exception):
-                for recipe in self._with_sources(path):
-                    found |= recipe.expected()
-        file = f"{self._place}/expected"
-        write(Path(file), as_json(found))
-        return file
-
-    def _with_sources(self, path: str) -> Iterator[Recipe]:
-        """The recipes of a file and of all its sources, direct or not."""
-        seen: set[str] = set()
-        waiting = [path]
-        while waiting:
-            found = self._recipe(waiting.pop())
-            if found is not None and found.name not in seen:
-                seen.add(found.name)
-                waiting += self._inputs[found.name]
-                yield from (found, *found.parts)
+        for pattern, rule in patterns:
+            found = pattern.match(path)
+            if found:
+                return self._of_rule(rule, found.groupdict())
+        return None
 
     def _of_rule(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
+        """The recipe of a rule, from its outputs, inputs and parameters."""
         mark = (rule, *wildcards.values())
-        if mark not in self._known:
-            self._known[mark] = self._made(rule, wildcards)
-        return self._known[mark]
-
-    def _made(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
-        """Make the recipe of a rule from its outputs, inputs and parameters."""
+        if mark in self._known:
+            return self._known[mark]
         asked = getattr(self._rules, rule)
         names = SimpleNamespace(**wildcards)
         files = {str(file): file for file in (f.apply_wildcards(wildcards) for f in asked.output)}
         self._files |= files
-        own = ((role, value) for role, value in asked.input.items() if role != "recipe")
-        inputs = {role: _evaluated(value, names) for role, value in own}
+        inputs = {
+            role: _evaluated(value, names)
+            for role, value in asked.input.items()
+            if role != "recipe"
+        }
         params = {name: _evaluated(value, names) for name, value in asked.params.items()}
         waited_for = inputs.pop("after", [])  # batches; `reads` names the files that are read
-        reads = params.pop("reads", {})
-        sources = inputs | {role: self._placed(paths) for role, paths in reads.items()}
+        sources = inputs | {
+            role: self._placed(paths) for role, paths in params.pop("reads", {}).items()
+        }
         parts = [self._recipe(path) for path in self._placed(params.pop("makes", []))]
         recipe = Recipe(
             name=self._name(next(iter(files))),
@@ -236,7 +234,7 @@ class Plan:
         )
         needed = (*inputs.values(), waited_for)
         self._inputs[recipe.name] = [path for paths in needed for path in listed(paths)]
-        return recipe
+        return self._known.setdefault(mark, recipe)
 
     def _placed(self, paths: Paths) -> Paths:
         """Paths with the prefix of a module; Snakemake adds it to inputs, not to parameters."""
@@ -246,10 +244,6 @@ class Plan:
             return paths
         return self.prefix + paths
 
-    def _name(self, file: str) -> str:
-        """The name of a result: the path of its first file without the suffix."""
-        return file.removeprefix(f"{self.results}/").rpartition(".")[0]
-
     def _source(self, paths: Paths) -> Paths:
         """Paths of sources: results in the store, other files as they are."""
         if not isinstance(paths, str):
@@ -257,47 +251,57 @@ class Plan:
         found = self._recipe(str(paths))
         return str(paths) if found is None else found.stored(str(paths))
 
+    def _name(self, file: str) -> str:
+        """The name of a result: the path of its first file without the suffix."""
+        return file.removeprefix(f"{self.results}/").rpartition(".")[0]
+
     def _file_of(self, rule: str, wildcards: Mapping[str, str]) -> str:
         """The file with the recipe of a job; the process that plans writes it.
 
         A job on another machine takes the one that was planned, even if the configuration has
         changed since then.
         """
-        first = getattr(self._rules, rule).output[0].apply_wildcards(wildcards)
-        name = self._name(str(first))
         plans = self._workflow.is_main_process
-        if not plans and name in self._planned:
-            return f"{self._place}/{name}.{self._planned[name]}.json"
+        if not plans:
+            name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
+            if name in self._planned:
+                return f"{self._place}/{name}.{self._planned[name]}.json"
         recipe = self._of_rule(rule, wildcards)
-        file = Path(f"{self._place}/{name}.{recipe.key}.json")
+        file = f"{self._place}/{recipe.name}.{recipe.key}.json"
         if plans:
             self._write(rule, recipe, file)
-        return str(file)
+        return file
 
     def _write(
         self,
         rule: str,
         recipe: Recipe,
-        file: Path,
+        file: str,
     ) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
         if self.runs:
             self._update_views(recipe)
-        shown = is_shown(recipe, self.store)
-        if not self.runs and not (shown and is_linked(recipe)):
-            self._kept[rule] += all(map(self._is_kept, recipe.needed))
-            for path in filter(is_broken, map(Path, recipe.files)):  # Snakemake stops at them
-                path.unlink(missing_ok=True)
-                self._refresh(str(path))
+        shown = recipe.is_shown(self.store)
+        if not self.runs and not (shown and _is_linked(recipe)):
+            # a run would start no job; an entry elsewhere is not checked
+            self._kept[rule] += all(
+                one.is_in(self.store)
+                or any(os.path.isfile(other.entry(one.key) / NOTE) for other in self._others)
+                for one in recipe.needed
+            )
+            for path in recipe.files:
+                if os.path.islink(path) and not os.path.exists(path):  # Snakemake stops at it
+                    Path(path).unlink(missing_ok=True)
+                    self._refresh(path)
         newest = max(map(_time, recipe.files))
-        if shown and _time(str(file)) != 0.0:
-            write(file, recipe.text(""))
+        if shown and _time(file) != 0.0:
+            write(Path(file), as_json({"planned": "", **vars(recipe)}))
             os.utime(file, (0, 0))
-        elif not shown and (_time(str(file)) <= newest or not self._beside_a_run):
-            write(file, recipe.text(str(time.time_ns())))
-            if newest >= _time(str(file)):  # a clock was wrong
+        elif not shown and (_time(file) <= newest or not self._beside_a_run):
+            write(Path(file), as_json({"planned": str(time.time_ns()), **vars(recipe)}))
+            if newest >= _time(file):  # a clock was wrong
                 os.utime(file, (newest + 1.0, newest + 1.0))
-        self._refresh(str(file))
+        self._refresh(file)
         if self.runs:  # note it for its job, and leave no recipe of another result of this name
             with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as planned:
                 print(recipe.name, recipe.key, file=planned)
@@ -308,13 +312,13 @@ class Plan:
         """Show the results that the stores have, and remove files that show other ones."""
         self._taken += len(recipe.obtained(self.store, self._others))
         for one in (recipe, *recipe.parts):
-            if is_shown(one, self.store) and is_linked(one):
+            if one.is_shown(self.store) and _is_linked(one):
                 continue
             keys = {one.key, *self._written.get(one.name, ())}
             for path, name in zip(one.files, one.names, strict=True):
                 withdraw(Path(path), [self.store.entry(key) / name for key in keys])
             if one.is_in(self.store):
-                show(one)
+                one.show()
                 self._shown += one is recipe
                 for path in one.files:
                     # Snakemake's note is about another result
@@ -334,10 +338,10 @@ class Plan:
             if facts:
                 facts.pop(path, None)
 
-    def _is_kept(self, one: Recipe) -> bool:
-        """Whether a store has a result; an entry elsewhere is not checked."""
-        elsewhere = (other.entry(one.key) / NOTE for other in self._others)
-        return one.is_in(self.store) or any(map(os.path.isfile, elsewhere))
+
+def _is_linked(recipe: Recipe) -> bool:
+    """Whether the files are links; then Snakemake sees the time of the result."""
+    return not recipe.call or all(map(os.path.islink, recipe.files))
 
 
 def _time(path: str) -> float:

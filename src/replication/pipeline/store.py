@@ -22,7 +22,7 @@ from typing import Any
 from nucleation.datasets import DatasetError
 from nucleation.datasets.files import flush, sealed
 
-from .messages import LOGGER
+from . import LOGGER
 
 NOTE = "entry.json"
 STEM = "result"  # of the files of an entry
@@ -51,18 +51,20 @@ def read_note(
     key = key or entry.name
     try:
         note = json.loads(_regular(entry / NOTE, 1, _LARGEST_NOTE).read_bytes())
-        files = note["files"].items()
+        files = note["files"]
         if note["key"] != key:
             raise DatasetError(f"{entry} holds the result of another key")
-        plain = all(_FILE.fullmatch(name) for name in note["files"])  # none leads out of the entry
+        plain = all(_FILE.fullmatch(name) for name in files)  # none leads out of the entry
         if entry.is_symlink() or not files or not plain:
             raise DatasetError(f"{entry} is damaged: it is a link, or its note names other files")
-        if not note["files"].keys() >= set(names):
+        if not files.keys() >= set(names):
             raise DatasetError(f"{entry} is damaged: it lacks files of the result")
-        for name, about in files:
+        for name, about in files.items():
             path = _regular(entry / name, about["size"], about["size"])
-            if whole:
-                _check_bytes(path, about["sha256"], key)
+            if whole and digest_of_file(path) != about["sha256"]:
+                raise DatasetError(f"{path} is damaged: it differs from the file that was written")
+            if whole and path.suffix == ".nc" and sealed(path, whole=False).get("key") != key:
+                raise DatasetError(f"{path} is the result of another key")
     except DatasetError:
         raise
     except OSError as error:
@@ -80,17 +82,27 @@ def _regular(path: Path, smallest: int, largest: int) -> Path:
     return path
 
 
-def _check_bytes(path: Path, digest: str, key: str) -> None:
-    """Raise DatasetError if a file of an entry has another digest, or another key in its seal."""
-    if digest_of_file(path) != digest:
-        raise DatasetError(f"{path} is damaged: it differs from the file that was written")
-    if path.suffix == ".nc" and sealed(path, whole=False).get("key") != key:
-        raise DatasetError(f"{path} is the result of another key")
+def is_right(entry: Path, names: Collection[str] = ()) -> bool:
+    """Whether all bytes of an entry are those that were written."""
+    try:
+        read_note(entry, whole=True, names=names)
+    except DatasetError:
+        return False
+    return True
 
 
 def _newest(entry: Path) -> int:
     """The newest time (ns) at which the inode of a file in an entry changed; no program sets it."""
-    return max(path.lstat().st_ctime_ns for path in entry.iterdir())
+    return max((path.lstat().st_ctime_ns for path in entry.iterdir()), default=0)
+
+
+def _mark(entry: Path, newest: int) -> None:
+    """Note in the time of an entry that its bytes are right, if it is not another user's.
+
+    It is another time after any file was made or removed there.
+    """
+    with contextlib.suppress(OSError):
+        os.utime(entry, ns=(newest, newest))
 
 
 class Store:
@@ -105,31 +117,26 @@ class Store:
         return self.directory / key
 
     def has(self, key: str, names: Collection[str] = ()) -> bool:
-        """Whether there is a right entry that has these files; a wrong one is reported once."""
-        if key not in self._known:
-            self._known[key] = os.path.lexists(self.entry(key))
-            try:
-                if self._known[key]:
-                    self._check(self.entry(key), names)
-            except DatasetError as error:
-                self._known[key] = False
-                LOGGER.warning(f"Not used: {error}")
-        return self._known[key]
+        """Whether there is a right entry that has these files; a wrong one is reported once.
 
-    def _check(self, entry: Path, names: Collection[str]) -> None:
-        """Check an entry; all bytes are read if a file may have changed since that was done.
-
-        Then the entry's own time was set to the newest time of a file's inode; it is another one
-        after any file was made or removed there.
+        All bytes are read if a file may have changed since that was done.
         """
+        if key in self._known:
+            return self._known[key]
+        entry = self.entry(key)
+        self._known[key] = os.path.lexists(entry)
+        if not self._known[key]:
+            return False
         try:
             newest = _newest(entry)
             changed = entry.lstat().st_mtime_ns != newest
-        except (OSError, ValueError):
-            raise DatasetError(f"{entry} is damaged: it is no directory with files") from None
-        read_note(entry, whole=changed, names=names)
-        if changed:
-            _mark(entry, newest)
+            read_note(entry, whole=changed, names=names)
+            if changed:
+                _mark(entry, newest)
+        except (OSError, DatasetError) as error:
+            self._known[key] = False
+            LOGGER.warning(f"Not used: {error}")
+        return self._known[key]
 
     def listed(self) -> list[str]:
         """Keys of all entries, right or wrong."""
@@ -143,23 +150,15 @@ class Store:
     ) -> None:
         """Make an entry by a function that writes its files into a directory.
 
-        `about` has further values of the note. After a crash the entry is complete or missing.
+        `about` has further values of the note.
         """
-        with self._unfinished() as place:
+        with self._new(key) as place:
             make(place)
             files = {}
             for path in sorted(place.iterdir()):
                 files[path.name] = {"size": path.stat().st_size, "sha256": digest_of_file(path)}
             note = {"key": key, "files": files, **about}
-            (place / NOTE).write_text(
-                json.dumps(
-                    note,
-                    indent=1,
-                    sort_keys=True,
-                )
-                + "\n"
-            )
-            self._publish(place, key)
+            (place / NOTE).write_text(json.dumps(note, indent=1, sort_keys=True) + "\n")
 
     def take(
         self,
@@ -177,63 +176,67 @@ class Store:
                     self._copy(other.entry(key), names)
                     return other.directory
             except (OSError, DatasetError) as error:
-                LOGGER.warning(f"Not taken from {other.directory}: {_in_a_line(error)}")
+                reason = " ".join(f"{type(error).__name__}: {error}".split())
+                LOGGER.warning(f"Not taken from {other.directory}: {reason}")
                 if not isinstance(error, (DatasetError, FileNotFoundError)):
                     others.remove(other)
         return None
 
-    def give(self, entry: Path) -> None:
-        """Copy an entry of another store into this one, unless a right one is there already."""
-        if not os.access(self.directory, os.W_OK):
-            return
-        with contextlib.suppress(DatasetError):
-            read_note(self.entry(entry.name), whole=True)
-            return
-        self._copy(entry, ())
+    def give(self, key: str, others: "list[Store]") -> None:
+        """Copy an entry to the stores elsewhere that lack it.
+
+        One that is out of reach is reported and removed from the list.
+        """
+        for other in list(others):
+            try:
+                if os.access(other.directory, os.W_OK) and not is_right(other.entry(key)):
+                    other._copy(self.entry(key), ())
+            except (OSError, DatasetError) as error:
+                reason = " ".join(f"{type(error).__name__}: {error}".split())
+                LOGGER.warning(f"Not kept in {other.directory}: {reason}")
+                others.remove(other)
 
     def _copy(self, entry: Path, names: Collection[str]) -> None:
         """Copy the note of another store's entry, and the files that it names, once checked."""
         files = read_note(entry, whole=True, names=names)["files"]
-        with self._unfinished() as place:
+        with self._new(entry.name) as place:
             for name in (NOTE, *files):
                 shutil.copyfile(entry / name, place / name)
                 made = (entry / name).stat().st_mtime_ns
                 os.utime(place / name, ns=(made, made))
             read_note(place, entry.name, whole=True)
-            self._publish(place, entry.name)
 
     @contextlib.contextmanager
-    def _unfinished(self) -> Iterator[Path]:
-        """Yield a directory without a key; it is removed unless it was renamed."""
+    def _new(self, key: str) -> Iterator[Path]:
+        """Yield a directory, and rename it to the key once its files are written.
+
+        A right entry of a faster process stays. After a crash an entry is complete or missing.
+        """
         place = self.directory / f".{uuid.uuid4().hex}.tmp"
         place.mkdir(parents=True)
         try:
             yield place
+            names = {path.name for path in place.iterdir()} - {NOTE}
+            for path in place.iterdir():
+                path.chmod(path.stat().st_mode & 0o444)  # nobody changes it through a link
+                flush(path)
+            _mark(place, _newest(place))
+            flush(place)
+            for last in (False, True):
+                try:
+                    place.rename(self.entry(key))
+                except OSError:  # an entry exists
+                    if is_right(self.entry(key), names):
+                        break
+                    if last:
+                        raise
+                    self.set_aside(key)
+                else:
+                    break
+            self._known.pop(key, None)
+            flush(self.directory)
         finally:
             shutil.rmtree(place, ignore_errors=True)
-
-    def _publish(self, place: Path, key: str) -> None:
-        """Rename a finished directory to its key; a right entry of a faster process stays."""
-        names = {path.name for path in place.iterdir()} - {NOTE}
-        for path in place.iterdir():
-            path.chmod(path.stat().st_mode & 0o444)  # nobody changes it through a link
-            flush(path)
-        _mark(place, _newest(place))
-        flush(place)
-        self._known.pop(key, None)
-        try:
-            place.rename(self.entry(key))
-        except OSError:  # an entry exists
-            with contextlib.suppress(DatasetError):
-                read_note(self.entry(key), whole=True, names=names)
-                return
-            self.set_aside(key)
-            try:
-                place.rename(self.entry(key))
-            except OSError:
-                if not self.has(key):  # else another process has just published one
-                    raise
-        flush(self.directory)
 
     def set_aside(self, key: str) -> None:
         """Rename a wrong entry; its owner may be another user."""
@@ -253,12 +256,6 @@ class Store:
             shutil.rmtree(gone)
 
 
-def _mark(entry: Path, newest: int) -> None:
-    """Note in the time of an entry that its bytes are right, if it is not another user's."""
-    with contextlib.suppress(OSError):
-        os.utime(entry, ns=(newest, newest))
-
-
 def others(strict: bool = True) -> list[Store]:
     """The stores elsewhere, from the environment.
 
@@ -275,17 +272,3 @@ def others(strict: bool = True) -> list[Store]:
             raise DatasetError(problem)
         LOGGER.warning(f"Not used: {problem}")
     return found
-
-
-def give_all(entry: Path, others: list[Store]) -> None:
-    """Copy a new entry to stores elsewhere; one out of reach is reported and leaves the list."""
-    for other in list(others):
-        try:
-            other.give(entry)
-        except (OSError, DatasetError) as error:
-            LOGGER.warning(f"Not kept in {other.directory}: {_in_a_line(error)}")
-            others.remove(other)
-
-
-def _in_a_line(error: Exception) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split())

@@ -105,7 +105,7 @@ def measured_runs(
 ) -> xr.Dataset:
     """The rows of a job's runs, which are also printed; without those that have no record.
 
-    ``records.map`` has the results of a function of the number and the record of each run.
+    `records` has the results of a function of the number and the record of each run.
     """
 
     def measured(i: int, record: xr.Dataset) -> xr.Dataset:
@@ -123,7 +123,7 @@ def measured_runs(
         )
         return row
 
-    rows = records.map(measured)
+    rows = records(measured)
     return join(rows) if rows else xr.Dataset()  # an empty one is not kept
 
 
