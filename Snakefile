@@ -51,8 +51,8 @@ launch = runpy.run_path(str(Path(SOURCE, "replication", "pipeline", "launch.py")
 launch["make_checked"](Path(SOURCE))
 os.environ["NUMBA_CACHE_DIR"] = str(launch["cache_of_numba"](Path(SOURCE, "nucleation")))
 
-from replication.configuration.advice import advise, summary_of_meshes, warned
-from replication.configuration.contradictions import directory_problem
+from replication.configuration.advice import summary_of_meshes, warned
+from replication.configuration.checks import directory_problem
 from replication.configuration.load import completed, configure
 from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
 from replication.configuration.roles import PAIRS as PAIR_ROLES
@@ -60,7 +60,7 @@ from replication.configuration.runs import first_realisations, varied
 from nucleation.run.checks import estimated_megabytes
 from nucleation.fault.strict_yaml import read_yaml
 from nucleation.run.names import parameters
-from replication.configuration.theory_curves import theory_curves
+from replication.configuration.studies import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication import figures

@@ -18,7 +18,7 @@ SCIENCE = ("scipy", "pandas", "jsonschema")
 CONFIGURATION = """
 from replication.configuration import advice, load
 settings = load.load()
-advice.advise(settings.runs)
+advice.warned(settings.runs)
 """
 LAZY = """
 from replication.configuration import load

@@ -11,10 +11,14 @@ from nucleation.fem.grid import Grid
 from nucleation.model.friction import Friction
 from nucleation.run.estimates import element_height, steepness
 from nucleation.run.run import PAPER_RUN
-from replication.configuration.advice import advise, summary_of_meshes, warned
+from replication.configuration.advice import summary_of_meshes, warned
 from replication.configuration.load import configure
 
 GOOD = {"height": 0.005, "n_x": 400}
+
+
+def advise(runs):
+    return [warning.text for warning in warned(runs)]
 
 
 def advice(*runs, **settings):

@@ -8,7 +8,7 @@ from configurations import PAPER, assert_one_problem, changed, messages, study, 
 
 from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from replication.configuration.contradictions import directory_problem
+from replication.configuration.checks import directory_problem
 from replication.configuration.load import configure
 
 RUN, LAST = "studies.s.runs[0]", "studies.paper.runs[6]"

@@ -12,12 +12,10 @@ from nucleation.model.friction import Friction
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.run.run import PAPER_RUN, Run
-from replication.configuration.checks import entries_of
 from replication.configuration.load import configure, load
-from replication.configuration.names import SECTIONS
 from replication.configuration.runs import first_realisations
-from replication.configuration.settings import GROUPS
-from replication.configuration.theory_curves import theory_curves
+from replication.configuration.settings import GROUPS, SECTIONS, entries_of
+from replication.configuration.studies import theory_curves
 
 MAIN_TEXT = papers().main_text
 

@@ -7,7 +7,7 @@ from configurations import CONFIG
 
 from nucleation.extraction.extraction import extract
 from nucleation.simulation.run import simulate
-from replication.configuration.advice import advise
+from replication.configuration.advice import warned
 from replication.configuration.load import load
 
 EXAMPLES = sorted((CONFIG / "examples").glob("*.yaml"))
@@ -22,7 +22,7 @@ def test_examples_are_there():
 def test_example_is_valid_and_needs_no_warning(path):
     config = load(path)
     assert config.results == f"results/{path.stem}"
-    assert advise(config.runs) == []
+    assert warned(config.runs) == []
     assert f"config/examples/{path.name}" in path.read_text(), "how to run it"
 
 

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from nucleation.model.quantities import ParameterError
 from nucleation.run.names import parameters
-from replication.configuration.checks import entries_of, value_problems
+from replication.configuration.checks import Reader
 from replication.configuration.load import configure
-from replication.configuration.settings import GROUPS
+from replication.configuration.settings import GROUPS, entries_of
 
 DECLARED = {
     f"{group}.{name}": entry for group in GROUPS for name, entry in entries_of(group).items()
@@ -37,14 +37,17 @@ def values(entry):
 def test_a_value_is_allowed_as_its_declaration_says(key, data):
     entry = DECLARED[key]
     value = data.draw(values(entry))
-    allowed = entry.allows((value,) if entry.many and value is not None else value)
+    meant = 1.0 if value == "1.0" and not entry.worded else value  # YAML reads 1e-8 as text
+    allowed = entry.allows((meant,) if entry.many and meant is not None else meant)
     allowed &= value not in (math.inf, -math.inf)  # YAML has it, and no parameter takes it there
     group, name = key.split(".")
     if group == "studies":
         config = {"studies": {"s": {"runs": [{"height": 1.0}], "defaults": {name: value}}}}
     else:
         config = {group: {name: value}, "studies": {"s": {"runs": [{"height": 1.0}]}}}
-    assert (list(value_problems(config)) == []) == allowed
+    reader = Reader()
+    reader.configuration(config)
+    assert (reader.problems == []) == allowed
 
 
 FORMS = st.recursive(

@@ -75,7 +75,7 @@ rule simulation:
     params:
         call=f"{SIMULATION}:simulate",
         loads=lambda wildcards: plugins(run_of(wildcards.name).run.law),
-        parameters=lambda wildcards: run_of(wildcards.name).run.to_dict(),
+        parameters=lambda wildcards: run_of(wildcards.name).parameters,
     shell:
         JOB
 

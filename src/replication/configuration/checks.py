@@ -1,36 +1,47 @@
-"""Problems with the values of a configuration, one line for each."""
+"""From the YAML of a configuration to values in their declared types, and all of its problems."""
 
 import math
+import os
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from functools import cache, partial
-from typing import Any, cast
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import numpy as np
 
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.model.hints import hint
-from nucleation.model.quantities import ParameterError, Quantity, declarations, refusal
+from nucleation.model.quantities import ParameterError, Quantity, check, declarations, refusal
+from nucleation.model.settings import STUCK_BELOW
 from nucleation.model.units import parse
-from nucleation.run.names import parameters
+from nucleation.run.checks import contradictions, memory_problem
+from nucleation.run.names import in_type, parameters
 
-from .names import LARGEST_GRID, RANGE, SECTIONS, grid_size, range_problem
-from .settings import GROUPS, StudySettings
+from .roles import LITERATURE, OWN, WEAKENING_PATCHES
+from .runs import StudyRun
+from .settings import GROUPS, RANGE, SECTIONS, Settings, StudySettings, entries_of
 
-_Place = tuple[object, ...]
-"""Keys and numbers of items from the top of the configuration to a value."""
-
-_Check = Callable[[_Place, object], Iterator[str]]
-"""A function that yields the problems with a value at a place of the configuration."""
-
-_Problems = Iterator[str]
-"""Messages, one for each problem."""
+_Read = Callable[[str, Any], Any]
+"""A function that reads a value at a place of the configuration."""
 
 _RESULTS = Quantity("directory of all results", kind="str")
 
 _STUDY_NAME = "[A-Za-z][A-Za-z0-9_]{0,59}"
 """Pattern of the names of studies."""
 
+_LARGEST_GRID = 10000
+"""Most simulations of one entry of a study."""
+
 _LONGEST_QUOTE = 80
 """Characters of a value in a message; longer values are cut."""
+
+_LONGEST_ID = 200
+"""Most characters of an identifier; a file's name adds suffixes, and has at most 255 bytes."""
+
+_CODE = ("src", "workflow", "profiles", "config", "docs", "tests")
+"""Directories of the checkout that can't be the directory of results."""
 
 
 def stop_on(problems: Iterable[str]) -> None:
@@ -42,269 +53,239 @@ def stop_on(problems: Iterable[str]) -> None:
         raise ParameterError(f"the configuration has {count}:{listing}")
 
 
-def entries_of(section: str) -> dict[str, Quantity]:
-    """The keys of a section of a configuration and their declarations."""
-    if section in GROUPS:
-        return declarations(GROUPS[section])
-    return {name: parameters()[name] for name in SECTIONS[section]}
+class Reader:
+    """Reads a configuration, and collects its problems, each with key, value, unit and range.
 
-
-def with_numbers(values: Any) -> Any:
-    """A copy of a configuration as read from YAML, with texts such as ``30 GPa`` as numbers.
-
-    YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text. A text that is not an allowed number is
-    kept; a later check refuses it.
+    YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text; they are read as numbers here.
     """
-    if not isinstance(values, dict):
-        return values
-    found = {}
-    for section, content in values.items():
-        if section in GROUPS or section in SECTIONS:
-            content = _read(content, entries_of(section))
-        elif section == "studies":
-            content = _read(content, {**parameters(), **declarations(StudySettings)})
-        found[section] = content
-    return found
 
+    def __init__(self) -> None:
+        self.problems: list[str] = []
 
-def _read(value: Any, entries: Mapping[str, Quantity], entry: Quantity | None = None) -> Any:
-    """A value with its texts as numbers; `entry` is the declaration of its key, if it has one."""
-    if isinstance(value, dict):
-        found = {}
-        for key, own in value.items():
-            known = RANGE.get(key) if entry else None
-            found[key] = _read(
-                own,
-                entries,
-                known or entries.get(key) or entry,
-            )
+    def configuration(self, values: Any) -> dict[str, Any]:
+        """A whole configuration; its values count only if there is no problem."""
+        keys: dict[str, _Read] = {"results": partial(self.single, _RESULTS)}
+        for section in (*SECTIONS, *GROUPS):
+            own: dict[str, _Read] = {}
+            for key, entry in entries_of(section).items():
+                own[key] = partial(self.several if entry.many else self.single, entry)
+            keys[section] = partial(self.mapping, own)
+        keys["studies"] = self.studies
+        return self.mapping(keys, "", values)
+
+    def studies(self, place: str, given: Any) -> dict[str, Any]:
+        """The section ``studies``."""
+        one: dict[str, _Read] = {}
+        several: dict[str, _Read] = {}
+        for name, entry in parameters().items():
+            one[name] = partial(self.single, entry)
+            several[name] = partial(self.several, entry)
+        several["defaults"] = partial(self.mapping, one)
+        keys: dict[str, _Read] = {
+            name: partial(self.single, entry) for name, entry in declarations(StudySettings).items()
+        }
+        keys["defaults"] = several["defaults"]
+        keys["runs"] = partial(self.listed, partial(self.entry, several))
+        names = list(given) if isinstance(given, dict) else []
+        for name in names:
+            if not (isinstance(name, str) and re.fullmatch(_STUDY_NAME, name)):
+                self.problems.append(
+                    f"{place}: {name!r} is not allowed as a name: it must be made of at "
+                    "most 60 letters, digits and _, beginning with a letter"
+                )
+        read = partial(self.mapping, keys, needed=["runs"])
+        return self.mapping(dict.fromkeys(names, read), place, given, filled=True)
+
+    def entry(self, keys: Mapping[str, _Read], place: str, given: Any) -> dict[str, Any]:
+        """An entry of a study's runs, with all values of each parameter."""
+        found = self.mapping(keys, place, given, filled=True)
+        size = math.prod(len(own) for key, own in found.items() if key != "defaults")
+        if size > _LARGEST_GRID:
+            self.problems.append(f"{place} has {size} simulations, more than {_LARGEST_GRID}")
         return found
-    if isinstance(value, list):
-        return [_read(own, entries, entry) for own in value]
-    if not isinstance(value, str) or entry is None:
-        return value
-    try:
-        return parse("", value, entry.element)
-    except ParameterError:
-        return value
 
+    def mapping(
+        self,
+        keys: Mapping[str, _Read],
+        place: str,
+        given: Any,
+        *,
+        needed: Iterable[str] = (),
+        filled: bool = False,
+    ) -> dict[str, Any]:
+        """A mapping; `keys` read the values of its keys."""
+        if not isinstance(given, dict):
+            of = place or "the configuration"
+            rule = "must be a mapping (lines of key: value)"
+            self.problems.append(f"{of} = {_quoted(given)} {rule}")
+            return {}
+        missing = [key for key in needed if key not in given]
+        if missing:
+            self.problems.append(f"{place} lacks the key {', '.join(missing)}")
+        if filled and not given:
+            self.problems.append(f"{place} = {given!r} is empty: it needs at least one entry")
+        found = {}
+        for key, value in given.items():
+            below = f"[{key}]" if isinstance(key, int) else f".{key}"
+            inner = (place + below).lstrip(".")
+            if key in keys:
+                found[key] = keys[key](inner, value)
+                continue
+            suggestion = hint(str(key), keys) or f"known keys: {', '.join(keys)}"
+            refused = f"{inner} = {_quoted(value)} is not allowed: unknown key"
+            self.problems.append(f"{refused}; {suggestion}")
+        return found
 
-def value_problems(values: object) -> _Problems:
-    """Unknown keys, missing keys and values that are not allowed, in a whole configuration."""
-    checks: dict[str, _Check] = {"results": partial(_single, _RESULTS)}
-    for section in (*SECTIONS, *GROUPS):
-        keys: dict[str, _Check] = {}
-        for key, entry in entries_of(section).items():
-            check = _several if entry.many else _single
-            keys[key] = partial(check, entry)
-        checks[section] = partial(_mapping, keys)
-    checks["studies"] = _studies
-    yield from _mapping(checks, (), values)
+    def listed(self, read: _Read, place: str, given: Any) -> list[Any]:
+        """A list; `read` reads its items."""
+        if not isinstance(given, list):
+            self.problems.append(f"{place} = {_quoted(given)} must be a list")
+            return []
+        if not given:
+            self.problems.append(f"{place} = {given!r} is empty: it needs at least one entry")
+        return [read(f"{place}[{number}]", value) for number, value in enumerate(given)]
 
+    def single(self, entry: Quantity, place: str, value: Any) -> Any:
+        """One value in its declared type; no number may be infinite."""
+        try:
+            if isinstance(value, str) and not entry.worded:
+                value = parse(place, value, entry)
+            check(place, value, entry)
+            if not (value is None or entry.worded or abs(value) <= sys.float_info.max):
+                raise ParameterError(refusal(place, value, entry))
+        except ParameterError as error:
+            is_evolution = place.endswith("friction_law") and value in list(EVOLUTIONS)
+            advice = "; the evolution of the state is called evolution" if is_evolution else ""
+            self.problems.append(f"{error}{advice}")
+            return value
+        return in_type(entry, value)
 
-def _studies(place: _Place, given: object) -> _Problems:
-    """Problems with the section ``studies``."""
-    if not isinstance(given, dict):
-        yield _no_mapping(place, given)
-        return
-    if not given:
-        yield _empty(place, given)
-    for name, study in given.items():
-        if isinstance(name, str) and re.fullmatch(_STUDY_NAME, name):
-            check = _check_of_study()
-            yield from check((*place, name), study)
+    def several(self, entry: Quantity, place: str, value: Any) -> tuple[Any, ...]:
+        """The values of a value, of a list of different values or of a range, in their order.
+
+        Values of a range are rounded to six significant digits, so that identifiers have them
+        exactly.
+        """
+        read = partial(self.single, entry.element)
+        before = len(self.problems)
+        if isinstance(value, list):
+            values = self.listed(read, place, value)
+            if len(self.problems) == before and len(set(values)) < len(values):
+                self.problems.append(f"{place} = {_quoted(value)} has a value twice")
+            return tuple(values)
+        if not isinstance(value, dict) or entry.choices or entry.kind == "int":
+            return (read(place, value),)
+        keys: dict[str, _Read] = dict.fromkeys(("start", "stop"), read)
+        keys |= {name: partial(self.single, declared) for name, declared in RANGE.items()}
+        given = self.mapping(keys, place, value, needed=("start", "stop", "num"))
+        if len(self.problems) > before:
+            return ()
+        start, stop, number = given["start"], given["stop"], given["num"]
+        logarithmic = given.get("scale") == "log"
+        if not start < stop:
+            problem = f"start {start!r} must be less than stop {stop!r}"
+        elif logarithmic and not start > 0.0:
+            problem = f"start {start!r} must be positive on a log scale"
         else:
-            yield (
-                f"{_key_text(place)}: {name!r} is not allowed as a name: it must be made of at "
-                "most 60 letters, digits and _, beginning with a letter"
-            )
-
-
-@cache
-def _check_of_study() -> _Check:
-    """The check of one study."""
-    single: dict[str, _Check] = {}
-    varied: dict[str, _Check] = {}
-    for name, entry in parameters().items():
-        single[name] = partial(_single, entry)
-        varied[name] = partial(_several, entry)
-    defaults = partial(_mapping, single)
-    varied["defaults"] = defaults
-    entry_of_runs = partial(_mapping, varied, filled=True)
-
-    keys: dict[str, _Check] = {}
-    for name, entry in declarations(StudySettings).items():
-        keys[name] = partial(_single, entry)
-    keys["defaults"] = defaults
-    keys["runs"] = partial(_list, entry_of_runs)
-    return partial(_mapping, keys, needed=["runs"])
-
-
-def _mapping(
-    checks: Mapping[str, _Check],
-    place: _Place,
-    given: object,
-    *,
-    needed: Iterable[str] = (),
-    filled: bool = False,
-) -> _Problems:
-    """Problems with a mapping; `checks` are those of its keys."""
-    if not isinstance(given, dict):
-        yield _no_mapping(place, given)
-        return
-    missing = [key for key in needed if key not in given]
-    if missing:
-        yield f"{_key_text(place)} lacks the key {', '.join(missing)}"
-    if filled and not given:
-        yield _empty(place, given)
-    for key in given:
-        if key not in checks:
-            yield _unknown_key((*place, key), given[key], checks)
-    for key, value in given.items():
-        if key in checks:
-            check = checks[key]
-            yield from check((*place, key), value)
-
-
-def _list(
-    check: _Check,
-    place: _Place,
-    given: object,
-) -> _Problems:
-    """Problems with a list; `check` is that of its items."""
-    if not isinstance(given, list):
-        yield f"{_key_text(place)} = {_quoted(given)} must be a list"
-        return
-    if not given:
-        yield _empty(place, given)
-    for number, value in enumerate(given):
-        yield from check((*place, number), value)
-
-
-def _single(
-    entry: Quantity,
-    place: _Place,
-    value: object,
-) -> _Problems:
-    """Problems with one value."""
-    if _allowed(value, entry):
-        return
-    text = _refusal(_key_text(place), value, entry)
-    if place[-1] == "friction_law" and value in list(EVOLUTIONS):
-        text += "; the evolution of the state is called evolution"
-    yield text
-
-
-def _several(
-    entry: Quantity,
-    place: _Place,
-    value: object,
-) -> _Problems:
-    """Problems with a value, a list of different values or a range."""
-    check = partial(_single, entry.element)
-    if isinstance(value, list):
-        yield from _list(check, place, value)
-        if _has_repeats(value):
-            yield f"{_key_text(place)} = {_quoted(value)} has a value twice"
-    elif isinstance(value, dict) and not entry.choices and entry.kind != "int":
-        ends = ("start", "stop")
-        keys: dict[str, _Check] = dict.fromkeys(ends, check)
-        for name, declared in RANGE.items():
-            keys[name] = partial(_single, declared)
-        yield from _mapping(keys, place, value, needed=[*ends, "num"])
-    else:
-        yield from check(place, value)
-
-
-def _has_repeats(values: list[object]) -> bool:
-    """Whether a list, possibly of lists and mappings, has a value twice."""
-    seen: list[object] = []
-    for value in values:
-        if value in seen:
-            return True
-        seen.append(value)
-    return False
-
-
-def _allowed(value: object, entry: Quantity) -> bool:
-    """Whether a configuration may have a value; no value may be infinite."""
-    if not entry.allows(value):
-        return False
-    if value is None:
-        return True
-    if entry.worded:
-        return isinstance(value, str)
-    try:
-        return math.isfinite(cast(float, value))
-    except OverflowError:  # an integer beyond the largest float
-        return False
-
-
-def _refusal(key: str, value: object, entry: Quantity) -> str:
-    """The reason why a value or its unit is not allowed."""
-    try:
-        if isinstance(value, str):
-            parse(key, value, entry)
-    except ParameterError as error:
-        return str(error)
-    return refusal(key, value, entry)
-
-
-def _no_mapping(place: _Place, value: object) -> str:
-    return f"{_key_text(place)} = {_quoted(value)} must be a mapping (lines of key: value)"
-
-
-def _empty(place: _Place, value: object) -> str:
-    return f"{_key_text(place)} = {value!r} is empty: it needs at least one entry"
-
-
-def _unknown_key(
-    place: _Place,
-    value: object,
-    known: Collection[str],
-) -> str:
-    key = str(place[-1])
-    suggestion = hint(key, known)
-    if not suggestion:
-        suggestion = f"known keys: {', '.join(known)}"
-    return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {suggestion}"
-
-
-def _key_text(place: _Place) -> str:
-    """A place in the configuration as text, ``studies.paper.runs[0].height``."""
-    text = ""
-    for part in place:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}"
-    return text.lstrip(".") or "the configuration"
+            spaced = (np.geomspace if logarithmic else np.linspace)(start, stop, number)
+            values = [float(f"{x:.6g}") for x in spaced]
+            if len(set(values)) == number:
+                return tuple(values)
+            problem = f"its {number} values from {start!r} on are not all different"
+        self.problems.append(f"{place}: {problem}")
+        return ()
 
 
 def _quoted(value: object) -> str:
     text = repr(value)
-    if len(text) <= _LONGEST_QUOTE:
-        return text
-    return f"{text[: _LONGEST_QUOTE - 4]} ..."
+    return text if len(text) <= _LONGEST_QUOTE else f"{text[: _LONGEST_QUOTE - 4]} ..."
 
 
-def range_problems(values: Mapping[str, Any]) -> _Problems:
-    """Ranges that can't be expanded, and entries of studies with too many simulations."""
-    for group in GROUPS:
-        yield from _ranges_in((group,), values.get(group, {}))
-    for name, study in values["studies"].items():
-        for number, entry in enumerate(study["runs"]):
-            place = ("studies", name, "runs", number)
-            size = grid_size(entry)
-            if size > LARGEST_GRID:
-                yield f"{_key_text(place)} has {size} simulations, more than {LARGEST_GRID}"
-            yield from _ranges_in(place, entry)
+def problems_of_run(key: str, run: StudyRun, settings: Settings) -> Iterator[str]:
+    """Parameters of a run, at a place `key`, that are each allowed but contradict each other."""
+    problems = [
+        *contradictions(run.run),
+        *memory_problem(run.run, "limits.memory", settings.limits.memory),
+    ]
+    extraction = settings.extraction
+    event_drop = run.run.stepping.event_drop
+    measures_drop = run.role not in (LITERATURE, WEAKENING_PATCHES)
+    if measures_drop and event_drop < extraction.drop:
+        problems.append(
+            f"event_drop = {event_drop:g} is not allowed with extraction.drop = "
+            f"{extraction.drop:g}: the run may end before the force has fallen so far; it must lie "
+            f"in [{extraction.drop:g}, 1), or be left out"
+        )
+    low = extraction.edge_threshold_low
+    if run.run.recording.record == "lengths" and low < STUCK_BELOW:
+        problems.append(
+            "record = lengths is not allowed with extraction.edge_threshold_low "
+            f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must "
+            f"be interface, or the threshold in [{STUCK_BELOW:g}, 1]"
+        )
+    if len(run.id) > _LONGEST_ID:
+        problems.append(
+            f"{run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
+            f"characters, more than {_LONGEST_ID}; move values that do not vary into the study's "
+            "defaults"
+        )
+    for problem in problems:
+        yield f"{key}: {problem}"
 
 
-def _ranges_in(
-    place: _Place,
-    section: Mapping[str, Any],
-) -> _Problems:
-    for key, value in section.items():
-        if key == "defaults":  # single values, no ranges
-            continue
-        problem = range_problem(value)
-        if problem:
-            yield f"{_key_text((*place, key))}: {problem}"
+def setting_problems(settings: Settings) -> Iterator[str]:
+    """Settings that no study changes and that contradict each other, a line for each."""
+    low = settings.extraction.edge_threshold_low
+    edge = settings.extraction.edge_threshold
+    high = settings.extraction.edge_threshold_high
+    if not low <= edge <= high:
+        yield (
+            f"extraction: edge_threshold_low = {low:g}, edge_threshold = {edge:g}, "
+            f"edge_threshold_high = {high:g} is not allowed: they must ascend, each in (0, 1]"
+        )
+    if {study.role for study in settings.studies.values()} == {OWN}:
+        return  # no figure of the paper needs the theory's curve
+    fault = settings.main_text
+    for height in (min(settings.curves.heights), max(settings.curves.heights)):
+        if np.isnan(fault.replace(height=height).critical_length()):
+            yield (
+                f"zeta = {fault.zeta:g} with a = {fault.a:g} is not allowed: the theory's curve in "
+                f"Figure 3 needs an instability at H = {height:g} m, and there is none"
+            )
+            return
+
+
+def results_problems(results: str) -> Iterator[str]:
+    """Reasons why a path, in its shortest form, can't be the directory of results."""
+    refused = f"results = {results!r} is not allowed"
+    special = set(results) & set("{}<>*?")
+    if results != results.strip() or not results.isprintable() or special:
+        yield (
+            f"{refused}: a directory must be named without braces, "
+            "< and >, wildcards, control characters, and spaces at its ends"
+        )
+    parts = PurePosixPath(results).parts
+    if set(parts) <= {"/", "//", ".."}:
+        yield f"{refused}: it must be a directory of its own"
+    first = parts[0] if parts else ".."
+    hidden = first.startswith(".") and first != ".."
+    if hidden or first in _CODE:
+        yield (
+            f"{refused}: hidden directories and {', '.join(_CODE)} contain the code that makes "
+            "results"
+        )
+    if results.startswith("~"):
+        yield f"{refused}: write the home directory out in place of ~"
+
+
+def directory_problem(results: str | os.PathLike[str]) -> str | None:
+    """The reason why results can't be written to a directory, which need not exist yet; or None."""
+    for place in (Path(results), Path(results, "store"), Path(results, "logs")):
+        path = place.absolute()
+        while not os.path.lexists(path):
+            path = path.parent
+        if not path.is_dir():
+            return f"results = {str(results)!r} is not allowed: {path} is no directory"
+        if not os.access(path, os.W_OK | os.X_OK):
+            return f"results = {str(results)!r} is not allowed: {path} is not writable"
+    return None

@@ -7,30 +7,22 @@ study is expanded into runs when one of them is first used.
 import dataclasses
 import difflib
 import functools
+import math
 import os
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Hashable
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
-from nucleation.run.names import read
 from nucleation.run.run import PAPER_RUN
 
-from .checks import entries_of, range_problems, stop_on, value_problems, with_numbers
-from .contradictions import (
-    results_directory,
-    results_problems,
-    role_problems,
-    run_problems,
-    setting_problems,
-)
-from .names import SECTIONS, typed
-from .roles import PAPERS, problems_of_studies
-from .runs import StudyRun, shown
-from .settings import GROUPS, Curves, Settings, StudySettings
+from .checks import Reader, problems_of_run, results_problems, setting_problems, stop_on
+from .roles import PAPERS, ROLES, problems_of_studies
+from .runs import StudyRun
+from .settings import GROUPS, SECTIONS, Curves, Settings, StudySettings
 from .studies import study_runs
 
 CHECKOUT = Path(__file__).parents[3]
@@ -39,8 +31,6 @@ DEFAULTS = (
     CHECKOUT / "config" / "beyond.yaml",
 )
 """The default configuration: the paper's, and the studies beyond it."""
-
-_Named = TypeVar("_Named")
 
 
 class _Expanded(NamedTuple):
@@ -68,13 +58,11 @@ class Configuration(Settings):
     @property
     def runs(self) -> tuple[StudyRun, ...]:
         """The runs of all studies, in the configuration's order."""
-        return tuple(self._runs_of_all(self.studies))
+        return tuple(run for study in self.studies for run in self.runs_of(study))
 
     def runs_of(self, study: str) -> list[StudyRun]:
         """The runs of one study, none if there is no such study."""
-        if study not in self.studies:
-            return []
-        return list(self._checked(study).runs.values())
+        return list(self._checked(study).runs.values()) if study in self.studies else []
 
     def studies_for(self, *roles: str) -> list[str]:
         """The names of the studies with some roles, in the configuration's order."""
@@ -82,34 +70,51 @@ class Configuration(Settings):
 
     def runs_for(self, *roles: str) -> list[StudyRun]:
         """The runs of the studies with some roles."""
-        return self._runs_of_all(self.studies_for(*roles))
-
-    def _runs_of_all(self, studies: Iterable[str]) -> list[StudyRun]:
-        return [run for study in studies for run in self.runs_of(study)]
+        return [run for study in self.studies_for(*roles) for run in self.runs_of(study)]
 
     def run(self, identifier: str) -> StudyRun:
         """The run with an identifier such as ``paper-aging-H0.005-phi1``.
 
         A ParameterError names similar identifiers if there is none.
         """
-        study = self._study_in(identifier, "run")
-        return _found("run", identifier, self._checked(study).runs, study)
+        run: StudyRun = self._named("run", identifier)
+        return run
 
     def batch(self, name: str) -> list[StudyRun]:
         """The runs of the batch with a name such as ``paper-0``; one job makes them."""
-        study = self._study_in(name, "batch")
-        return list(_found("batch", name, self._checked(study).batches, study))
+        return list(self._named("batch", name))
+
+    def _named(self, kind: str, name: str) -> Any:
+        """The run or the batch with a name, which begins with the study's."""
+        study = name.partition("-")[0]
+        if study not in self.studies:
+            close = difflib.get_close_matches(study, self.studies, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"studies: {', '.join(self.studies)}"
+            raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
+        expanded = self._checked(study)
+        known: dict[str, Any] = expanded.runs if kind == "run" else expanded.batches
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=3)
+            hint = f"the study {study} has none"
+            if known:
+                hint = f"did you mean {' or '.join(close or list(known)[:1])}?"
+            raise ParameterError(f"there is no {kind} {name}; {hint}")
+        return known[name]
 
     def shown(self, height: float) -> StudyRun:
-        """The run with the role ``paper`` nearest to a height (m), which figures show."""
-        run = shown(self.runs_for(PAPERS), height, self.base)
-        if run is None:
-            age = self.base.fault.initial_state
+        """The run that figures show: of the role ``paper``, the nearest to a height (m).
+
+        It has the configuration's evolution law and initial state.
+        """
+        law, age = self.base.law.evolution, self.base.fault.initial_state
+        wanted = {"evolution": law, "initial_state": age}
+        usual = [run for run in self.runs_for(PAPERS) if wanted.items() <= run.labels.items()]
+        if not usual:
             raise ParameterError(
-                "no study with role: paper has a run with evolution = "
-                f"{self.base.law.evolution} and initial_state = {age:g} s"
+                f"no study with role: paper has a run with evolution = {law} and "
+                f"initial_state = {age:g} s"
             )
-        return run
+        return min(usual, key=lambda run: abs(math.log(run.run.fault.height / height)))
 
     def drawn_curves(self) -> Curves:
         """The theory's curves, with heights beyond either end of the runs in Figure 3."""
@@ -117,89 +122,47 @@ class Configuration(Settings):
         simulated = [run.run.fault.height for run in self.runs_for(PAPERS)]
         low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
         if low < min(heights):
-            heights[:0] = np.geomspace(
-                low,
-                min(heights),
-                20,
-                endpoint=False,
-            ).tolist()
+            heights[:0] = np.geomspace(low, min(heights), 20, endpoint=False).tolist()
         if high > max(heights):
-            heights += np.geomspace(
-                max(heights),
-                high,
-                21,
-            )[1:].tolist()
+            heights += np.geomspace(max(heights), high, 21)[1:].tolist()
         return dataclasses.replace(self.curves, heights=tuple(heights))
 
     def problems_of(self, study: str) -> list[str]:
         """The problems with the runs of a study, one line for each."""
-        return self._expanded(study).problems
+        if study not in self._kept:
+            self._kept[study] = self._expanded(study)
+        return self._kept[study].problems
 
     def _checked(self, study: str) -> _Expanded:
-        expanded = self._expanded(study)
-        stop_on(expanded.problems)
-        return expanded
-
-    def _expanded(self, study: str) -> _Expanded:
-        if study not in self._kept:
-            self._kept[study] = self._expand(study)
+        stop_on(self.problems_of(study))
         return self._kept[study]
 
-    def _expand(self, study: str) -> _Expanded:
-        found = list(study_runs(study, self))
-        runs = [run for _, run in found if isinstance(run, StudyRun)]
-        problems = list(self._run_problems(found))
-        if not problems:
-            problems += role_problems(study, self, runs)
+    def _expanded(self, study: str) -> _Expanded:
+        """The runs of a study, and those that are invalid, repeated, contradictory or missing."""
+        problems: list[str] = []
+        runs: dict[str, StudyRun] = {}
         batches: dict[str, list[StudyRun]] = {}
-        for run in runs:
-            if run.batch:
-                batches.setdefault(run.batch, []).append(run)
-        by_id = {run.id: run for run in runs}
-        return _Expanded(by_id, batches, problems)
-
-    def _run_problems(self, found: Iterable[tuple[str, StudyRun | str]]) -> Iterator[str]:
-        """Runs that are invalid, repeated or contradictory."""
         seen: dict[Hashable, str] = {}
-        for key, run in found:
+        for key, run in study_runs(study, self):
             if isinstance(run, str):
-                yield f"{key}: {run}"
+                problems.append(f"{key}: {run}")
                 continue
             for mark in (run.id, run.run):
                 if mark in seen:
-                    yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+                    again = f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+                    problems.append(again)
                 seen[mark] = key
-            yield from run_problems(key, run, self.limits, self.extraction)
-
-    def _study_in(self, name: str, kind: str) -> str:
-        """The study at the start of the name of a run or of a batch."""
-        study = name.partition("-")[0]
-        if study in self.studies:
-            return study
-        close = difflib.get_close_matches(study, self.studies, n=1)
-        listed = ", ".join(self.studies)
-        hint = f"did you mean {close[0]}?" if close else f"studies: {listed}"
-        raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
-
-
-def _found(
-    kind: str,
-    name: str,
-    known: Mapping[str, _Named],
-    study: str,
-) -> _Named:
-    """The run or the batch of a study with a name."""
-    if name in known:
-        return known[name]
-    close = difflib.get_close_matches(name, known, n=3)
-    if not known:
-        hint = f"the study {study} has none"
-    elif close:
-        hint = f"did you mean {' or '.join(close)}?"
-    else:
-        example = next(iter(known))
-        hint = f"those of the study {study} have names like {example}"
-    raise ParameterError(f"there is no {kind} {name}; {hint}")
+            problems += problems_of_run(key, run, self)
+            runs[run.id] = run
+            if run.batch:
+                batches.setdefault(run.batch, []).append(run)
+        role = self.studies[study].role
+        for need in () if problems else ROLES[role].runs:
+            wrong = [run for run in runs.values() if not need.allowed(run.value(need.name))]
+            for run in wrong[:1]:  # the first run shows the problem
+                place = f"studies.{study}: {run.id}: {need.name}"
+                problems.append(need.refusal(place, run.value(need.name), role))
+        return _Expanded(runs, batches, problems)
 
 
 def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
@@ -225,33 +188,30 @@ def _merged(first: Any, later: Any) -> Any:
 def completed(values: Any) -> Any:
     """A configuration with studies: those of the default one if it has none itself.
 
-    A ParameterError if there is no default one, because the library is not in a checkout.
+    A study that has a name of the paper's and no role is that study with changes. A ParameterError
+    if there is no default configuration, because the library is not in a checkout.
     """
     if not isinstance(values, dict):
         return values
-    if "studies" in values:
-        return {**values, "studies": _with_paper(values["studies"])}
     in_checkout = all(path.is_file() for path in DEFAULTS)
-    if not in_checkout:
-        raise ParameterError(
-            "the configuration lacks the key studies: only a checkout of the project has the "
-            "paper's, in config/config.yaml"
-        )
-    return _merged(functools.reduce(_merged, map(read_yaml, DEFAULTS)), values)
-
-
-def _with_paper(studies: Any) -> Any:
-    """Studies, where one that has a name of the paper's and no role is that study with changes."""
-    if not isinstance(studies, dict):
-        return studies
-    unnamed = []
-    for name, section in studies.items():
-        if isinstance(section, dict) and "role" not in section:
-            unnamed.append(name)
-    if not unnamed or not DEFAULTS[0].is_file():
-        return studies
-    papers = read_yaml(DEFAULTS[0])["studies"]
-    return studies | {name: papers[name] | studies[name] for name in unnamed if name in papers}
+    if "studies" not in values:
+        if not in_checkout:
+            raise ParameterError(
+                "the configuration lacks the key studies: only a checkout of the project has the "
+                "paper's, in config/config.yaml"
+            )
+        return _merged(functools.reduce(_merged, map(read_yaml, DEFAULTS)), values)
+    studies = values["studies"]
+    if not isinstance(studies, dict) or not in_checkout:
+        return values
+    changed = {
+        name
+        for name, section in studies.items()
+        if isinstance(section, dict) and "role" not in section
+    }
+    papers = read_yaml(DEFAULTS[0])["studies"] if changed else {}
+    named = {name: papers[name] | studies[name] for name in studies if name in changed & {*papers}}
+    return {**values, "studies": studies | named}
 
 
 def configure(values: Any, *, lazy: bool = False) -> Configuration:
@@ -261,45 +221,35 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     with other values. With `lazy` the runs of a study are checked when they are first used. A
     ParameterError has one line for each problem.
     """
-    values = completed(values)
-    values = with_numbers(values)
-    stop_on(value_problems(values))
-    problems = list(range_problems(values))
-    problems += results_problems(results_directory(values))
-    stop_on(problems)
-    settings = _settings(values)
-    problems = []
-    if not lazy:
-        for study in settings.studies:
-            problems += settings.problems_of(study)
-    problems += problems_of_studies(settings.studies)
-    problems += setting_problems(settings)
-    stop_on(problems)
-    return settings
-
-
-def _settings(values: Mapping[str, Any]) -> Configuration:
-    """The settings in a configuration with allowed values."""
-    groups = {}
-    for name, cls in GROUPS.items():
-        entries = entries_of(name)
-        section = values.get(name, {})
-        groups[name] = cls(**{key: typed(entries[key], own) for key, own in section.items()})
+    reader = Reader()
+    values = reader.configuration(completed(values))
+    stop_on(reader.problems)
+    results = os.path.normpath(values.get("results", "results"))
+    stop_on(results_problems(results))
+    groups = {name: cls(**values.get(name, {})) for name, cls in GROUPS.items()}
     given: dict[str, Any] = {}
     for section in SECTIONS:
         given |= values.get(section, {})
     try:
-        base = PAPER_RUN.replaced(**read(given))
+        base = PAPER_RUN.replaced(**given)
     except ParameterError as error:  # a parameter that the chosen friction law does not have
         stop_on([str(error)])
     drop = max(base.stepping.event_drop, groups["extraction"].drop)
     base = base.replaced(event_drop=drop)  # runs do not end before the force has dropped so far
-    studies = {name: StudySettings.of(section) for name, section in values["studies"].items()}
-    return Configuration(
-        results=results_directory(values),
+    studies = {}
+    for name, section in values["studies"].items():
+        own = {key: value for key, value in section.items() if key not in ("defaults", "runs")}
+        studies[name] = StudySettings(**own)
+    settings = Configuration(
+        results=results,
         base=base,
         studies=studies,
         sections=values["studies"],
         stepping=tuple(values.get("stepping", ())),
         **groups,
     )
+    problems = []
+    for study in () if lazy else studies:
+        problems += settings.problems_of(study)
+    stop_on([*problems, *problems_of_studies(studies), *setting_problems(settings)])
+    return settings

@@ -1,14 +1,14 @@
 """Simulations of studies, with the data that the study and the theory give for them."""
 
 import dataclasses
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
+from functools import cached_property
 from typing import Any
 
 from nucleation.fault import Fault
 from nucleation.model.friction.constants import CONSTANTS, constants
 from nucleation.run.identity import ensemble
-from nucleation.run.names import parameters
+from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
 from .roles import OWN
@@ -37,6 +37,11 @@ class StudyRun:
     role: str = OWN
     """Role of the study."""
 
+    @cached_property
+    def parameters(self) -> dict[str, Any]:
+        """All parameters by name, in SI units."""
+        return self.run.to_dict()
+
     def to_dict(self) -> dict[str, Any]:
         """The run as plain nested dictionaries, without its batch."""
         constants = {name: getattr(self.theory, name) for name in ("friction", "a", "zeta")}
@@ -44,7 +49,7 @@ class StudyRun:
             "id": self.id,
             "study": self.study,
             "role": self.role,
-            "parameters": self.run.to_dict(),
+            "parameters": self.parameters,
             "critical_length": self.critical_length,
             "theory": constants,
         }
@@ -55,7 +60,7 @@ class StudyRun:
             return self.given[name]
         if name in CONSTANTS:
             return constants(self.run.law, self.run.fault.velocity)[name]
-        return self.run.to_dict().get(name)
+        return self.parameters.get(name)
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -68,6 +73,35 @@ class StudyRun:
         }
 
 
+def identifier(study: str, run: Run, varied: Mapping[str, Any]) -> str:
+    """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``.
+
+    It has the study, the evolution law, the height (m), the initial state (s) and the other varied
+    values. Their order does not depend on the configuration: sections are in their order, in a
+    section words come before numbers, then the names are sorted; constants come last.
+    """
+    groups = list(sections().values())
+
+    def position(name: str) -> tuple[int, bool, str]:
+        group = next((i for i, names in enumerate(groups) if name in names), len(groups))
+        return group, not parameters()[name].choices, name
+
+    first = {"H": run.fault.height, "phi": run.fault.initial_state}
+    others = varied.keys() - {"evolution", "height", "initial_state"}
+    values = first | {name: varied[name] for name in sorted(others, key=position)}
+    parts = [study, run.law.evolution]
+    for name, value in values.items():
+        if value is None:
+            text = "same"  # as the first body's
+        elif isinstance(value, str):
+            text = value
+        else:  # a number in its shortest form without a plus sign, 4e9 for 4.0e+9
+            mantissa, _, exponent = f"{value:.12g}".partition("e")
+            text = f"{mantissa}e{int(exponent)}" if exponent else mantissa
+        parts.append(name + text)
+    return "-".join(parts)
+
+
 def varied(runs: Iterable[StudyRun]) -> dict[str, list[Any]]:
     """The parameters that differ among runs of a study, each with the values of the runs in order.
 
@@ -76,12 +110,8 @@ def varied(runs: Iterable[StudyRun]) -> dict[str, list[Any]]:
     runs = list(runs)
     given = [name for name in parameters() if any(name in run.given for run in runs)]
     given.sort(key=lambda name: name != "height")  # the height comes first
-    found = {}
-    for name in given:
-        values = [run.value(name) for run in runs]
-        if len(set(values)) > 1:
-            found[name] = values
-    return found
+    found = {name: [run.value(name) for run in runs] for name in given}
+    return {name: values for name, values in found.items() if len(set(values)) > 1}
 
 
 def first_realisations(runs: Iterable[StudyRun]) -> list[StudyRun]:
@@ -90,14 +120,3 @@ def first_realisations(runs: Iterable[StudyRun]) -> list[StudyRun]:
     for run in runs:
         first.setdefault((run.study, ensemble(run.run)), run)
     return list(first.values())
-
-
-def shown(runs: Sequence[StudyRun], height: float, base: Run) -> StudyRun | None:
-    """The run that figures show: nearest to a height (m), with the configuration's law and state.
-
-    None if there is no run with its evolution law and initial state.
-    """
-    wanted = {"evolution": base.law.evolution, "initial_state": base.fault.initial_state}
-    usual = [run for run in runs if wanted.items() <= run.labels.items()]
-    distance = {run.id: abs(math.log(run.labels["height"] / height)) for run in usual}
-    return min(usual, key=lambda run: distance[run.id], default=None)

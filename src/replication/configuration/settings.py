@@ -2,14 +2,15 @@
 
 import dataclasses
 from collections.abc import Collection, Mapping
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.fault import Fault
-from nucleation.model.quantities import quantity
+from nucleation.model.quantities import Quantity, declarations, declared, quantity
 from nucleation.model.units import Checked
+from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
 from ..tables.main_text import main_text
@@ -58,12 +59,6 @@ class StudySettings(Checked):
         choices=("lengths", "stability"),
         default="lengths",
     )
-
-    @classmethod
-    def of(cls, section: Mapping[str, Any]) -> Self:
-        """The settings in a study's section of the configuration."""
-        others = ("defaults", "runs")
-        return cls(**{key: value for key, value in section.items() if key not in others})
 
 
 def _spaced(values: np.ndarray) -> tuple[float, ...]:
@@ -135,6 +130,22 @@ GROUPS: dict[str, type] = {
     "limits": Limits,
 }
 """The sections of a configuration beside those of the parameters of runs and the studies."""
+
+SECTIONS = {name: keys for name, keys in sections().items() if name != "block"}
+"""The sections with parameters that all runs have unless a study sets them, and their keys."""
+
+RANGE: dict[str, Quantity] = {
+    "num": declared("number of values", "[2, 10000]", kind="int"),
+    "scale": Quantity("spacing of the values", choices=("linear", "log")),
+}
+"""Keys of a range beside ``start`` and ``stop``, which have the parameter's own declaration."""
+
+
+def entries_of(section: str) -> dict[str, Quantity]:
+    """The keys of a section of a configuration and their declarations."""
+    if section in GROUPS:
+        return declarations(GROUPS[section])
+    return {name: parameters()[name] for name in SECTIONS[section]}
 
 
 @dataclasses.dataclass(frozen=True)

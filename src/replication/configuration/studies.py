@@ -3,27 +3,23 @@
 import itertools
 import math
 import random
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from nucleation.fault import Fault
 from nucleation.model.quantities import ParameterError
 from nucleation.run.complete import late_end, rounded
-from nucleation.run.names import read
+from nucleation.run.names import parameters
 from nucleation.run.run import Run
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from nucleation.theory.status import NoLength
 
 from ..tables.main_text import main_text
-from .names import expand, identifier
-from .runs import StudyRun
+from .runs import StudyRun, identifier, varied
 from .settings import Settings
-
-_Place = str
-"""Place of a run in the configuration, such as ``studies.paper.runs[0]``."""
 
 _ARRAYS = (
     "shear_modulus",
@@ -41,48 +37,51 @@ _ARRAYS = (
 )
 """Parameters of a fault on which L_c depends and that differ among the runs of a study."""
 
-
-class _Prepared(NamedTuple):
-    """A run whose block length is not yet known."""
-
-    run: Run
-    theory: Fault
-    varied: dict[str, Any]
-    values: dict[str, Any]  # all values that the study gives
+_CURVE_POINTS = 81
+"""Values of the varied number in the theory's curve."""
 
 
-def study_runs(name: str, settings: Settings) -> Iterator[tuple[_Place, StudyRun | str]]:
+def study_runs(name: str, settings: Settings) -> list[tuple[str, StudyRun | str]]:
     """The runs of a study with their places in the configuration; of a bad run its error message.
 
-    If neither the section ``stepping`` nor the study has an end time, it follows from the theory's
-    estimate of the event's time.
+    A place is ``studies.paper.runs[0]``, say. If neither the section ``stepping`` nor the study has
+    an end time, it follows from the theory's estimate of the event's time.
     """
-    given = list(_given(name, settings.sections[name]))
-    prepared: list[_Prepared | ParameterError] = []
-    for _, own, others in given:
+    section = settings.sections[name]
+    given: list[tuple[str, dict[str, Any], dict[str, Any]]] = []
+    for number, entry in enumerate(section["runs"]):
+        defaults = {**section.get("defaults", {}), **entry.get("defaults", {})}
+        lists = {key: values for key, values in entry.items() if key != "defaults"}
+        for chosen in itertools.product(*lists.values()):
+            own = dict(zip(lists, chosen, strict=True))
+            given.append((f"studies.{name}.runs[{number}]", own, {**defaults, **own}))
+    made: dict[int, tuple[Run, Fault]] = {}
+    found: list[StudyRun | str] = [""] * len(given)
+    for i, (_, _, values) in enumerate(given):
         try:
-            values = read({**others, **own})
-            run, theory = fault_of(name, values, settings)
-            prepared.append(_Prepared(run, theory, read(own), values))
+            made[i] = fault_of(name, values, settings)
         except ParameterError as error:
-            prepared.append(error)
-    faults = [one.theory for one in prepared if isinstance(one, _Prepared)]
-    lengths = iter(critical_lengths(faults))
+            found[i] = str(error)
+    lengths = critical_lengths([theory for _, theory in made.values()])
     batches = _batches(name, len(given), settings.studies[name].runs_per_job)
-    for (key, *_), one, batch in zip(
-        given,
-        prepared,
-        batches,
-        strict=True,
-    ):
-        if isinstance(one, ParameterError):
-            yield key, str(one)
-            continue
-        critical = next(lengths)
+    for (i, (run, theory)), critical in zip(made.items(), lengths, strict=True):
+        _, own, values = given[i]
         try:
-            yield key, _run(name, one, critical, batch, settings)
+            run = _completed(name, run, theory, critical, values, settings)
         except ParameterError as error:
-            yield key, str(error)
+            found[i] = str(error)
+            continue
+        found[i] = StudyRun(
+            id=identifier(name, run, own),
+            study=name,
+            run=run,
+            critical_length=critical,
+            theory=theory,
+            given=values,
+            batch=batches[i],
+            role=settings.studies[name].role,
+        )
+    return [(place, one) for (place, _, _), one in zip(given, found, strict=True)]
 
 
 def critical_lengths(faults: Sequence[Fault]) -> list[float]:
@@ -102,20 +101,6 @@ def critical_lengths(faults: Sequence[Fault]) -> list[float]:
     return [lengths[fault] for fault in faults]
 
 
-def _given(
-    name: str,
-    study: Mapping[str, Any],
-) -> Iterator[tuple[_Place, dict[str, Any], dict[str, Any]]]:
-    """Place of each run, the values that vary, and the study's and the entry's defaults."""
-    of_study = study.get("defaults", {})
-    for number, entry in enumerate(study["runs"]):
-        defaults = {**of_study, **entry.get("defaults", {})}
-        lists = {key: expand(value) for key, value in entry.items() if key != "defaults"}
-        place = f"studies.{name}.runs[{number}]"
-        for chosen in itertools.product(*lists.values()):
-            yield place, dict(zip(lists, chosen, strict=True)), defaults
-
-
 def _batches(study: str, runs: int, per_job: int) -> list[str]:
     """The name of the batch of each run, empty if it has a job of its own.
 
@@ -128,11 +113,9 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
     digits = len(str(number - 1))
     generator = random.Random(runs)
     draws = [generator.random() for _ in range(runs)]  # equal in every Python version
-    shuffled = sorted(range(runs), key=draws.__getitem__)
     batches = [""] * runs
-    for rank, run in enumerate(shuffled):
-        batch = rank % number
-        batches[run] = f"{study}-{batch:0{digits}d}"
+    for rank, run in enumerate(sorted(range(runs), key=draws.__getitem__)):
+        batches[run] = f"{study}-{rank % number:0{digits}d}"
     return batches
 
 
@@ -147,46 +130,64 @@ def fault_of(study: str, values: Mapping[str, Any], settings: Settings) -> tuple
     return run, run.fault
 
 
-def _run(
+def _completed(
     study: str,
-    prepared: _Prepared,
+    run: Run,
+    theory: Fault,
     critical: float,
-    batch: str,
+    values: Mapping[str, Any],
     settings: Settings,
-) -> StudyRun:
-    """One run; its length, unless given, is a multiple of the theory's critical length (m)."""
-    own = settings.studies[study]
-    values, run = prepared.values, prepared.run
-    if math.isnan(critical) and "block_length" not in values:
-        raise ParameterError(
-            f"{_reason(prepared.theory)}; a control run, in which nothing is to nucleate, needs "
-            "its block_length (m)"
-        )
+) -> Run:
+    """A run with its length, a multiple of the critical one (m), and its end, unless given."""
     follows: dict[str, Any] = {}
     if "block_length" not in values:
-        follows["block_length"] = rounded(own.length_over_critical * critical)
+        if math.isnan(critical):
+            try:
+                unstable_modes(single_system(theory))
+                reason = "the theory has no critical length"
+            except NoLength as error:
+                reason = str(error)
+            raise ParameterError(
+                f"{reason}; a control run, in which nothing is to nucleate, needs its "
+                "block_length (m)"
+            )
+        over_critical = settings.studies[study].length_over_critical
+        follows["block_length"] = rounded(over_critical * critical)
     given = {*settings.stepping, *values}
     if "end_time" not in given and not math.isnan(critical):
         times = late_end(run.fault, run.start, critical)
         follows |= {name: time for name, time in times.items() if name not in given}
-    if follows:
-        run = run.replaced(**follows)
-    return StudyRun(
-        id=identifier(study, run, prepared.varied),
-        study=study,
-        run=run,
-        critical_length=critical,
-        theory=prepared.theory,
-        given=values,
-        batch=batch,
-        role=own.role,
-    )
+    return run.replaced(**follows) if follows else run
 
 
-def _reason(fault: Fault) -> str:
-    """Why the theory has no critical length."""
-    try:
-        unstable_modes(single_system(fault))
-    except NoLength as error:
-        return str(error)
-    return "the theory has no critical length"
+def theory_curves(runs: list[StudyRun], settings: Settings) -> dict[str, dict[str, list[float]]]:
+    """The theory's length (m) over the one number that a study varies, closely spaced.
+
+    By the words that differ among the runs (``"slip"``, or ``""``): the number ``x`` and the
+    ``length``, NaN where sliding is stable, to eight digits. Empty if the study varies several
+    numbers or none, or an integer.
+    """
+    found = varied(runs)
+    words = [name for name in found if parameters()[name].choices]
+    numbers = [name for name in found if name not in words]
+    if len(numbers) != 1 or parameters()[numbers[0]].kind != "float":
+        return {}
+    (name,) = numbers
+    values: dict[str, list[float]] = {}
+    first: dict[str, StudyRun] = {}
+    for i, run in enumerate(runs):
+        kind = ", ".join(str(found[word][i]) for word in words)
+        values.setdefault(kind, []).append(found[name][i])
+        if name in run.given:
+            first.setdefault(kind, run)
+    curves = {}
+    for kind, run in first.items():
+        if len(values[kind]) < 2:
+            continue
+        low, high = min(values[kind]), max(values[kind])
+        x = (np.geomspace if low > 0.0 else np.linspace)(low, high, _CURVE_POINTS).tolist()
+        given = ({**run.given, name: value} for value in x)
+        lengths = critical_lengths([fault_of(run.study, own, settings)[1] for own in given])
+        columns = {"x": x, "length": lengths}
+        curves[kind] = {key: [float(f"{n:.8g}") for n in own] for key, own in columns.items()}
+    return curves

@@ -261,13 +261,12 @@ class Plan:
         A job on another machine takes the one that was planned, even if the configuration has
         changed since then.
         """
+        name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
         plans = self._workflow.is_main_process
-        if not plans:
-            name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
-            if name in self._planned:
-                return f"{self._place}/{name}.{self._planned[name]}.json"
+        if not plans and name in self._planned:
+            return f"{self._place}/{name}.{self._planned[name]}.json"
         recipe = self._of_rule(rule, wildcards)
-        file = f"{self._place}/{recipe.name}.{recipe.key}.json"
+        file = f"{self._place}/{name}.{recipe.key}.json"
         if plans:
             self._write(rule, recipe, file)
         return file

@@ -21,7 +21,6 @@ from pathlib import Path
 from typing import Any
 
 from nucleation.datasets import code
-from nucleation.model.quantities import plain
 
 from . import LOGGER
 from .store import PATTERN, STEM, Store, digest_of_file
@@ -147,7 +146,7 @@ def as_json(values: Any) -> str:
 
 def _converted(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return plain(value)
+        return {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
     if hasattr(value, "items"):
         return dict(value.items())
     if hasattr(value, "tolist"):  # NumPy
