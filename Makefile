@@ -35,8 +35,7 @@ CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
-.PHONY: help install paper report replication quick test test-quick lint hooks docs bench reference lock clean-venv asked-python \
-	targets check prune torture
+.PHONY: help install paper report quick test test-quick lint docs bench reference lock asked-python check prune torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -50,9 +49,6 @@ paper: $(STAMP) ## Make every figure, table and verdict, in results/
 report: $(STAMP) ## Make results/report.html: all figures with captions, and verdicts, in half an hour to an hour
 	$(LAUNCH) figures $(OPTIONS)
 	$(LAUNCH) figures --report results/report.html $(OPTIONS)
-
-replication: $(STAMP) ## Make the article with all figures, results/replication.md
-	$(LAUNCH) replication $(OPTIONS)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(LAUNCH) $$TARGETS --cores "$$CORES" --configfile config/quick.yaml
@@ -73,9 +69,6 @@ lint: $(DEV_STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/snakefmt --check Snakefile workflow
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
-
-hooks: $(DEV_STAMP) ## Have git check what make lint checks before each commit
-	@$(BIN)/pre-commit install
 
 docs: $(DEV_STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
@@ -108,9 +101,6 @@ reference: $(DEV_STAMP) ## Make the committed reference set again, from the resu
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 	$(BIN)/python -c '$(REST)' | sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' > results/reference/measures.csv
 
-targets: $(STAMP) ## List rules and targets; every file in results/ can be asked for as well
-	@$(LAUNCH) --list-rules $(OPTIONS)
-
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(LAUNCH) check $(OPTIONS)
 
@@ -126,9 +116,6 @@ lock: ## Pin the newest versions of what pyproject.toml names in environment*.tx
 	$(LOCK) --upgrade --extra workflow --constraint environment-dev.txt -o environment.txt
 	echo uv | uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 		--no-annotate --no-emit-index-url --no-header - -o workflow/uv.txt
-
-clean-venv: ## Remove the installed environment
-	rm -rf -- $(ENVIRONMENT)
 
 INSTALL = $(BIN)/python -P workflow/install.py
 
@@ -166,5 +153,5 @@ asked-python:
 	asked=$$("$$PYTHON" -c '$(VERSION)' 2>/dev/null); \
 	[ -z "$$have" ] || [ "$$have" = "$$asked" ] || { \
 		echo $(ENVIRONMENT) "has Python $$have, and $$PYTHON is $${asked:-not a Python that works}:" \
-			"make clean-venv, or VENV=.venv-$${asked:-other}" >&2; exit 1; }
+			"remove it, or VENV=.venv-$${asked:-other}" >&2; exit 1; }
 endif

@@ -59,8 +59,8 @@ studies:
 NOTHING = "git clean -fdxq results; rm -rf .snakemake"
 
 PARTS = {
-    "install": ("make clean-venv", "make install"),
-    "paper": (f"{NOTHING}; make clean-venv", "make paper"),
+    "install": ("rm -rf .venv", "make install"),
+    "paper": (f"{NOTHING}; rm -rf .venv", "make paper"),
     "workflow": (NOTHING, "make paper"),
     "length": ("", f".venv/bin/nucleation length {FAULT}"),
     "runaway": ("", "PYTHONPATH=src .venv/bin/python runaway.py"),

@@ -108,7 +108,6 @@ INSTALL = ["-P", "workflow/install.py"]
         ("paper", ["environment.txt"]),
         ("report", ["environment.txt"]),
         ("quick", ["environment.txt"]),
-        ("replication", ["environment.txt"]),
         ("test-quick", ["environment.txt", "environment-dev.txt"]),
         ("docs", ["environment.txt", "environment-dev.txt"]),
     ],
