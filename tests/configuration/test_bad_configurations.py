@@ -135,7 +135,7 @@ BAD = {
         ),
         [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
     ),
-    "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "without braces"]),
+    "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "named without braces"]),
     "code by a detour": (
         changed("results", "results/../src"), ["results = 'src'", "code that makes results"],
     ),
@@ -144,8 +144,8 @@ BAD = {
     "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
     "blank": (changed("results", " "), ["results = ' '", "spaces at its ends"]),
-    "of git": (changed("results", ".git/hooks"), ["results = '.git/hooks'", "hidden directories"]),
-    "home": (changed("results", "~/out"), ["results = '~/out'", "write the home directory out"]),
+    "of git": (changed("results", ".git/hooks"), ["results = '.git/hooks'", "neither hidden"]),
+    "home": (changed("results", "~/out"), ["results = '~/out'", "wildcards, ~"]),
     # contradictions
     "low edge above the edge": (
         changed("extraction.edge_threshold_low", 0.1),

@@ -92,8 +92,7 @@ def test_what_runs_lack_for_their_role_is_told_when_they_are_asked_for():
     ("name", "fragments"),
     [
         ("paper-aging-H0.05-phi2", ["no run paper-aging-H0.05-phi2", "paper-aging-H0.05-phi1"]),
-        ("papers-aging-H0.05-phi1", ["no study papers", "did you mean paper?"]),
-        ("", ["no study ;", "studies: paper, converged"]),
+        ("papers-aging-H0.05-phi1", ["no run papers-aging-H0.05-phi1; studies: paper, converged"]),
     ],
 )
 def test_an_unknown_run_is_told_with_those_like_it(name, fragments):
@@ -104,7 +103,7 @@ def test_an_unknown_run_is_told_with_those_like_it(name, fragments):
 
 
 def test_an_unknown_batch_is_told_with_those_like_it():
-    with pytest.raises(ParameterError, match="no batch paper-7; did you mean paper-2 or"):
+    with pytest.raises(ParameterError, match="no batch paper-7; the study paper has paper-2, paper"):
         papers().batch("paper-7")
     settings = configure({"studies": {"good": GOOD}})
     with pytest.raises(ParameterError, match="no batch good-0; the study good has none"):

@@ -255,27 +255,20 @@ def setting_problems(settings: Settings) -> Iterator[str]:
             return
 
 
-def results_problems(results: str) -> Iterator[str]:
-    """Reasons why a path, in its shortest form, can't be the directory of results."""
-    refused = f"results = {results!r} is not allowed"
-    special = set(results) & set("{}<>*?")
-    if results != results.strip() or not results.isprintable() or special:
-        yield (
-            f"{refused}: a directory must be named without braces, "
-            "< and >, wildcards, control characters, and spaces at its ends"
-        )
+def results_problem(results: str) -> str | None:
+    """The reason why a path, in its shortest form, can't be the directory of results; or None."""
     parts = PurePosixPath(results).parts
-    if set(parts) <= {"/", "//", ".."}:
-        yield f"{refused}: it must be a directory of its own"
     first = parts[0] if parts else ".."
-    hidden = first.startswith(".") and first != ".."
-    if hidden or first in _CODE:
-        yield (
-            f"{refused}: hidden directories and {', '.join(_CODE)} contain the code that makes "
-            "results"
-        )
-    if results.startswith("~"):
-        yield f"{refused}: write the home directory out in place of ~"
+    refused = first in _CODE or set(parts) <= {"/", "//", ".."}
+    refused |= first.startswith(".") and first != ".."
+    refused |= results != results.strip() or not results.isprintable()
+    if not refused and set(results).isdisjoint("{}<>*?~"):
+        return None
+    return (
+        f"results = {results!r} is not allowed: it must be a directory of its own, neither hidden "
+        f"nor {', '.join(_CODE)}, which contain the code that makes results, named without "
+        "braces, < and >, wildcards, ~, control characters, and spaces at its ends"
+    )
 
 
 def directory_problem(results: str | os.PathLike[str]) -> str | None:

@@ -19,7 +19,7 @@ from nucleation.fault.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 
-from .checks import Reader, problems_of_run, results_problems, setting_problems, stop_on
+from .checks import Reader, problems_of_run, results_problem, setting_problems, stop_on
 from .roles import PAPERS, ROLES, problems_of_studies
 from .runs import StudyRun
 from .settings import GROUPS, SECTIONS, Curves, Settings, StudySettings
@@ -87,17 +87,14 @@ class Configuration(Settings):
     def _named(self, kind: str, name: str) -> Any:
         """The run or the batch with a name, which begins with the study's."""
         study = name.partition("-")[0]
-        if study not in self.studies:
-            close = difflib.get_close_matches(study, self.studies, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"studies: {', '.join(self.studies)}"
-            raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
-        expanded = self._checked(study)
-        known: dict[str, Any] = expanded.runs if kind == "run" else expanded.batches
+        known: dict[str, Any] = {}
+        if study in self.studies:
+            expanded = self._checked(study)
+            known = expanded.runs if kind == "run" else expanded.batches
         if name not in known:
             close = difflib.get_close_matches(name, known, n=3)
-            hint = f"the study {study} has none"
-            if known:
-                hint = f"did you mean {' or '.join(close or list(known)[:1])}?"
+            of = f"the study {study} has {', '.join(close or list(known)[:3]) or 'none'}"
+            hint = of if study in self.studies else f"studies: {', '.join(self.studies)}"
             raise ParameterError(f"there is no {kind} {name}; {hint}")
         return known[name]
 
@@ -225,7 +222,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     values = reader.configuration(completed(values))
     stop_on(reader.problems)
     results = os.path.normpath(values.get("results", "results"))
-    stop_on(results_problems(results))
+    stop_on(filter(None, [results_problem(results)]))
     groups = {name: cls(**values.get(name, {})) for name, cls in GROUPS.items()}
     given: dict[str, Any] = {}
     for section in SECTIONS:

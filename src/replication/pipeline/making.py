@@ -38,7 +38,7 @@ _LENGTHS = "lengths/"  # directory of the tables of studies
 _EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
 """Errors that are reported in one line: their cause is not in the code."""
 
-_OF_MACHINE = {"wall_seconds", "peak_megabytes", "created", "versions", "command", "history"}
+_OF_MACHINE = ("wall_seconds", "peak_megabytes")
 """Variables that differ between any two results of one recipe."""
 
 
@@ -240,13 +240,13 @@ class _Maker:
                 _write_one(content, place / f"{STEM}{suffix}", origin)
 
         if recipe.is_in(self._store):
-            found: list[str] = []
+            entry = self._store.entry(recipe.key)
             with tempfile.TemporaryDirectory() as place:
                 write(Path(place))
-                for file in sorted(Path(place).iterdir()):
-                    found += differences(file, self._store.entry(recipe.key) / file.name)
-            compared = "; ".join(found) or "the same as in the store, which is kept"
-            LOGGER.info(f"{recipe.name}, made again: {compared}")
+                new = sorted(Path(place).iterdir())
+                found = [file.name for file in new if differs(file, entry / file.name)]
+            compared = f"{', '.join(found)} differs from" if found else "the same as in"
+            LOGGER.info(f"{recipe.name}, made again: {compared} the store, which is kept")
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self._store.put(recipe.key, write, {**about, "rule": self._rule, "name": recipe.name})
@@ -301,13 +301,11 @@ def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[s
     return found
 
 
-def differences(new: Path, old: Path) -> list[str]:
-    """The differences of two files of one recipe in words, of datasets by variable."""
-    if not old.is_file():
-        return [f"{new.name} is not in the store"]
-    if new.suffix != ".nc":
-        return [] if new.read_bytes() == old.read_bytes() else [f"{new.name} differs"]
-    ours, theirs = netcdf.read(new).variables, netcdf.read(old).variables
-    same = {name for name in ours.keys() & theirs.keys() if ours[name].equals(theirs[name])}
-    names = {*map(str, ours), *map(str, theirs)} - _OF_MACHINE - same
-    return [f"{name} differs" for name in sorted(names)]
+def differs(new: Path, old: Path) -> bool:
+    """Whether two files of one recipe differ, datasets in more than the machine and the moment."""
+    if new.suffix != ".nc" or not old.is_file():
+        return not old.is_file() or new.read_bytes() != old.read_bytes()
+    ours, theirs = (
+        netcdf.read(path).drop_vars(_OF_MACHINE, errors="ignore") for path in (new, old)
+    )
+    return not ours.equals(theirs)
