@@ -103,7 +103,7 @@ def test_an_unknown_run_is_told_with_those_like_it(name, fragments):
 
 
 def test_an_unknown_batch_is_told_with_those_like_it():
-    with pytest.raises(ParameterError, match="no batch paper-7; the study paper has paper-2, paper"):
+    with pytest.raises(ParameterError, match="no batch paper-7; the study paper has paper-"):
         papers().batch("paper-7")
     settings = configure({"studies": {"good": GOOD}})
     with pytest.raises(ParameterError, match="no batch good-0; the study good has none"):

@@ -2,7 +2,6 @@
 
 import contextlib
 import datetime
-import json
 import os
 import random
 import resource
@@ -27,7 +26,7 @@ from harness import (
 )
 from processes import require
 
-from replication.pipeline.store import NOTE, Store, read_note
+from replication.pipeline.store import NOTE, read_note
 
 
 def truncate(content: bytearray, random: random.Random) -> None:
@@ -73,69 +72,6 @@ def damaged_entry(place, reference, random):
     if random.choice((True, False)):
         place.forget_tables()
     place.finish()
-
-
-def _replaced(path: Path) -> Path:
-    """The path of a file that is to be replaced by something else."""
-    path.chmod(0o644)
-    path.unlink()
-    return path
-
-
-def _note_with(entry: Path, **changes: object) -> None:
-    """Change what an entry says of itself."""
-    note = json.loads((entry / NOTE).read_text()) | changes
-    _replaced(entry / NOTE).write_text(json.dumps(note))
-
-
-def pipe(entry: Path, other: Path) -> None:
-    """A note that never ends to be waited for."""
-    os.mkfifo(_replaced(entry / NOTE))
-
-
-def gigabytes(entry: Path, other: Path) -> None:
-    """A note that does not fit into memory."""
-    with _replaced(entry / NOTE).open("wb") as file:
-        file.truncate(2**33)
-
-
-def device(entry: Path, other: Path) -> None:
-    """A result that never ends, with the size that is noted."""
-    files = json.loads((entry / NOTE).read_text())["files"]
-    files["result.nc"]["size"] = 0
-    _note_with(entry, files=files)
-    _replaced(entry / "result.nc").symlink_to("/dev/zero")
-
-
-def empty(entry: Path, other: Path) -> None:
-    """An entry without files."""
-    _note_with(entry, files={})
-
-
-def foreign(entry: Path, other: Path) -> None:
-    """Another result, with the digests that fit it."""
-    shutil.copy(other / "result.nc", _replaced(entry / "result.nc"))
-    note, own = (json.loads((place / NOTE).read_text()) for place in (other, entry))
-    _note_with(entry, files=own["files"] | {"result.nc": note["files"]["result.nc"]})
-
-
-SPECIAL = (pipe, gigabytes, device, empty, foreign)
-
-
-@fault
-def special_entry(place, reference, random):
-    """A file no program of ours writes, in the own store or another, hangs and loses nothing."""
-    elsewhere = place.directory.parent / f"{place.directory.name}.store"
-    shutil.copytree(place.store.directory, elsewhere)
-    store = random.choice((place.store, Store(elsewhere)))
-    entry, other = (store.entry(place.key(id)) for id in random.sample(IDS, 2))
-    random.choice(SPECIAL)(entry, other)
-    if store is not place.store:
-        place.forget(*IDS)
-    with_it = {"NUCLEATION_STORES": str(elsewhere)} if store is not place.store else {}
-    done = place.run(**with_it)
-    require(done.status == 0, done.output)
-    shutil.rmtree(elsewhere)
 
 
 @fault

@@ -82,27 +82,10 @@ def test_kill_between_two_steps(store, step):
         assert (store.entry(KEY) / "result.csv").read_bytes() == b"hours of work"
 
 
-def other_note(**changes):
-    def damage(entry):
-        note = json.loads((entry / NOTE).read_text()) | changes
-        (entry / NOTE).write_text(json.dumps(note))
-
-    return damage
-
-
-DAMAGE = {
-    "of another key": other_note(key=OTHER),
-    "note cut off": lambda entry: (entry / NOTE).write_bytes((entry / NOTE).read_bytes()[:40]),
-    "no note of ours": lambda entry: (entry / NOTE).write_text("[1]"),
-    "deep note": lambda entry: (entry / NOTE).write_text("[" * 10**5),
-    "no files": other_note(files=None),
-    "file outside": other_note(files={"../../evil.nc": {"size": 4, "sha256": "0"}}),
-    "absolute": other_note(files={"/etc/passwd": {"size": 4, "sha256": "0"}}),
-    "file cut off": lambda entry: (entry / "result.csv").write_bytes(b"hours"),
-    "file gone": lambda entry: (entry / "result.csv").unlink(),
-    "file changed": lambda entry: (entry / "result.csv").write_bytes(b"HOURS OF WORK"),
-    "file changed, its times put back": lambda entry: changed_unnoticed(entry / "result.csv"),
-}
+def rewrite(entry, **changes):
+    path = entry / NOTE
+    note = {**json.loads(path.read_text()), **changes}
+    path.write_text(json.dumps(note))
 
 
 def changed_unnoticed(path):
@@ -110,6 +93,53 @@ def changed_unnoticed(path):
     before = path.stat()
     path.write_bytes(b"HOURS OF WORK")
     os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+def fifo_for_a_note(entry):
+    (entry / NOTE).unlink()
+    os.mkfifo(entry / NOTE)
+
+
+def endless_file(entry):
+    rewrite(entry, files={"result.csv": {"size": 0, "sha256": hashlib.sha256(b"").hexdigest()}})
+    (entry / "result.csv").unlink()
+    (entry / "result.csv").symlink_to("/dev/zero")
+
+
+def elsewhere(entry):
+    entry.rename(entry.parent.parent / "elsewhere")
+    entry.symlink_to(entry.parent.parent / "elsewhere")
+
+
+def another_result(entry):
+    """A dataset of another key, with the digest that the note says."""
+    path = entry / "result.nc"
+    netcdf.write(xr.Dataset(), path, key=OTHER)
+    content = path.read_bytes()
+    about = {"size": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+    rewrite(entry, files={"result.nc": about})
+
+
+DAMAGE = {
+    "of another key": lambda entry: rewrite(entry, key=OTHER),
+    "note cut off": lambda entry: (entry / NOTE).write_bytes((entry / NOTE).read_bytes()[:40]),
+    "no note of ours": lambda entry: (entry / NOTE).write_text("[1]"),
+    "deep note": lambda entry: (entry / NOTE).write_text("[" * 10**5),
+    "no files": lambda entry: rewrite(entry, files={}),
+    "file outside": lambda entry: rewrite(entry, files={"../../e.nc": {"size": 4, "sha256": "0"}}),
+    "absolute": lambda entry: rewrite(entry, files={"/etc/passwd": {"size": 4, "sha256": "0"}}),
+    "file cut off": lambda entry: (entry / "result.csv").write_bytes(b"hours"),
+    "file gone": lambda entry: (entry / "result.csv").unlink(),
+    "file changed": lambda entry: (entry / "result.csv").write_bytes(b"HOURS OF WORK"),
+    "file changed, its times put back": lambda entry: changed_unnoticed(entry / "result.csv"),
+    "surrogates": lambda entry: rewrite(entry, key="\ud800"),
+    "forged line": lambda entry: rewrite(entry, key="\x1b[2K\nAll is current\n" + 500_000 * "0"),
+    "huge note": lambda entry: os.truncate(entry / NOTE, 2**33),
+    "fifo": fifo_for_a_note,
+    "endless file": endless_file,
+    "a link": elsewhere,
+    "another result": another_result,
+}
 
 
 def damaged(entry, how):
@@ -253,10 +283,12 @@ def test_damaged_entry_elsewhere_is_said_not_taken_and_replaced(
     asked = [other]
     assert clone.take(KEY, (), asked) is None and asked == [other]
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"Not taken from {other.directory}: ")
+    assert line.startswith(f"Not taken from {other.directory}: ") and len(line) < 500
+    assert line.isascii() and "All is current" not in line
     assert clone.listed() == [] and not list(tmp_path.rglob("evil*"))
     store.give(KEY, [other])
     assert clone.take(KEY, (), asked) == other.directory
+    assert read_note(other.entry(KEY), whole=True)["name"] == "a", "the right one is there now"
 
 
 def test_note_of_others_names_no_file_outside(store, tmp_path, capsys):
@@ -264,7 +296,7 @@ def test_note_of_others_names_no_file_outside(store, tmp_path, capsys):
     evil, content = f"../../../{KEY[:4]}evil.nc", b"evil"
     files = {evil: {"size": 4, "sha256": hashlib.sha256(content).hexdigest()}}
     shared = Store(tmp_path / "far" / "away" / "shared")
-    damaged(put(shared), other_note(files=files))
+    damaged(put(shared), lambda entry: rewrite(entry, files=files))
     (shared.entry(KEY) / evil).resolve().write_bytes(content)
     assert Store(tmp_path / "clone" / "a" / "b").take(KEY, (), [shared]) is None
     assert "names other files" in capsys.readouterr().err
@@ -311,80 +343,3 @@ def test_stores_are_named_by_the_environment(tmp_path, monkeypatch, capsys):
         others()
     assert [store.directory for store in others(strict=False)] == [tmp_path]
     assert "is no directory" in capsys.readouterr().err
-
-
-def fifo_for_a_note(entry):
-    (entry / NOTE).unlink()
-    os.mkfifo(entry / NOTE)
-
-
-def endless_file(entry):
-    rewrite(entry, files={"result.csv": {"size": 0, "sha256": hashlib.sha256(b"").hexdigest()}})
-    (entry / "result.csv").unlink()
-    (entry / "result.csv").symlink_to("/dev/zero")
-
-
-def huge_note(entry):
-    (entry / NOTE).chmod(0o644)
-    os.truncate(entry / NOTE, 2**33)
-
-
-def note_of_surrogates(entry):
-    rewrite(entry, key="\ud800")
-
-
-def note_with_a_forged_line(entry):
-    rewrite(entry, key="0\x1b[2K\nAll is current\n" + 500_000 * "0")
-
-
-def no_files(entry):
-    rewrite(entry, files={})
-
-
-def elsewhere(entry):
-    entry.rename(entry.parent.parent / "elsewhere")
-    entry.symlink_to(entry.parent.parent / "elsewhere")
-
-
-def another_result(entry):
-    """A dataset of another key, with the digest that the note says."""
-    path = entry / "result.nc"
-    netcdf.write(xr.Dataset(), path, key=OTHER)
-    content = path.read_bytes()
-    about = {"size": len(content), "sha256": hashlib.sha256(content).hexdigest()}
-    rewrite(entry, files={"result.nc": about})
-
-
-def rewrite(entry, **changes):
-    path = entry / NOTE
-    note = {**json.loads(path.read_text()), **changes}
-    path.chmod(0o644)
-    path.write_text(json.dumps(note))
-
-
-SPECIAL = (
-    note_of_surrogates, note_with_a_forged_line, fifo_for_a_note, endless_file, huge_note,
-    no_files, elsewhere, another_result,
-)  # fmt: skip
-
-
-@pytest.mark.parametrize("how", SPECIAL)
-def test_special_entry_elsewhere_neither_hangs_nor_is_taken(store, other, how, capsys):
-    how(put(other))
-    assert store.take(KEY, (), [other]) is None and not store.has(KEY)
-    assert not store.listed() and not list(store.directory.glob(".*"))
-    said = capsys.readouterr().err
-    assert said.startswith("Not taken from") and said.count("\n") == 1 and len(said) < 500
-    assert said.encode().isascii() and "All is current" not in said
-    put(store)
-    store.give(KEY, [other])
-    assert read_note(other.entry(KEY), whole=True)["name"] == "a", "the right one is there now"
-
-
-@pytest.mark.parametrize("how", SPECIAL)
-def test_special_entry_of_the_own_store_is_moved_aside(store, how):
-    how(put(store))
-    with pytest.raises(DatasetError):
-        read_note(store.entry(KEY), whole=True)
-    put(Store(store.directory))
-    assert read_note(store.entry(KEY), whole=True)["name"] == "a"
