@@ -58,7 +58,7 @@ from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS,
 from replication.configuration.roles import PAIRS as PAIR_ROLES
 from replication.configuration.runs import first_realisations, varied
 from nucleation.run.checks import estimated_megabytes
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from nucleation.run.names import parameters
 from replication.configuration.studies import theory_curves
 from nucleation.datasets import provenance
@@ -66,7 +66,7 @@ from nucleation.datasets.variables import DatasetError
 from replication import figures
 from nucleation.model.friction import Friction
 from nucleation.model.friction import plugins
-from nucleation.run.identity import fault, identity
+from nucleation.run.derived import fault, identity
 from nucleation.model.quantities import ParameterError
 from replication.pipeline.check import CURRENT
 from replication.pipeline import LOGGER

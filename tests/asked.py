@@ -2,7 +2,7 @@
 
 from nucleation.api import Fault
 from nucleation.lengths.in_use import values_of
-from nucleation.run.drop import drop_of_run
+from nucleation.run.derived import drop_of_run
 
 
 def critical_length(**fault):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from nucleation.model.quantities import ParameterError
 from replication.configuration.load import Configuration, configure, load
 

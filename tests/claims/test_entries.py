@@ -15,7 +15,7 @@ from reference_evidence import table as reference_table
 from scipy.integrate import solve_ivp
 
 from nucleation.extraction.measures import BY_DEFINITION, MEASURES
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from nucleation.run.run import PAPER_RUN
 from replication.claims import table
 from replication.claims.verdicts import WORDS, Verdict, read

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from nucleation.api import Fault, draw, quantiles
+from nucleation.api import Fault, draw_samples, quantiles
 from nucleation.commands.quantiles import as_sure
 
 ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
@@ -26,7 +26,7 @@ def samples(tmp_path):
 
 def test_the_library_s_numbers(nucleation, samples):
     ended = nucleation(*WORDS, *samples, "--json")
-    drawn = draw(FAULT | {"poisson_ratio": "0.25 (0.2 to 0.3)", "b": 0.015, "a": A})
+    drawn = draw_samples(FAULT | {"poisson_ratio": "0.25 (0.2 to 0.3)", "b": 0.015, "a": A})
     expected = Fault(**drawn.values).lengths("none")
     found = json.loads(ended.out)
     assert (ended.code, found["stable"], found["draws"], found["invalid"]) == (0, 1, 4, 0)
@@ -53,21 +53,15 @@ def test_the_length_at_the_drop_of_draws(nucleation):
     assert drop["share"] == 1.0 and drop["quantiles"]["0.05"] < drop["quantiles"]["0.95"]
 
 
-def test_values_per_decade(nucleation, samples, tmp_path):
-    decimal = tmp_path / "decimal.csv"
-    decimal.write_text("a\n" + "\n".join(str(a * math.log(10)) for a in A))
-    own = [*WORDS[:-1], str(0.015 * math.log(10)), "--per-decade", "--samples", decimal]
-    assert nucleation(*own).out == nucleation(*WORDS, *samples).out
-
-
 def test_ranges_in_a_file(nucleation, samples, tmp_path):
     words = dict(zip(WORDS[1::2], WORDS[2::2], strict=True))
     file = tmp_path / "rock.yaml"
     file.write_text("\n".join(f"{k[2:].replace('-', '_')}: {v}" for k, v in words.items()))
     from_file = nucleation("length", "--parameters", file, *samples)
     assert from_file == nucleation(*WORDS, *samples) and from_file.code == 0
-    ended = nucleation("simulate", tmp_path / "x.nc", "--parameters", file)
-    assert ended.code == 2 and "a range is not allowed here" in ended.err
+    for command in (("simulate", tmp_path / "x.nc"), ("specimen", "--length", "2m")):
+        ended = nucleation(*command, "--parameters", file, "--b", "0.015", "--a", "0.01")
+        assert ended.code == 2 and "a range is not allowed here" in ended.err
 
 
 def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):

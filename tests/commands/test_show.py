@@ -6,13 +6,12 @@ import xarray as xr
 from declared import VARIABLES
 from matplotlib.image import imread
 
-from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import annotate
+from nucleation.extraction.extraction import extract
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate
-from replication.tables.curves import theory_dataset
 
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
@@ -29,31 +28,17 @@ def files(tmp_path_factory, settings, simulation, table):
     parameters = settings.runs[0].run
     digest = simulation_code(parameters)
     short = parameters.replaced(end_time=0.02, time_after_event=0.01)
-    theory = theory_dataset(
-        PAPER_RUN,
-        {"heights": (0.005, 0.05, 0.1), "f_beta": (0.0, 0.1), "zeta_over_a": (1.0,),
-         "slip_rates": (1e-6, 1e-5)},
-    )  # fmt: skip
-    ends = {
-        "instant_time": (0.0, 8.0), "patch_length": (0.1, 0.2), "growth_rate": (-1.0, 1.0),
-        "oscillation_growth": (-1.0, 1.0), "growth_frequency": (12.0, 13.0),
-        "oscillation_frequency": (12.0, 13.0),
-    }  # fmt: skip
-    patch = xr.Dataset({name: ("instant", np.linspace(*own, 9)) for name, own in ends.items()})
     other = xr.Dataset({"onset_time": ("one", [1.0, 2.0]), "length": ("one", [0.1, np.nan])})
     return {
         "run": kept(folder, "run", simulation, parameters.to_dict(), digest),
         "short": kept(folder, "short", simulate(short), short.to_dict()),
-        "theory": kept(folder, "theory", theory, {}),
         "lengths": kept(folder, "lengths", table, {}),
-        "patch": kept(folder, "patch", patch.assign(stability_length=0.15), {}),
         "other": kept(folder, "other", other, {}),
     }
 
 
 KINDS = {
-    "run": "simulation", "short": "simulation", "theory": "theory", "lengths": "table of lengths",
-    "patch": "patch's stability", "other": "dataset",
+    "run": "simulation", "short": "simulation", "lengths": "dataset", "other": "dataset",
 }  # fmt: skip
 
 
@@ -69,20 +54,13 @@ def test_summary(nucleation, files, name):
 
 def test_summary_of_a_simulation(nucleation, files):
     said = nucleation("show", files["run"]).out
-    found = show.extract(netcdf.read(files["run"]))
+    found = extract(netcdf.read(files["run"]))
     assert f"L: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
     assert "status: completed: the event" in said
     assert "normal_stress 1 MPa compressive" in " ".join(said.split())
     assert ", that of this installation" in said and "NOT that" not in said
     short = nucleation("show", files["short"]).out
     assert "no event" in short and ", NOT that of this installation" in short
-
-
-def test_summary_of_lengths(nucleation, files, settings):
-    said = nucleation("show", files["lengths"]).out
-    (run,), length = settings.runs, float(netcdf.read(files["lengths"])["length"][0])
-    assert f"{run.id} " in said and f" {length:.4g} " in said
-    assert f"  {length / run.critical_length:.3f}" in said
 
 
 @pytest.mark.slow
@@ -103,8 +81,8 @@ def test_plot_as_pdf_and_refused_plots(nucleation, files, tmp_path):
     assert content.startswith(b"%PDF") and b"CreationDate" not in content
     ended = nucleation("show", files["run"], "--plot", tmp_path / "film.gif")
     assert ended.code == 2 and "must end in .png or .pdf" in ended.err
-    ended = nucleation("show", files["theory"], "--plot", tmp_path / "theory.png")
-    assert ended.code == 2 and "plot of simulations alone, and this is a theory" in ended.err
+    ended = nucleation("show", files["other"], "--plot", tmp_path / "other.png")
+    assert ended.code == 2 and "plot of simulations alone" in ended.err
 
 
 @pytest.mark.parametrize("parameters", [{}, {"shear_modulus": "a text"}, {"shear_modulus": None}])

@@ -79,7 +79,7 @@ def test_surroundings_of_a_patch_are_named(nucleation, tmp_path):
     """What is stable at every wavelength are the surroundings of a weakening patch."""
     words = ["--loading", "remote", "--stress-rate", "1", "--n-x", "101", "--a", "0.0068"]
     words += ["--zeta", "-0.0034", "--block-length", "12m", "--height", "6m", "--friction", "0.4"]
-    words += ["--second-body", "same", "--shear-modulus", "3.1GPa", "--poisson-ratio", "0.3"]
+    words += ["--second-body", "deformable", "--shear-modulus", "3.1GPa", "--poisson-ratio", "0.3"]
     words += ["--normal-stress", "1MPa", "--slip-distance", "0.5um", "--velocity", "10um/s"]
     words += ["--end-time", "10s"]
     alone = nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run").out
@@ -176,7 +176,7 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
 
 def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tmp_path):
     """It was refused; whether it has an event is what one asks the simulation."""
-    words = ["--height", "10cm", "--plane", "stress", "--second-body", "same", "--n-x", "100"]
+    words = ["--height", "10cm", "--plane", "stress", "--second-body", "deformable", "--n-x", "100"]
     ended = nucleation(
         "simulate", tmp_path / "run.nc", *words, "--block-length", "25cm", "--dry-run"
     )

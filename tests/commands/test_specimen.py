@@ -42,7 +42,7 @@ def test_other_unknowns(nucleation):
 def test_several_intervals_and_none(nucleation):
     contrast = [
         "specimen", "--length", "20", "--poisson-ratio", "0.2", "--a", "0.01", "--friction", "0.8",
-        "--slip-distance", "0.01um", "--normal-stress", "100MPa", "--second-body", "10GPa,0.2",
+        "--slip-distance", "0.01um", "--normal-stress", "100MPa", "--second-shear-modulus", "10GPa",
         "--find", "shear_modulus", "--shear-modulus", "10GPa",
     ]  # fmt: skip
     ended = nucleation(*contrast, "--zeta=-1e-4")
@@ -86,17 +86,6 @@ def test_a_simulated_event_is_not_denied(nucleation, length, verdict, criterion)
     ended = nucleation("specimen", "--length", length, *PLATES, "--criterion", criterion)
     assert ended.code == 0 and "does not nucleate" not in ended.out
     assert verdict in " ".join(ended.out.split())
-
-
-def test_shares_of_draws(nucleation):
-    own = [*WORDS, "--draws", "20", "--normal-stress", "3MPa"]
-    words = [x if x != "0.5um" else "0.5um (0.3 to 1)" for x in own]
-    found = json.loads(nucleation(*words, "--json").out)
-    assert found["share"] == pytest.approx(0.85, abs=0.06) and found["draws"] == 20
-    ends = [found["intervals"][share][0][0] for share in ("0.05", "0.5", "0.95")]
-    median = asked.specimen_fit("normal_stress", 0.2, **FAULT).intervals[0][0]
-    assert ends[0] < ends[1] < ends[2] and ends[1] == pytest.approx(median, rel=0.05)
-    assert "in  50% of the draws if normal_stress > 1.9" in nucleation(*words).out
 
 
 def test_what_is_refused(nucleation):

@@ -11,8 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nucleation.commands.text import table, wrapped
-from nucleation.commands.unit_text import in_unit
+from nucleation.commands.text import in_unit, table
 from nucleation.model.quantities import Quantity
 from nucleation.model.units import parse
 
@@ -30,7 +29,7 @@ COMMANDS = {
     "simulate": ("simulate", "x.nc", *GRANITE, *STRESS, "--dry-run"),
     "mistake": ("length", "--shear-modulus", "30um"),
 }
-COMMANDS_WITH_HELP = ("length", "drop", "specimen", "plot", "simulate", "show")
+COMMANDS_WITH_HELP = ("length", "specimen", "simulate", "show")
 SYSTEM = ("length", "specimen", "simulate")
 
 
@@ -90,17 +89,7 @@ def test_a_terminal_of_eighty_columns(program):
     assert any(line.startswith("  ") for line in lines), "a hanging indent"
 
 
-def test_a_number_stays_with_its_unit(monkeypatch):
-    text = "a sentence about a length L = 5 um and a stress of 3.1 GPa and one more of 16 % at last"
-    for columns in range(40, 70):
-        monkeypatch.setenv("COLUMNS", str(columns))
-        lines = wrapped(text)
-        assert " ".join(line.strip() for line in lines) == text
-        assert not any(re.search(r"(\d|=)$", line) for line in lines)
-        assert all(line.startswith("  ") for line in lines[1:])
-
-
-def test_a_table_is_narrowed_in_its_widest_column(monkeypatch):
+def test_the_last_column_of_a_table_wraps(monkeypatch):
     rows = [("L", "2 m", "a meaning " * 9), "and a line", ("L_run", "20 m", "short")]
     assert table(rows)[2] == "  L_run  20 m  short"
     monkeypatch.setenv("COLUMNS", "60")

@@ -12,8 +12,14 @@ FAULT = {
     "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
     "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
     "--velocity": "10um/s",
-    "--height": "2m", "--second-body": "20GPa,0.3,3m",
+    "--height": "2m", "--second-shear-modulus": "20GPa", "--second-poisson-ratio": "0.3",
+    "--second-height": "3m",
 }  # fmt: skip
+
+
+def alone(fault):
+    """The options without those of the second body."""
+    return {k: v for k, v in fault.items() if not k.startswith("--second")}
 
 
 def words(options):
@@ -93,7 +99,7 @@ def test_one_fault_in_antiplane_shear(nucleation, tmp_path):
 def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
     """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
     fault = {**FAULT, "--velocity": "1mm/yr", "--friction": "0.65", "--height": "5m"}
-    fault = words({k: v for k, v in fault.items() if k != "--second-body"})
+    fault = words(alone(fault))
     ended = nucleation("length", *fault, "--json")
     assert theory(ended) == pytest.approx(2.513, rel=1e-2)
 
@@ -133,16 +139,19 @@ def test_the_paper_fills_in_what_is_not_given(nucleation, tmp_path):
 
 def test_what_is_assumed_of_the_second_body_is_told_by_all(nucleation, tmp_path):
     """A second body without a height is as high as the first, whichever command is asked."""
-    for body, assumed in (("35GPa,0.25", "as high as the first"), ("same", "like the first")):
-        fault = words({**FAULT, "--second-body": body})
+    for body, assumed in (
+        ({"--second-shear-modulus": "35GPa"}, "as high as the first"),
+        ({"--second-body": "deformable"}, "like the first"),
+    ):
+        fault = words(alone(FAULT) | body)
         for command in (("length",), ("simulate", tmp_path / "run.nc", "--dry-run")):
             told = " ".join(nucleation(*command, *fault).out.split())
             assert f"Assumed: the second body is {assumed}" in told, command
 
 
 def test_one_file_for_all_commands(nucleation, tmp_path):
-    lines = [f"{k[2:].replace('-', '_')}: {v}" for k, v in FAULT.items() if k != "--second-body"]
-    lines += ["second_body: 20GPa,0.3,3m", "friction_law: dieterich_ruina", "n_x: 200"]
+    lines = [f"{k[2:].replace('-', '_')}: {v}" for k, v in FAULT.items()]
+    lines += ["second_body: deformable", "friction_law: dieterich_ruina", "n_x: 200"]
     (file := tmp_path / "fault.yaml").write_text("\n".join(lines) + "\n")
     for command in (("length",), ("simulate", tmp_path / "run.nc", "--dry-run")):
         ended = nucleation(*command, "--parameters", file, "--json")
@@ -151,27 +160,17 @@ def test_one_file_for_all_commands(nucleation, tmp_path):
     assert theory(doubled) < 0.9 * expected()  # an option is stronger
 
 
-@pytest.mark.parametrize("text", ["same", "deformable"])
-def test_bodies_alike(nucleation, text):
-    alone = words({k: v for k, v in FAULT.items() if k != "--second-body"})
-    named = nucleation("length", *alone, "--second-body", text)
-    assert theory(nucleation("length", *alone, "--json")) == theory(
-        nucleation("length", *alone, "--second-body", text, "--json")
-    )
-    assert "two identical bodies" in named.out
-
-
 def test_two_bodies_are_the_usual_system_everywhere(nucleation):
-    given = {k: v for k, v in FAULT.items() if k not in ("--height", "--second-body")}
+    given = {k: v for k, v in alone(FAULT).items() if k != "--height"}
     told = " ".join(nucleation("length", *words(given)).out.split())
     assert "two identical bodies, each a half-space" in told
-    other = nucleation("length", *words(FAULT | {"--second-body": "25GPa,0.25,inf"})).out
+    other = nucleation("length", *words(alone(FAULT) | {"--second-height": "inf"})).out
     assert "a layer 2 m high" in other and "on a half-space (mu" in other
     assert "Assumed: the second body is like the first, half-spaces, plane strain." in told
 
 
 def test_lengths_of_half_spaces_are_not_called_valid_of_layers(nucleation):
-    same = {k: v for k, v in FAULT.items() if k != "--second-body"}
+    same = alone(FAULT)
     out = nucleation("length", *words(same)).out
     part = out.partition("two identical half-spaces of")[2].partition("in use, for a layer")[0]
     assert "for half-spaces (here H = 2 m)" in part and " valid:" not in part

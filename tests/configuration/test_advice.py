@@ -9,7 +9,7 @@ from configurations import messages, papers, study
 
 from nucleation.fem.grid import Grid
 from nucleation.model.friction import Friction
-from nucleation.run.estimates import element_height, steepness
+from nucleation.run.complete import element_height, steepness
 from nucleation.run.run import PAPER_RUN
 from replication.configuration.advice import summary_of_meshes, warned
 from replication.configuration.load import configure

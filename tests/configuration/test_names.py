@@ -3,7 +3,7 @@
 import pytest
 from configurations import assert_one_problem, study, with_run
 
-from nucleation.model.friction.constants import constants
+from nucleation.model.friction.constants import constants_of
 from replication.configuration.load import configure
 
 RUN = "studies.paper.runs[6]"
@@ -76,7 +76,7 @@ def test_laws_are_compared_by_one_study():
         "s-aging-H0.1-phi1-friction_lawproduct", "s-aging-H0.1-phi1-friction_lawdieterich_ruina",
     ]  # fmt: skip
     for run in runs:
-        found = constants(run.run.law, 1e-5)
+        found = constants_of(run.run.law, 1e-5)
         assert found == pytest.approx(constant | {"zeta": 0.01, "b": 0.02})
     assert runs[0].critical_length == pytest.approx(runs[1].critical_length, rel=1e-9)
     assert runs[1].value("friction_law") == "dieterich_ruina"

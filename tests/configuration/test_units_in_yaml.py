@@ -5,7 +5,7 @@ import pytest
 from configurations import messages, study
 
 from nucleation.fault import Fault
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from nucleation.model.quantities import ParameterError
 from replication.configuration.load import configure
 

@@ -8,7 +8,7 @@ from asked import critical_length, lengths, stability_length
 from numpy.testing import assert_allclose
 from scipy.stats import norm
 
-from nucleation.api import draw, quantiles, read_samples
+from nucleation.api import draw_samples, quantiles, read_samples
 from nucleation.lengths.draws import QUANTILES, errors_of_quantiles, with_never
 from nucleation.model.quantities import ParameterError
 
@@ -20,7 +20,7 @@ MEDIAN = math.pi * 40e9 * 5e-6 / (0.005 * 50e6)  # L_c (m) at D = 5 um, Eq. (6)
 
 def test_a_distance_of_a_range():
     """L_c is proportional to D: the range's own quantiles, with unequal sides."""
-    drawn = draw(KNOWN | {"slip_distance": "5um (4 to 10um)"}, draws=151)
+    drawn = draw_samples(KNOWN | {"slip_distance": "5um (4 to 10um)"}, draws=151)
     found = {key: quantiles(answer.value) for key, answer in lengths(**drawn.values).items()}
     below, above = math.log(5 / 4) / norm.ppf(0.95), math.log(10 / 5) / norm.ppf(0.95)
     expected = [MEDIAN * math.exp((below if q < 0.5 else above) * norm.ppf(q)) for q in QUANTILES]
@@ -33,7 +33,7 @@ def test_a_distance_of_a_range():
 def test_two_ranges_are_independent():
     """The logarithms' variances add up."""
     uncertain = {"slip_distance": "5um (4 to 6.25)", "normal_stress": "50MPa (32 to 78.125)"}
-    lengths = critical_length(**draw(KNOWN | uncertain, draws=4000).values)
+    lengths = critical_length(**draw_samples(KNOWN | uncertain, draws=4000).values)
     width = math.hypot(math.log(1.25), math.log(1.5625)) / norm.ppf(0.95)
     expected = MEDIAN * np.exp(width * norm.ppf(QUANTILES))
     assert_allclose(np.quantile(lengths, QUANTILES), expected, rtol=0.03)
@@ -42,7 +42,7 @@ def test_two_ranges_are_independent():
 def test_a_signed_parameter_is_normal_and_may_be_stable():
     """A stable draw has an infinite length: quantiles are those of zeta from its other end."""
     uncertain = {"zeta": "0.005 (-0.001 to 0.011)", "slip_distance": 5e-6, "a": 0.01}
-    found = lengths(**draw(FAULT | uncertain, draws=100).values)
+    found = lengths(**draw_samples(FAULT | uncertain, draws=100).values)
     critical = found["critical_length"]
     width = 0.006 / norm.ppf(0.95)
     share = np.isfinite(critical.value).mean()
@@ -61,8 +61,8 @@ def test_a_signed_parameter_is_normal_and_may_be_stable():
 def test_quantiles_hold_within_their_errors():
     """Of other seeds, and of ten times as many draws: not more than three errors off."""
     uncertain = KNOWN | {"slip_distance": "5um (3 to 10)", "normal_stress": "50MPa (20 to 90)"}
-    few = [critical_length(**draw(uncertain, 200, seed).values) for seed in range(5)]
-    exact = np.quantile(critical_length(**draw(uncertain, draws=20000).values), QUANTILES)
+    few = [critical_length(**draw_samples(uncertain, 200, seed).values) for seed in range(5)]
+    exact = np.quantile(critical_length(**draw_samples(uncertain, draws=20000).values), QUANTILES)
     for lengths_of_draws in few:
         off = np.abs(quantiles(lengths_of_draws) - exact)
         assert (off < 3.0 * errors_of_quantiles(lengths_of_draws)).all()
@@ -75,7 +75,7 @@ def test_samples_are_joint():
     """Of each row its own length; an infinite height is a half-space."""
     rows = {"normal_stress": np.array([4e7, 5e7, 6e7]), "height": np.array([0.1, np.inf, 10.0])}
     own = FAULT | {"a": 0.01, "zeta": [0.005, 0.004, 0.003], "slip_distance": 5e-6} | rows
-    found = critical_length(**draw(own).values)
+    found = critical_length(**draw_samples(own).values)
     for i, length in enumerate(found):
         one = {name: np.asarray(x)[i] if np.ndim(x) else x for name, x in own.items()}
         assert length == pytest.approx(critical_length(**one), rel=1e-12)
@@ -83,8 +83,8 @@ def test_samples_are_joint():
 
 def test_draws_repeat_and_do_not_depend_on_other_ranges():
     one = KNOWN | {"slip_distance": "5um (4 to 10)"}
-    first, again, other = draw(one), draw(one), draw(one, seed=1)
-    more = draw(
+    first, again, other = draw_samples(one), draw_samples(one), draw_samples(one, seed=1)
+    more = draw_samples(
         {"poisson_ratio": "0.25 (0.2 to 0.3)"} | one | {"poisson_ratio": "0.2 (0.1 to 0.3)"}
     )
     for drawn in (again, more):
@@ -95,13 +95,13 @@ def test_draws_repeat_and_do_not_depend_on_other_ranges():
 def test_invalid_draws_are_left_out_and_counted():
     uncertain = KNOWN | {"slip_distance": 5e-6}
     with pytest.raises(ParameterError, match=r"0.5.*must lie in"):
-        draw(uncertain | {"poisson_ratio": "0.45 (0.4 to 0.5)"})
-    found = draw(uncertain | {"poisson_ratio": "0.45 (0.35 to 0.499)"}, draws=40)
+        draw_samples(uncertain | {"poisson_ratio": "0.45 (0.4 to 0.5)"})
+    found = draw_samples(uncertain | {"poisson_ratio": "0.45 (0.35 to 0.499)"}, draws=40)
     beyond = 1 - norm.cdf(0.05 / 0.049 * norm.ppf(0.95))
     assert found.invalid["poisson_ratio"] == pytest.approx(40 * beyond, abs=1)
     assert found.total == 40 == found.values["poisson_ratio"].size + sum(found.invalid.values())
     with pytest.raises(ParameterError, match=r"no draw is a valid fault.*slip_distance"):
-        draw(KNOWN | {"slip_distance": [-1.0, np.nan]})
+        draw_samples(KNOWN | {"slip_distance": [-1.0, np.nan]})
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_invalid_draws_are_left_out_and_counted():
 )
 def test_what_is_wrong_is_named(changed, message):
     with pytest.raises(ParameterError, match=message):
-        draw(KNOWN | changed)
+        draw_samples(KNOWN | changed)
 
 
 PLAIN = "slip_distance (um),a\n5,0.01\n4.5,0.02\n"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.run.identity import ensemble, fault
+from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import PAPER_RUN
 
 BLOCK = PAPER_RUN

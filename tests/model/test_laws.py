@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 from nucleation.model.friction import EVOLUTIONS, LAWS, Friction, law_class
-from nucleation.model.friction.constants import constants, full_law, with_constants
+from nucleation.model.friction.constants import constants_of, full_law, with_constants
 from nucleation.model.quantities import ParameterError, declarations
 
 V = 1e-5
@@ -112,13 +112,13 @@ def test_regularisation_is_taken_into_account():
 
 def test_weakening_is_given_alone_or_over_the_direct_effect():
     law = with_constants(Friction(), V, {"zeta": 0.004})
-    assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["a"], 0.004))
+    assert measured(law, V)[1:] == pytest.approx((constants_of(Friction(), V)["a"], 0.004))
     both = with_constants(Friction(), V, {"zeta": 0.004, "a": 0.008})
     assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
     with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with zeta"):
         with_constants(Friction(), V, {"zeta": 0.004, "zeta_over_a": 1.0})
     same = with_constants(Friction(), V, {"b": 0.012, "a": 0.008})
-    assert constants(same, V) == pytest.approx(constants(both, V), rel=1e-12)
+    assert constants_of(same, V) == pytest.approx(constants_of(both, V), rel=1e-12)
 
 
 @pytest.mark.parametrize("bad", [(0.4, 0.3, 0.1), (0.4, -0.01, 0.1), (0.4, 0.01, -0.02)])
@@ -133,10 +133,10 @@ def test_constants_and_what_they_set_are_not_given_together(law):
         with pytest.raises(ParameterError, match=f"{name} is not allowed together with zeta"):
             with_constants(law, V, values)
     given = with_constants(law, V, {"zeta_over_a": 1.0})
-    own = constants(law, V)
+    own = constants_of(law, V)
     a = own["a"]
     changed = own | {"zeta_over_a": 1.0, "zeta": a, "b": 2.0 * a}
-    assert constants(given, V) == pytest.approx(changed, rel=1e-9)
+    assert constants_of(given, V) == pytest.approx(changed, rel=1e-9)
 
 
 def test_every_parameter_is_checked(law):

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from nucleation.fault import Fault
-from nucleation.fault.paper import PAPER
+from nucleation.fault import PAPER, Fault
 from nucleation.model.quantities import ParameterError
 from nucleation.run.names import parameters, sections
 from nucleation.run.run import PAPER_RUN, Run

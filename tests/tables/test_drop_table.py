@@ -11,7 +11,7 @@ from drop.test_delay import LOAD, PARAMETERS, START, history
 
 from nucleation.drop.delay import growth
 from nucleation.model.settings import Perturbation
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from replication.figures import figure_drop
 from replication.tables import drops as module
 from replication.tables.drops import COLUMNS, drop_files

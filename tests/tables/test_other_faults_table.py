@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from asked import expected_drop
 
-from nucleation.run.identity import ensemble
+from nucleation.run.derived import ensemble
 from nucleation.run.run import PAPER_RUN
 from replication.tables.drops import EXPECTED, OTHER_FAULTS, gather_other_faults
 

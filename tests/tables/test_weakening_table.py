@@ -6,7 +6,7 @@ import xarray as xr
 from asked import expected_drop
 
 from nucleation.datasets.variables import table
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep.thin import thin_limit
 from replication.figures import figure_weakening

@@ -7,7 +7,7 @@ from asked import critical_length, lengths_in_use, spectrum, stability_length, t
 from benchmarks.assembled import assemble
 from nucleation.api import Material, ParameterError
 from nucleation.fem.grid import Grid
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from replication.pipeline import check
 
 RUN = "paper-slip-H0.02-phi1"

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from nucleation.datasets import netcdf
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 
 QUICK = read_yaml(Path(__file__).parents[2] / "config" / "quick.yaml")
 TARGET = "patch_convergence"

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 
 SIMULATIONS = 6  # of the quick configuration
 

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from replication.pipeline.planning import Plan
 
 TABLE = "results/quick/tables/table_s1.csv"

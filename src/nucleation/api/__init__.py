@@ -26,30 +26,32 @@ from __future__ import annotations
 
 import importlib
 import warnings
-from collections.abc import Callable
 from typing import Any
 
-from ..fault import Fault
+from ..fault import PAPER, Fault
 from ..installed import MissingExtra, require, require_own
 from ..model.friction import Friction
+from ..model.material import Material
 from ..model.quantities import ParameterError
+from ..model.settings import Perturbation
 from ..theory.critical import CriticalMode
 from ..theory.status import NoLength
 
 _LATER = {
-    "nucleation.extraction.definitions": ("ExtractionSettings",),
-    "nucleation.extraction.extraction": ("extract",),
-    "nucleation.simulation.progress": ("simulate",),
-    "nucleation.fault.samples": ("read_samples",),
-    "nucleation.datasets.netcdf": ("read", "write"),
-    "nucleation.fault.paper": ("PAPER",),
-    "nucleation.model.material": ("Material",),
-    "nucleation.run.run": ("Run",),
-    "nucleation.model.settings": ("Perturbation",),
-    "nucleation.lengths.answer": ("Lengths",),
-    "nucleation.lengths.draws": ("draw", "quantiles"),
+    "ExtractionSettings": "extraction.definitions",
+    "Lengths": "lengths.answer",
+    "Run": "run.run",
+    "draw_samples": "lengths.draws",
+    "extract": "extraction.extraction",
+    "quantiles": "lengths.draws",
+    "read": "datasets.netcdf",
+    "read_samples": "fault.files",
+    "simulate": "simulation.progress",
+    "write": "datasets.netcdf",
 }
-_MODULES = {name: module for module, names in _LATER.items() for name in names}
+"""Modules of names that are imported when they are first used."""
+
+_OF_SOLVER = ("extract", "read", "simulate", "write")
 
 __all__ = [
     "PAPER",
@@ -63,7 +65,7 @@ __all__ = [
     "ParameterError",
     "Perturbation",
     "Run",
-    "draw",
+    "draw_samples",
     "extract",
     "quantiles",
     "read",
@@ -73,11 +75,6 @@ __all__ = [
 ]
 
 require_own()
-
-_EXTRAS = {
-    **dict.fromkeys(("extract", "read", "simulate", "write"), ("solver",)),
-}
-"""The extras of functions that need one."""
 
 
 def _simulate(self: Fault, *, progress: bool | None = None, **settings: Any) -> Any:
@@ -108,39 +105,19 @@ Fault.simulate = _simulate  # type: ignore[attr-defined]  # here, since a fault 
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _MODULES:
-        if name.endswith("_length") and hasattr(Fault, name):
-            return _method(name)
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    try:
-        for extra in _EXTRAS.get(name, ()):
-            require(extra)
-    except MissingExtra as missing:
-        return _without_extra(name, str(missing))
-    return getattr(importlib.import_module(_MODULES[name]), name)
+    if name in _LATER:
+        try:
+            if name in _OF_SOLVER:
+                require("solver")
+        except MissingExtra:
+            return lambda *_, **__: require("solver")  # all names can be imported without it
+        return getattr(importlib.import_module(f"..{_LATER[name]}", __name__), name)
+    if name.endswith("_length") and hasattr(Fault, name):  # for scripts of earlier versions
 
+        def length(**fault: Any) -> Any:
+            text = f"{name}(**fault) is Fault(**fault).{name}()"
+            warnings.warn(text, DeprecationWarning, stacklevel=2)
+            return getattr(Fault(**fault), name)()
 
-def _method(name: str) -> Callable[..., Any]:
-    """A length as a function of keywords, for scripts of earlier versions; warns."""
-
-    def length(**fault: Any) -> Any:
-        text = f"{name}(**fault) is Fault(**fault).{name}()"
-        warnings.warn(text, DeprecationWarning, stacklevel=2)
-        return getattr(Fault(**fault), name)()
-
-    return length
-
-
-def _without_extra(name: str, message: str) -> Callable[..., Any]:
-    """A substitute for a function without its extra; a call raises an error with the extra."""
-
-    def unavailable(*_: Any, **__: Any) -> Any:
-        raise MissingExtra(message)
-
-    unavailable.__name__ = unavailable.__qualname__ = name
-    unavailable.__doc__ = f"Not installed: {message}."
-    return unavailable
-
-
-def __dir__() -> list[str]:
-    return __all__
+        return length
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -11,34 +11,28 @@ import click
 
 from ..lengths import formulas
 from ..lengths.answer import Answer
-from ..lengths.draws import WEAKENING_RATE, parse_range
+from ..lengths.draws import DRAWS, WEAKENING_RATE, parse_range
 from ..lengths.in_use import LENGTHS
 from ..lengths.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
-from ..model.quantities import ParameterError, declarations
+from ..model.quantities import ParameterError, declarations, declared
 from ..model.settings import Perturbation
 from ..theory.status import BEYOND, STABLE, UNKNOWN
+from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
-from .faults import fault_options, given_fault, samples_of
-from .options import draws_option, json_option, option, samples_option, together
-from .system_text import (
+from .given import fault_options, given_fault, json_option, option, options_of
+from .system import (
     BEGINS,
     is_of_one_material,
     parameters_of,
     plane_in_words,
     printed_warnings,
-    scales_text,
     system_of_fault,
 )
-from .text import Row, show, table, wrapped
-from .unit_text import in_unit
-from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
+from .text import Row, in_unit, show, table, wrapped
 
 if TYPE_CHECKING:
     from ..fault import Fault
-
-_NOTEWORTHY = 0.03
-"""Least relative change of L_s by the scales of the friction law that is printed."""
 
 _NO_LENGTH = {
     STABLE: "NO LENGTH, STABLE: ",
@@ -48,49 +42,64 @@ _NO_LENGTH = {
 """The beginning of a reason in place of a length, by the status."""
 
 _PERTURBED = declarations(Perturbation)
-_OF_PERTURBATION = ("perturbation", "strength", "correlation_time", "correlation_length")
-
-perturbation_options = together(
-    option(
-        "--perturbation",
-        key="perturbation",
-        entry=_PERTURBED["kind"],
-        note="of the length at the drop; normal_load if left out, none: without it",
-    ),
-    option("--strength", key="strength", entry=_PERTURBED["strength"], note="1e-4 if left out"),
-    option(
-        "--correlation-time", key="correlation_time", entry=_PERTURBED["correlation_time"], note="1"
-    ),
-    option(
-        "--correlation-length",
-        key="correlation_length",
-        entry=_PERTURBED["correlation_length"],
-        note="a fifth of L_b if left out",
-    ),
-)
+_OF_PERTURBATION = {
+    "perturbation": _PERTURBED["kind"],
+    "strength": _PERTURBED["strength"],
+    "correlation_time": _PERTURBED["correlation_time"],
+    "correlation_length": _PERTURBED["correlation_length"],
+}
 """The perturbation of the length at the drop, the arguments of ``Fault.lengths``."""
+
+_OF_PATCH = {
+    "outside_zeta": QUANTITIES["zeta"],
+    "outside_a": QUANTITIES["a"],
+    "width": declared(
+        "width W of a weakening patch among strengthening surroundings", "(0.0, 1e6) m"
+    ),
+}
+
+_NOTES = {
+    "perturbation": "of the length at the drop; normal_load if left out, none: without it",
+    "strength": "1e-4 if left out",
+    "correlation_time": "1",
+    "correlation_length": "a fifth of L_b if left out",
+    "outside_zeta": "of the surroundings of a weakening patch, for W_c and --width",
+    "outside_a": "of the surroundings; that of the patch if left out",
+    "width": "needs --outside-zeta",
+}
+
+_CREEPING = {
+    "stability_length": ("L_s", "it turns unstable"),
+    "runaway_length": ("L_run", "slow slip ends there, where friction weakens little"),
+    "drop_length": ("L", "the force drops (docs/drop.md)"),
+    "process_zone": ("L_pz", "process zone: a mesh has to resolve it"),
+}
+"""Symbol and meaning of the lengths of the creeping patch."""
 
 
 @click.command("length", epilog=EXIT_CODES)
 @fault_options
-@perturbation_options
+@options_of(_OF_PERTURBATION, _NOTES)
 @option(
-    "--weakening-rate",
-    key="weakening_rate",
-    entry=WEAKENING_RATE,
-    note="of Uenishi and Rice's length; b sigma0/D if left out",
-    read=parse_range,
+    "weakening_rate",
+    WEAKENING_RATE,
+    "of Uenishi and Rice's length; b sigma0/D if left out",
+    parse_range,
 )
-@patch_options
-@samples_option
-@draws_option(200)
+@options_of(_OF_PATCH, _NOTES)
+@click.option(
+    "--samples",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
+)
+@option(
+    "draws",
+    DRAWS,
+    "of uncertain parameters, and most rows of --samples; default 200",
+    default="200",
+)
 @json_option
-def command(
-    as_json: bool,
-    samples: Path | None,
-    draws: int,
-    **options: Any,
-) -> int:
+def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> int:
     """Nucleation lengths of a fault: the theory's, the one at the drop, and others in use.
 
     With --velocity and --friction it has L, at which the force drops under a perturbation. With a
@@ -105,43 +114,58 @@ def command(
           --normal-stress 50MPa --a 0.010 --b 0.015 --slip-distance 5um
     """
     perturbed = {n: options[n] for n in _OF_PERTURBATION if options[n] is not None}
-    of_patch = {name: options[name] for name in OPTIONS}
-    columns = samples_of(samples)
+    of_patch = {name: options[name] for name in _OF_PATCH}
+    columns = {}
+    if samples:
+        from ..fault.files import read_samples
+
+        columns = read_samples(samples)
     with printed_warnings():
-        given = given_fault(options, columns, draws)
-        if given.drawn:
+        fault, names, drawn = given_fault(options, columns, draws)
+        if drawn:
             from .quantiles import print_quantiles
 
             for name, value in of_patch.items():
                 if value is not None:
                     raise ParameterError(f"{name} is not allowed beside ranges and samples")
-            rate = given.drawn.values.get("weakening_rate", options["weakening_rate"])
-            return print_quantiles(given, perturbed, rate, as_json)
-        found = given.fault.lengths(**perturbed, weakening_rate=options["weakening_rate"])
-        patch = patch_of(given.fault, of_patch)
-        mode = _mode(given.fault)
-    system = system_of_fault(given.fault, given.names, given.papers)
-    lines = _lines(given.fault, mode, found)
+            rate = drawn.values.get("weakening_rate", options["weakening_rate"])
+            perturbed = perturbed or {"perturbation": "none"}
+            return print_quantiles(
+                fault,
+                names,
+                drawn,
+                options["paper"],
+                as_json,
+                **perturbed,
+                weakening_rate=rate,
+            )
+        found = fault.lengths(**perturbed, weakening_rate=options["weakening_rate"])
+        patch = _patch(fault, of_patch)
+        mode = _mode(fault)
+    system = system_of_fault(fault, names, options["paper"])
+    critical = found["critical_length"]
+    plane = plane_in_words(fault.plane)
+    lines = wrapped(*system, "", f"Theory of homogeneous sliding, in {plane}:")
+    if critical.exists:
+        lines += [*_mode_lines(fault, critical, mode), "", *_creep_lines(fault, found)]
+    else:
+        lines += wrapped(f"  no critical length: {critical.reason}")
+    lines += _literature_lines(fault, found)
     if patch:
-        width, critical = of_patch["width"], found["critical_length"].value
-        lines[-1:-1] = [
-            *patch_lines(
-                patch,
-                width,
-                critical,
-            ),
-            "",
-        ]
+        lines += _patch_lines(patch, of_patch["width"], critical.value)
+    remark = (
+        f"in {plane}, with {_moduli(fault)}, b = a + zeta, natural logarithms; all are full lengths"
+    )
     everything = {
         "system": system,
-        "parameters": parameters_of(given.fault),
+        "parameters": parameters_of(fault),
         "mode": mode,
         "perturbation": perturbed,
         "weakening_patch": patch,
         "lengths": [_described(key, answer) for key, answer in found.items()],
     }
-    show(as_json, everything, [*wrapped(*system, ""), *lines])
-    return DONE if found["critical_length"].exists else CODE_OF_STABLE
+    show(as_json, everything, [*lines, "", *wrapped(remark)])
+    return DONE if critical.exists else CODE_OF_STABLE
 
 
 _WORDS = {length.key: length.words() for length in LENGTHS}
@@ -172,43 +196,9 @@ def _mode(fault: Fault) -> dict[str, Any]:
     }
 
 
-def _lines(fault: Fault, mode: Mapping[str, Any], found: Mapping[str, Answer]) -> list[str]:
-    """The answer in lines that fit the terminal."""
-    critical = found["critical_length"]
-    lines = wrapped(f"Theory of homogeneous sliding, in {plane_in_words(fault.plane)}:")
-    if critical.exists:
-        lines += [
-            *_mode_lines(
-                fault,
-                critical,
-                mode,
-            ),
-            "",
-            *_patch_lines(fault, found),
-        ]
-    else:
-        lines += wrapped(f"  no critical length: {critical.reason}")
-    of_system: dict[str, list[Row]] = {}
-    for length in LENGTHS:
-        if length.key in found:
-            rows = _length_rows(length, found[length.key], fault, critical.value)
-            of_system.setdefault(length.system, []).extend(rows)
-    for system in sorted(of_system, key=lambda system: system != TWO_MATERIALS):
-        lines += ["", *wrapped(f"Lengths in use, for {system}:"), *table(of_system[system])]
-    remark = (
-        f"in {plane_in_words(fault.plane)}, with {_moduli(fault)}, b = a + zeta, natural "
-        "logarithms; all are full lengths"
-    )
-    return [*lines, "", *wrapped(remark)]
-
-
 def _moduli(fault: Fault) -> str:
     """The moduli in the formulas: mu*, and M of two materials."""
-    star = {
-        "strain": "mu/(1 - nu)",
-        "stress": "mu (1 + nu)",
-        "antiplane": "mu",
-    }
+    star = {"strain": "mu/(1 - nu)", "stress": "mu (1 + nu)", "antiplane": "mu"}
     text = f"mu* = {star[fault.plane]}"
     if is_of_one_material(fault):
         return text
@@ -238,19 +228,11 @@ def _mode_lines(fault: Fault, critical: Answer, mode: Mapping[str, Any]) -> list
     return table(lines)
 
 
-_OF_PATCH = {
-    "stability_length": ("L_s", "it turns unstable"),
-    "runaway_length": ("L_run", "slow slip ends there, where friction weakens little"),
-    "drop_length": ("L", "the force drops (docs/drop.md)"),
-    "process_zone": ("L_pz", "process zone: a mesh has to resolve it"),
-}
-
-
-def _patch_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
-    """L_s, L_run and L with their ranges, and the effect of the friction law's scales on L_s."""
+def _creep_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
+    """L_s, L_run and L with their ranges."""
     critical = found["critical_length"].value
     rows: list[Row] = []
-    for key, (symbol, meaning) in _OF_PATCH.items():
+    for key, (symbol, meaning) in _CREEPING.items():
         answer = found.get(key)
         if answer is None:
             continue
@@ -264,33 +246,24 @@ def _patch_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
         if answer.doubt:
             rows.append(f"      DO NOT RELY ON IT: {answer.doubt}")
     head = f"The creeping patch itself, {BEGINS[fault.loading]} (docs/creeping_patch.md):"
-    return [*wrapped(head), *table(rows), *_effect_of_law(fault, found["stability_length"])]
+    return [*wrapped(head), *table(rows)]
 
 
-def _effect_of_law(fault: Fault, stability: Answer) -> list[str]:
-    law = fault.friction_law
-    if law is None or not stability.exists:
-        return []
-    constant = float(fault.replace(friction_law=None, **_constants(fault)).stability_length())
-    if abs(constant / stability.value - 1.0) < _NOTEWORTHY:
-        return []
-    other = "none up to 3 L_c" if math.isnan(constant) else f"{constant:.4g} m"
-    return wrapped(
-        f"    a and b vary along the patch by the {law.law} law, {scales_text(law)}, "
-        f"V = {in_unit(fault.single('velocity'), 'm/s')}; with constant a and b L_s = {other}"
-    )
+def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
+    """The lengths of the literature, by the systems for which they are: two materials first."""
+    critical = found["critical_length"].value
+    of_system: dict[str, list[Row]] = {}
+    for length in LENGTHS:
+        if length.key in found:
+            rows = _length_rows(length, found[length.key], fault, critical)
+            of_system.setdefault(length.system, []).extend(rows)
+    lines = []
+    for system in sorted(of_system, key=lambda system: system != TWO_MATERIALS):
+        lines += ["", *wrapped(f"Lengths in use, for {system}:"), *table(of_system[system])]
+    return lines
 
 
-def _constants(fault: Fault) -> dict[str, float]:
-    return {n: fault.single(n) for n in ("friction", "a", "zeta", "slip_distance")}
-
-
-def _length_rows(
-    length: Length,
-    answer: Answer,
-    fault: Fault,
-    critical: float,
-) -> list[Row]:
+def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) -> list[Row]:
     """One length of the literature: value and formula, source, validity."""
     value = float(answer.value)
     text = f"{value:.4g} m"
@@ -307,8 +280,45 @@ def _length_rows(
         f"      {length.source}",
         f"      {validity}",
     ]
-    if length.beyond and formulas.between_localised_and_crack(
-        number(fault, "a"), number(fault, "b")
-    ):
+    a, b = number(fault, "a"), number(fault, "b")
+    if length.beyond and formulas.between_localised_and_crack(a, b):
         rows.append(f"      {length.beyond}")
     return rows
+
+
+def _patch(fault: Fault, given: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The behaviour of a weakening patch with the fault's friction; None if there is none."""
+    if given["outside_zeta"] is not None:
+        from ..lengths.weakening_patch import patch_answer
+
+        return patch_answer(fault, given["outside_zeta"], given["outside_a"], given["width"])
+    if any(value is not None for value in given.values()):
+        raise ParameterError(
+            "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
+            "surroundings, negative where they strengthen"
+        )
+    return None
+
+
+def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:
+    """The smallest width W_c, the behaviour of a patch of a width (m), and the cells of a mesh."""
+    head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
+    smallest = patch["smallest_width"]
+    rows: list[Row] = []
+    if math.isnan(smallest):
+        rows.append("  no W_c: the patch is stable, or its surroundings are not")
+    else:
+        ratio = f"{smallest / critical:.3g} L_c"
+        meaning = "smallest width at which slip is unstable; a narrower patch creeps"
+        rows.append(("W_c", f"{smallest:.4g} m", ratio, meaning))
+        if width is not None:
+            own = f"{patch['width_ratio']:.3g} W_c"
+            rows.append(("W", in_unit(width, "m"), own, patch["outcome"]))
+            if patch["width_ratio"] >= 1.0:
+                from ..lengths.patch_outcomes import SETTING
+
+                rows.append(f"      simulated: {SETTING}")
+    if not math.isnan(patch["cell_size"]):
+        cell = f"{patch['cell_size']:.3g} m"
+        rows.append(("cells", cell, "", "or less: three in a process zone (Day et al., 2005)"))
+    return ["", *wrapped(head), *table(rows)]

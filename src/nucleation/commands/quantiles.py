@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+import sys
+from collections.abc import Collection, Mapping
+from typing import Any
 
+import click
 import numpy as np
 
 from ..fault import Fault
@@ -13,12 +15,9 @@ from ..lengths.answer import TITLES, Answer
 from ..lengths.draws import QUANTILES, Draws, errors_of_quantiles, quantiles, with_never
 from ..theory.status import BEYOND, STABLE
 from ..theory.values import arrays_of
-from ..types import Array
 from . import DONE
 from . import STABLE as CODE_OF_STABLE
-from .faults import GivenFault
-from .progress import progress_of
-from .system_text import system_of_fault
+from .system import system_of_fault
 from .text import Row, show, table, wrapped
 
 _HEAD = ("quantiles (m)", *(f"{share:.0%}" for share in QUANTILES), "share")
@@ -28,159 +27,85 @@ _AT_ONCE = 10
 _REASONS = 3  # of those why draws lack a length, that are named
 
 
-class _Quantiles(NamedTuple):
-    key: str
-    values: Array  # m
-    errors: Array
-    share: float  # of the draws with the length
-    statuses: Array
-    why_not: str  # some draws lack it
-
-
 def print_quantiles(
-    given: GivenFault,
-    perturbed: Mapping[str, Any],
-    weakening_rate: Any,
+    fault: Fault,
+    names: Collection[str],
+    drawn: Draws,
+    paper: bool,
     as_json: bool,
+    **options: Any,
 ) -> int:
-    """Print the quantiles of all lengths of an uncertain fault; returns the exit code."""
-    drawn = given.drawn
-    assert drawn is not None
-    found = [
-        _quantiles(key, x)
-        for key, x in _answers(
-            given,
-            perturbed,
-            weakening_rate,
-        ).items()
-    ]
-    middle = median_fault(given.fault)
-    system = system_of_fault(middle, given.names, given.papers)
-    counts = _counts(drawn, found)
-    show(
-        as_json,
-        _described(
-            system,
-            drawn,
-            counts,
-            found,
-        ),
-        _lines(
-            system,
-            drawn,
-            counts,
-            found,
-        ),
-    )
-    return DONE if found[0].share > 0.0 else CODE_OF_STABLE
-
-
-def _answers(
-    given: GivenFault, perturbed: Mapping[str, Any], weakening_rate: Any
-) -> dict[str, Answer]:
-    """The lengths of all draws, computed in parts that progress reports."""
-    arrays = arrays_of(given.fault)
-    size = drawn_size(given)
-    report = progress_of("draws")
-    options = dict(perturbed) or {"perturbation": "none"}
-    parts: dict[str, list[Answer]] = {}
-    for start in range(0, size, _AT_ONCE):
-        rows = slice(start, min(start + _AT_ONCE, size))
-        part = given.fault.replace(**{name: x[rows] for name, x in arrays.items()})
-        rate = weakening_rate[rows] if np.ndim(weakening_rate) else weakening_rate
-        for key, answer in part.lengths(**options, weakening_rate=rate).items():
-            columns = [np.broadcast_to(x, (rows.stop - start,)) for x in answer]
-            parts.setdefault(key, []).append(Answer(*columns))
-        report(rows.stop, size)
-    return {key: Answer(*map(np.concatenate, zip(*own, strict=True))) for key, own in parts.items()}
-
-
-def drawn_size(given: GivenFault) -> int:
-    """The number of valid draws."""
-    assert given.drawn is not None
-    return max(np.size(x) for x in given.drawn.values.values())
-
-
-def median_fault(fault: Fault) -> Fault:
-    """The fault of the medians of its arrays."""
-    return fault.replace(**{name: float(np.median(x)) for name, x in arrays_of(fault).items()})
-
-
-def _quantiles(key: str, answer: Answer) -> _Quantiles:
-    counted = with_never(answer.value, answer.status)
-    there = np.isfinite(answer.value)
-    reasons = dict.fromkeys(str(reason) for reason in answer.reason[~there])
-    values, errors = quantiles(counted), errors_of_quantiles(counted)
-    why_not = "; ".join(list(reasons)[:_REASONS])
-    return _Quantiles(
-        key,
-        values,
-        errors,
-        float(there.mean()),
-        answer.status,
-        why_not,
-    )
-
-
-def _counts(drawn: Draws, found: Sequence[_Quantiles]) -> dict[str, Any]:
-    statuses = {one.key: one.statuses for one in found}
-    return {
+    """Print the quantiles of all lengths of the draws of a fault; returns the exit code."""
+    answers = _answers(fault, drawn, **options)
+    medians = {name: float(np.median(x)) for name, x in arrays_of(fault).items()}
+    system = system_of_fault(fault.replace(**medians), names, paper)
+    statuses = {key: answer.status for key, answer in answers.items()}
+    counts = {
         "draws": drawn.total,
         "invalid": drawn.total - statuses["critical_length"].size,
         "outside": ", ".join(drawn.invalid),
         "stable": int(np.sum(statuses["critical_length"] == STABLE)),
         "beyond": int(np.sum(statuses["stability_length"] == BEYOND)),
     }
+    lengths = [_described(key, answer) for key, answer in answers.items()]
+    found = {"system": system, "uncertain": list(drawn.uncertain), **counts, "lengths": lengths}
+    show(as_json, found, _lines(found))
+    return DONE if lengths[0]["share"] > 0.0 else CODE_OF_STABLE
 
 
-def _described(
-    system: list[str],
-    drawn: Draws,
-    counts: dict[str, Any],
-    found: Sequence[_Quantiles],
-) -> dict[str, Any]:
-    """The quantiles for JSON, in SI units."""
-    lengths = []
-    for one in found:
-        numbers = {"quantiles": one.values, "errors": one.errors}
-        by_share = {
-            name: {
-                f"{q:g}": x
-                for q, x in zip(
-                    QUANTILES,
-                    values.tolist(),
-                    strict=True,
-                )
-            }
-            for name, values in numbers.items()
-        }
-        more = {"share": one.share, "why_not": one.why_not, "units": "m"}
-        lengths.append({"key": one.key, "title": TITLES[one.key], **by_share, **more})
-    return {"system": system, "uncertain": list(drawn.uncertain), **counts, "lengths": lengths}
+def _answers(fault: Fault, drawn: Draws, weakening_rate: Any, **options: Any) -> dict[str, Answer]:
+    """The lengths of all draws, computed in parts; a terminal shows how many are finished."""
+    arrays = arrays_of(fault)
+    size = max(np.size(x) for x in drawn.values.values())
+    parts: dict[str, list[Answer]] = {}
+    for start in range(0, size, _AT_ONCE):
+        rows = slice(start, min(start + _AT_ONCE, size))
+        part = fault.replace(**{name: x[rows] for name, x in arrays.items()})
+        rate = weakening_rate[rows] if np.ndim(weakening_rate) else weakening_rate
+        for key, answer in part.lengths(**options, weakening_rate=rate).items():
+            columns = [np.broadcast_to(x, (rows.stop - start,)) for x in answer]
+            parts.setdefault(key, []).append(Answer(*columns))
+        if sys.stderr and sys.stderr.isatty():
+            text = f"{rows.stop} of {size} draws" if rows.stop < size else ""
+            click.echo(f"\r{text:<40}\r", err=True, nl=False)
+    return {key: Answer(*map(np.concatenate, zip(*own, strict=True))) for key, own in parts.items()}
 
 
-def _lines(
-    system: list[str],
-    drawn: Draws,
-    counts: dict[str, Any],
-    found: Sequence[_Quantiles],
-) -> list[str]:
+def _described(key: str, answer: Answer) -> dict[str, Any]:
+    """The quantiles of a length and the share of the draws that have it, for JSON, in SI units."""
+    counted = with_never(answer.value, answer.status)
+    there = np.isfinite(answer.value)
+    reasons = dict.fromkeys(str(reason) for reason in answer.reason[~there])
+    labels = [f"{share:g}" for share in QUANTILES]
+    return {
+        "key": key,
+        "title": TITLES[key],
+        "quantiles": dict(zip(labels, quantiles(counted).tolist(), strict=True)),
+        "errors": dict(zip(labels, errors_of_quantiles(counted).tolist(), strict=True)),
+        "share": float(there.mean()),
+        "why_not": "; ".join(list(reasons)[:_REASONS]),
+        "units": "m",
+    }
+
+
+def _lines(found: Mapping[str, Any]) -> list[str]:
     """The quantiles as a table."""
+    text = f"{found['draws']} draws of {', '.join(found['uncertain'])}: {found['invalid']} left out"
+    if found["invalid"]:
+        text += f" ({found['outside']} not allowed)"
+    text += f", {found['stable']} of the others stable, without L_c"
+    if found["beyond"]:
+        text += f", {found['beyond']} with an L_s beyond 3 L_c"
     rows: list[Row] = [_HEAD]
-    for one in found:
-        if one.share > 0.0:
-            numbers = [
-                as_sure(x, e)
-                for x, e in zip(
-                    one.values,
-                    one.errors,
-                    strict=True,
-                )
-            ]
-            rows.append([TITLES[one.key], *numbers, f"{one.share:.1%}"])
-    lines = wrapped(*system, "", _counts_in_words(drawn, counts), "")
-    lines += table(rows, range(1, len(_HEAD)))
-    nowhere = [TITLES[one.key] for one in found if not one.share]
+    nowhere = []
+    for length in found["lengths"]:
+        if not length["share"]:
+            nowhere.append(length["title"])
+            continue
+        pairs = zip(length["quantiles"].values(), length["errors"].values(), strict=True)
+        numbers = [as_sure(value, error) for value, error in pairs]
+        rows.append([length["title"], *numbers, f"{length['share']:.1%}"])
+    lines = [*wrapped(*found["system"], "", text, ""), *table(rows, range(1, len(_HEAD)))]
     if nowhere:
         lines += wrapped("", f"without a value in any draw: {'; '.join(nowhere)}")
     remark = (
@@ -188,16 +113,6 @@ def _lines(
         "length; digits by the number of draws. share: of the draws with this length; full lengths"
     )
     return [*lines, *wrapped("", remark)]
-
-
-def _counts_in_words(drawn: Draws, counts: Mapping[str, Any]) -> str:
-    text = f"{counts['draws']} draws of {', '.join(drawn.uncertain)}: {counts['invalid']} left out"
-    if counts["invalid"]:
-        text += f" ({counts['outside']} not allowed)"
-    text += f", {counts['stable']} of the others stable, without L_c"
-    if counts["beyond"]:
-        text += f", {counts['beyond']} with an L_s beyond 3 L_c"
-    return text
 
 
 def as_sure(value: float, error: float) -> str:

@@ -7,7 +7,7 @@ import math
 import shlex
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -15,72 +15,45 @@ from ..installed import require
 from ..model.quantities import ParameterError, declared
 from ..run.advice import advice
 from ..run.checks import contradictions, estimated_megabytes, memory_problem
-from ..run.names import GROUPS, parameters
+from ..run.names import GROUPS, OF_GROUPS, parameters
 from ..run.run import PAPER_RUN, Run
-from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .faults import NOTES
-from .options import (
-    Decorator,
-    force_option,
-    option,
-    second_body_option,
-    source_options,
-    together,
+from .given import NOTES, given_run, json_option, option, options_of, source_options
+from .system import printed_warnings, system_of_fault
+from .text import (
+    event_lines,
+    in_unit,
+    outcome,
+    parameter_lines,
+    require_writable,
+    show,
+    warn,
+    with_unit,
+    wrapped,
 )
-from .sources import given_run
-from .system_text import printed_warnings, system_of_fault
-from .text import event_lines, outcome, parameter_lines, require_writable, show, warn, wrapped
-from .unit_text import in_unit, with_unit
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _MEMORY = declared("memory of one simulation", "(100.0, 1e7) MB")
 _LIMIT = 2000.0  # MB
 
-
-def _run_options() -> Decorator:
-    """One option for each parameter of a run, with its default."""
-    notes = dict(NOTES)
-    for cls in GROUPS.values():
-        for field in dataclasses.fields(cls):
-            name = cls.called.get(field.name, field.name)
-            if field.default is not None:
-                notes[name] = f"default {with_unit(field.default, parameters()[name])}"
-    notes["block_length"] = "6 critical lengths if left out"
-    notes["correlation_length"] = "a fifth of L_b if left out"
-    notes["end_time"] = notes["time_after_event"] = "by the theory if left out"
-    options = []
-    for name, entry in parameters().items():
-        if name == "second_body":
-            options.append(second_body_option)
-            continue
-        called = f"--{name.replace('_', '-')}"
-        options.append(
-            option(
-                called,
-                key=name,
-                entry=entry,
-                note=notes.get(name, ""),
-            )
-        )
-    return together(*options)
+_NOTES = NOTES | {
+    name: f"default {with_unit(field.default, entry)}"
+    for group, cls in GROUPS.items()
+    for (name, entry), field in zip(OF_GROUPS[group].items(), dataclasses.fields(cls), strict=True)
+    if field.default is not None
+}
+_NOTES |= dict.fromkeys(("end_time", "time_after_event"), "by the theory if left out")
+_NOTES["block_length"] = "6 critical lengths if left out"
+_NOTES["correlation_length"] = "a fifth of L_b if left out"
 
 
 @click.command("simulate", epilog=EXIT_CODES)
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @source_options
-@_run_options()
-@option(
-    "--memory",
-    key="memory",
-    entry=_MEMORY,
-    note="more is refused; 2000 MB if left out",
-)
-@force_option
+@options_of(parameters(), _NOTES)
+@option("memory", _MEMORY, "more is refused; 2000 MB if left out")
+@click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
 @click.option("--dry-run", is_flag=True, help="check everything, describe the run, and stop")
-@click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
+@json_option
 def command(
     output: Path,
     force: bool,
@@ -106,14 +79,13 @@ def command(
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
     require_writable(output, force)
     with printed_warnings():
-        run, names, papers = given_run(options)
+        run, names, paper = given_run(options)
     problems = [*contradictions(run), *memory_problem(run, "--memory", memory or _LIMIT)]
     if problems:
         raise ParameterError("; ".join(problems))
-    lines = system_of_fault(run.fault, names, papers)
-    if math.isinf(options["height"] or 0.0) or (
-        not {"height", "block_length"} & names and not papers
-    ):
+    lines = system_of_fault(run.fault, names, paper)
+    given_size = {"height", "block_length"} & names
+    if math.isinf(options["height"] or 0.0) or not (given_size or paper):
         lines.append(
             f"Half-spaces: computed as blocks {run.fault.height:.4g} m high and "
             f"{run.block.length:.4g} m long, and L_s changes by less than 2 %."
@@ -121,16 +93,21 @@ def command(
     for topic, _, text in advice(run, run.critical_length):
         warn(f"{topic}: {text}")
     lines += _plan_lines(run)
+    described: dict[str, Any] = {"parameters": run.to_dict()}
+    if dry_run or as_json:
+        from ..theory.creep.lengths import stability_length_of
+
+        critical = run.critical_length
+        stability = stability_length_of(run.patches, critical)
+        described["theory"] = {"critical_length": critical, "stability_length": stability}
+        if not math.isnan(stability):
+            lines.append(f"theory: a creeping patch turns unstable at {stability:.4g} m")
     if dry_run:
-        show(
-            as_json,
-            _described(run),
-            [*parameter_lines(run), *wrapped(*lines)],
-        )
+        show(as_json, described, [*parameter_lines(run), *wrapped(*lines)])
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
-    return _simulate(run, output, as_json)
+    return _simulate(run, output, as_json, described)
 
 
 def _plan_lines(run: Run) -> list[str]:
@@ -143,19 +120,11 @@ def _plan_lines(run: Run) -> list[str]:
         whose = "sliding" if uniform else "sliding outside the step or bump"
         theory = f"{whose} is stable at every wavelength, no critical length; {run.block.n_x}"
     lines = [f"theory: {theory} elements of {in_unit(element, 'm')}"]
-    patch = _stability_length(run)
-    if not math.isnan(patch):
-        lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
     stepping = run.stepping
     until = f"time: until {stepping.end_time:g} s"
     if stepping.time_after_event < stepping.end_time:
         until += f", or {stepping.time_after_event:g} s after the event's onset"
     return [*lines, until, f"memory: about {estimated_megabytes(run):.0f} MB"]
-
-
-def _stability_length(run: Run) -> float:
-    """L_s (m) of the run's fault, NaN if there is none."""
-    return stability_length_of(run.patches, run.critical_length)
 
 
 def _command(output: Path, run: Run) -> str:
@@ -169,18 +138,7 @@ def _command(output: Path, run: Run) -> str:
     return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 
 
-def _described(run: Run) -> dict[str, Any]:
-    """Theory and parameters of a run for JSON, in SI units."""
-    return {
-        "theory": {
-            "critical_length": run.critical_length,
-            "stability_length": _stability_length(run),
-        },
-        "parameters": run.to_dict(),
-    }
-
-
-def _simulate(run: Run, output: Path, as_json: bool) -> int:
+def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
     from ..datasets import netcdf, provenance
     from ..extraction.extraction import extract
@@ -190,12 +148,14 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     digest = simulation_code(run)
     attributes = provenance.attributes(run.to_dict(), digest, _command(output, run))
     progress = Progress(run, sys.stderr)
-
-    def write(dataset: xr.Dataset, path: Path) -> None:
-        netcdf.write(dataset, path, **attributes)
-
     try:
-        dataset, path = run_to_file(run, output, write, digest, progress)
+        dataset, path = run_to_file(
+            run,
+            output,
+            lambda dataset, path: netcdf.write(dataset, path, **attributes),
+            digest,
+            progress,
+        )
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
@@ -210,9 +170,5 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         *event_lines(extract(dataset), run.critical_length),
         f"written to {output}",
     ]
-    show(
-        as_json,
-        {"output": str(output), **outcome(dataset), **_described(run)},
-        lines,
-    )
+    show(as_json, {"output": str(output), **outcome(dataset), **described}, lines)
     return DONE

@@ -3,37 +3,29 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import click
-import numpy as np
 
 from ..lengths.answer import Answer, Lengths
-from ..lengths.draws import QUANTILES
-from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, Interval, at_share
+from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit
+from ..model.hints import RANGES
 from ..theory.status import STABLE as STABLE_SLIDING
-from ..theory.values import QUANTITIES, arrays_of
+from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES, STABLE
-from .faults import GivenFault, fault_options, given_fault, samples_of
-from .options import draws_option, json_option, option, samples_option
-from .progress import progress_of
-from .quantiles import drawn_size, median_fault
-from .system_text import plane_in_words, printed_warnings, system_of_fault
-from .text import show, wrapped
-from .unit_text import in_unit
+from .given import fault_options, given_fault, json_option, option
+from .system import plane_in_words, printed_warnings, system_of_fault
+from .text import in_unit, show, wrapped
 
-if TYPE_CHECKING:
-    from ..fault import Fault
-
-_DIGITS_OF_SHARES = 2  # as many as some hundred draws leave
 _SHORTEST_EVENT = 0.7
 """Least length of a simulated block with an event, over L_s: its far end is free, and the theory's
 block is long (PMMA plates 10 cm high and 12 cm long under 1 MPa)."""
 
+_JUDGED = ("critical_length", "stability_length", "drop_length")
+
 
 @click.command("specimen", epilog=EXIT_CODES)
-@option("--length", key="length", entry=SPECIMEN, required=True)
+@option("length", SPECIMEN, required=True)
 @click.option(
     "--find",
     "unknown",
@@ -51,48 +43,37 @@ block is long (PMMA plates 10 cm high and 12 cm long under 1 MPa)."""
     "pushed at its edge",
 )
 @fault_options
-@samples_option
-@draws_option(200)
 @json_option
-def command(
-    length: float,
-    unknown: str,
-    criterion: str,
-    as_json: bool,
-    samples: Path | None,
-    draws: int,
-    **options: Any,
-) -> int:
+def command(length: float, unknown: str, criterion: str, as_json: bool, **options: Any) -> int:
     """Normal stress, slip distance or modulus at which a nucleation length fits into a specimen.
 
     The inverse of `length`. With the value of the parameter it is judged by L_s and by L, at which
-    the force drops; L needs --velocity and --friction. With a range "5um (3 to 10)", the median and
-    the quantiles of 5 and 95 %, or with --samples it prints the values at which shares of all draws
-    fit.
+    the force drops; L needs --velocity and --friction.
 
     \b
     Example:
       nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa \\
           --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
-    columns = samples_of(samples)
-    any_value = {unknown: _middle(unknown)}
+    any_value = math.sqrt(math.prod(RANGES[unknown]))
     with printed_warnings():
-        given = given_fault(options, columns, draws, sought=any_value)
-        if given.drawn:
-            return _print_shares(given, length, unknown, criterion, as_json)
-        fault = given.fault
+        fault, names, _ = given_fault(options, sought={unknown: any_value})
         fit = fault.specimen(unknown, length, criterion)
-        is_given = unknown in given.names
+        is_given = unknown in names
         found = fault.lengths() if is_given else None
-    system = system_of_fault(fault, given.names, given.papers, "" if is_given else unknown)
+    system = system_of_fault(fault, names, options["paper"], "" if is_given else unknown)
     lines = [*system, ""]
     judged = None
     if found is not None:
-        verdict = _verdict(length, found)
-        judged = {"value": fault.single(unknown), "verdict": verdict, **_numbers(found)}
-        lines += [f"At {unknown} = {in_unit(fault.single(unknown), fit.unit)} {verdict}."]
-    lines += _fit_lines(_fits(length, criterion, fault), fit)
+        value, verdict = fault.single(unknown), _verdict(length, found)
+        judged = {"value": value, "verdict": verdict}
+        for key in _JUDGED:
+            numbers = found[key]._asdict()
+            judged[key] = {n: x if isinstance(x, str) else float(x) for n, x in numbers.items()}
+        lines += [f"At {unknown} = {in_unit(value, fit.unit)} {verdict}."]
+    plane = plane_in_words(fault.plane)
+    lines.append(f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane}, if")
+    lines += _fit_lines(fit)
     everything = {
         "system": system,
         "specimen": length,
@@ -103,29 +84,6 @@ def command(
     }
     show(as_json, everything, wrapped(*lines))
     return DONE if fit.exists else STABLE
-
-
-def _middle(unknown: str) -> float:
-    low, high = _searched(unknown)
-    return math.sqrt(low * high)
-
-
-def _searched(unknown: str) -> Interval:
-    from ..model.hints import RANGES
-
-    return RANGES[unknown]
-
-
-_JUDGED = ("critical_length", "stability_length", "drop_length")
-
-
-def _numbers(found: Lengths) -> dict[str, Any]:
-    """L_c, L_s and L for JSON."""
-    return {key: {n: _plain(x) for n, x in found[key]._asdict().items()} for key in _JUDGED}
-
-
-def _plain(value: Any) -> Any:
-    return value if isinstance(value, str) else float(value)
 
 
 def _verdict(length: float, found: Lengths) -> str:
@@ -157,117 +115,20 @@ def _with_range(answer: Answer) -> str:
     return text
 
 
-class _Shares(NamedTuple):
-    """The values at which a length fits in shares of the draws."""
-
-    unknown: str
-    unit: str
-    searched: Interval
-    intervals: dict[float, tuple[Interval, ...]]
-    draws: int
-    invalid: int
-    outside: tuple[str, ...]
-    share: float
-    """Of the draws in which the length fits at the given value; NaN without a value."""
-
-
-def _shares(
-    given: GivenFault,
-    length: float,
-    unknown: str,
-    criterion: str,
-) -> _Shares:
-    drawn, fault = given.drawn, given.fault
-    assert drawn is not None
-    arrays = {name: x for name, x in arrays_of(fault).items() if name != unknown}
-    size = drawn_size(given)
-    report = progress_of("draws")
-    fits = []
-    for i in range(size):
-        one = {name: float(x[i]) for name, x in arrays.items()}
-        single = fault.replace(**one | {unknown: _middle(unknown)})
-        fits.append(single.specimen(unknown, length, criterion))
-        report(i + 1, size)
-    share = math.nan
-    if unknown in given.names:
-        found = getattr(fault, CRITERIA[criterion])()
-        share = float(np.mean(np.asarray(found) <= length))
-    return _Shares(
-        unknown=unknown,
-        unit=fits[0].unit,
-        searched=fits[0].searched,
-        intervals={q: at_share(fits, q) for q in QUANTILES},
-        draws=drawn.total,
-        invalid=sum(drawn.invalid.values()),
-        outside=tuple(drawn.invalid),
-        share=share,
-    )
-
-
-def _print_shares(
-    given: GivenFault, length: float, unknown: str, criterion: str, as_json: bool
-) -> int:
-    """Print the values at which shares of all draws fit, and return the exit code."""
-    found = _shares(given, length, unknown, criterion)
-    fault = given.fault
-    middle = median_fault(fault)
-    sought = "" if unknown in given.names else unknown
-    system = system_of_fault(middle, given.names, given.papers, sought)
-    everything = {
-        "system": system,
-        "specimen": length,
-        "criterion": criterion,
-        **found._asdict(),
-        "intervals": {f"{share:g}": ends for share, ends in found.intervals.items()},
-    }
-    lines = _share_lines(_fits(length, criterion, middle), found)
-    show(as_json, everything, wrapped(*system, "", *lines))
-    return DONE if any(found.intervals.values()) else STABLE
-
-
-def _fits(length: float, criterion: str, fault: Fault) -> str:
-    """The beginning of the sentence that ends with values."""
-    plane = plane_in_words(fault.plane)
-    return f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane},"
-
-
-def _share_lines(fits: str, found: _Shares) -> list[str]:
-    """The values at which shares of the draws fit."""
-    drawn = f"{found.draws} draws: {found.invalid} left out"
-    if found.outside:
-        drawn += f" ({', '.join(found.outside)} not allowed)"
-    lines = [drawn]
-    if not math.isnan(found.share):
-        lines.append(f"At the given {found.unknown} it fits in {found.share:.0%} of them.")
-    lines.append(fits)
-    for share, intervals in found.intervals.items():
-        texts = [_interval(found, ends, _DIGITS_OF_SHARES) for ends in intervals]
-        values = f"if {' or '.join(texts)}" if texts else "at no value"
-        lines.append(f"  in {share:>4.0%} of the draws {values}")
-    return [*lines, _searched_line(found)]
-
-
-def _searched_line(found: Fit | _Shares) -> str:
-    span = " to ".join(in_unit(end, found.unit) for end in found.searched)
-    return f"searched: {QUANTITIES[found.unknown].description}, {span}"
-
-
-def _interval(found: Fit | _Shares, ends: Interval, digits: int) -> str:
-    """An interval of values."""
-    first, last = (in_unit(end, found.unit, digits) for end in ends)
-    if ends[1] == found.searched[1] and ends[0] > found.searched[0]:
-        return f"{found.unknown} > {first}"
-    if ends[0] == found.searched[0] and ends[1] < found.searched[1]:
-        return f"{found.unknown} < {last}"
-    return f"{first} < {found.unknown} < {last}"
-
-
-def _fit_lines(fits: str, fit: Fit) -> list[str]:
-    """The values at which the length fits."""
-    lines = [f"{fits} if"]
+def _fit_lines(fit: Fit) -> list[str]:
+    """The values at which the length fits, and those that were searched."""
+    lines = []
+    low, high = fit.searched
     for ends in fit.intervals:
-        lines.append(f"  {_interval(fit, ends, 4)}")
+        first, last = (in_unit(end, fit.unit) for end in ends)
+        text = f"{first} < {fit.unknown} < {last}"
+        if ends[1] == high and ends[0] > low:
+            text = f"{fit.unknown} > {first}"
+        elif ends[0] == low and ends[1] < high:
+            text = f"{fit.unknown} < {last}"
+        lines.append(f"  {text}")
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values; {fit.reason}")
-    return [*lines, _searched_line(fit)]
+    span = " to ".join(in_unit(end, fit.unit) for end in fit.searched)
+    return [*lines, f"searched: {QUANTITIES[fit.unknown].description}, {span}"]

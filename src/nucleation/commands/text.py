@@ -1,4 +1,4 @@
-"""Output that several commands share: lines that fit the terminal, events, JSON."""
+"""Output that several commands share: lines that fit the terminal, values with units, JSON."""
 
 import json
 import math
@@ -9,15 +9,13 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..model.quantities import ParameterError
-from .pages import with_addresses
-from .unit_text import with_unit
+from ..installed import DISTRIBUTION
+from ..model.quantities import ParameterError, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,60 +25,94 @@ if TYPE_CHECKING:
 Row = Sequence[str] | str
 """The cells of a row of a table, or a line between the rows."""
 
-_GAP = 2
-"""Blanks between the columns of a table, and before each of its rows."""
-
-_INSEPARABLE = re.compile(r"(?<=[=<>]) | (?=[=<>] )|(?<=\d) (?=(?:[numckMG]?(?:Pa|m|s)|%|L_c)\b)")
-"""Blanks beside relations, and between a number and its unit."""
-
-_LEAST_COLUMN = 10
 _LEAST_TERMINAL = 40
+_YEAR = 365.25 * 86400.0  # s
+_ENGINEERING_UNITS = {
+    "m": {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0, "km": 1e3},
+    "s": {"ps": 1e-12, "ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0},
+    "m/s": {"mm/yr": 1e-3 / _YEAR, "nm/s": 1e-9, "um/s": 1e-6, "mm/s": 1e-3, "m/s": 1.0},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "Pa/s": {"Pa/s": 1.0, "kPa/s": 1e3, "MPa/s": 1e6, "GPa/s": 1e9},
+    "Pa/m": {"Pa/m": 1.0, "kPa/m": 1e3, "MPa/m": 1e6, "GPa/m": 1e9},
+}
+"""Engineering units by SI unit, each with its size in that unit, the smallest first."""
 
 
-def _terminal_width(err: bool = False) -> int | None:
-    """Columns of the terminal, or of COLUMNS; None if the output is a file or a pipe."""
-    stream = sys.stderr if err else sys.stdout
-    if not (os.environ.get("COLUMNS") or (stream and stream.isatty())):
-        return None
-    return max(shutil.get_terminal_size().columns, _LEAST_TERMINAL)
+def in_unit(value: float, unit: str, digits: int = 4) -> str:
+    """A number of an SI unit ("1": a pure number) in its engineering unit.
 
-
-def wrapped(*texts: str, err: bool = False) -> list[str]:
-    """Texts wrapped to the terminal; the further lines of each are indented by two blanks more.
-
-    Parameters
-    ----------
-    *texts : str
-        Pages that they cite get addresses at which the user finds them.
-    err : bool
-        Whether they are for the standard error.
-
-    Returns
-    -------
-    list of str
+    >>> in_unit(3.1e9, "Pa"), in_unit(5e-7, "m"), in_unit(0.2, "1")
+    ('3.1 GPa', '500 nm', '0.2')
     """
-    width = _terminal_width(err)
+    shown_unit, size = engineering_unit(float(value), unit)
+    text = f"{float(value) / size:.{digits}g}"
+    return text if unit == "1" else f"{text} {shown_unit}"
+
+
+def engineering_unit(value: float, unit: str) -> tuple[str, float]:
+    """The engineering unit for a number of an SI unit, and its size in that."""
+    found = (unit, 1.0)
+    for name, size in _ENGINEERING_UNITS.get(unit, {}).items():
+        if abs(value) >= size * (1.0 - 1e-9) and not math.isinf(value):
+            found = (name, size)
+    return found
+
+
+def with_unit(value: Any, entry: Quantity) -> str:
+    """A value of a parameter (SI units) as text with its unit."""
+    if isinstance(value, float):
+        return in_unit(value, entry.unit, digits=6)
+    return f"{value}{entry.unit_suffix}"
+
+
+def _with_addresses(text: str) -> str:
+    """The text with the addresses of pages, docs/drop.md, in an installation."""
+
+    def address(cited: re.Match[str]) -> str:
+        installed = Path(sys.prefix, "share", "doc", DISTRIBUTION, cited[1])
+        in_checkout = (Path(__file__).parents[3] / cited[0]).exists()
+        return str(installed) if installed.exists() and not in_checkout else cited[0]
+
+    return re.sub(r"\bdocs/(\w+\.md)\b", address, text)
+
+
+def wrapped(*texts: str, err: bool = False, indent: int | None = None) -> list[str]:
+    """Texts wrapped to the terminal, if there is one, the standard error's with `err`.
+
+    The further lines of each are indented by `indent` columns, by default two more than the first.
+    """
+    stream = sys.stderr if err else sys.stdout
+    to_terminal = os.environ.get("COLUMNS") or (stream and stream.isatty())
+    width = max(shutil.get_terminal_size().columns, _LEAST_TERMINAL) if to_terminal else 10**6
     lines: list[str] = []
-    for text in map(with_addresses, texts):
-        if width is None or len(text) <= width:
-            lines.append(text)
-            continue
-        indent = len(text) - len(text.lstrip())
-        joined = _INSEPARABLE.sub("\N{NO-BREAK SPACE}", text)
-        parts = textwrap.wrap(
-            joined,
+    for text in map(_with_addresses, texts):
+        hanging = len(text) - len(text.lstrip()) + 2 if indent is None else indent
+        lines += textwrap.wrap(
+            text,
             width,
-            subsequent_indent=" " * (indent + 2),
+            subsequent_indent=" " * min(hanging, width // 2),
             break_long_words=False,
             break_on_hyphens=False,
-        )
-        lines += [part.replace("\N{NO-BREAK SPACE}", " ") for part in parts]
+        ) or [""]
     return lines
 
 
 def show(as_json: bool, found: Mapping[str, Any], lines: Iterable[str]) -> None:
-    """Print the answer of a command: as JSON, or its lines."""
-    click.echo(to_json(found) if as_json else "\n".join(lines))
+    """Print the answer of a command: as JSON (null for NaN, text for infinity), or its lines."""
+    click.echo(json.dumps(_plain(found), indent=2) if as_json else "\n".join(lines))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if value is None or isinstance(value, (str, int)):
+        return value
+    number = float(value)
+    if math.isnan(number):
+        return None
+    return "inf" if math.isinf(number) else number
 
 
 def warn(text: str) -> None:
@@ -93,71 +125,24 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
-def table(
-    rows: Sequence[Row],
-    right: Collection[int] = (),
-) -> list[str]:
-    """Rows of cells in columns; on a narrow terminal the widest columns are narrowed.
+def table(rows: Sequence[Row], right: Collection[int] = ()) -> list[str]:
+    """Rows of cells in columns, and lines between them; on a narrow terminal the last one wraps.
 
-    Parameters
-    ----------
-    rows : sequence of sequences of str, or of str
-        Cells, the same number in each row; a text is a line between the rows.
-    right : collection of int
-        Numbers of the columns that are aligned to the right.
-
-    Returns
-    -------
-    list of str
+    The columns with the numbers `right` are aligned to the right.
     """
-    rows = [row if isinstance(row, str) else [with_addresses(cell) for cell in row] for row in rows]
     cells = [row for row in rows if not isinstance(row, str)]
-    widths = _column_widths(cells)
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     lines = []
     for row in rows:
         if isinstance(row, str):
             lines += wrapped(row)
             continue
-        parts = [
-            textwrap.wrap(cell, width, break_long_words=False, break_on_hyphens=False) or [""]
-            for cell, width in zip(row, widths, strict=True)
-        ]
-        for line in zip_longest(*parts, fillvalue=""):
-            lines.append(_table_line(line, widths, right))
+        line, last = "", 0
+        for number, (cell, width) in enumerate(zip(row, widths, strict=True)):
+            last = len(line) + 2
+            line += "  " + (cell.rjust(width) if number in right else cell.ljust(width))
+        lines += wrapped(line.rstrip(), indent=last)
     return lines
-
-
-def _column_widths(rows: Sequence[Sequence[str]]) -> list[int]:
-    """Widths of columns; while they exceed the terminal, the widest one that can be narrowed is.
-
-    Words are broken only where no column can be narrowed otherwise.
-    """
-    columns = list(zip(*rows, strict=True))
-    widths = [max(1, *map(len, column)) for column in columns]
-    longest_words = [max(map(len, " ".join(column).split()), default=1) for column in columns]
-    terminal = _terminal_width()
-    if terminal is None:
-        return widths
-    for least in (longest_words, [_LEAST_COLUMN] * len(widths)):
-        for column in sorted(range(len(widths)), key=lambda column: -widths[column]):
-            excess = sum(widths) + _GAP * len(widths) - terminal
-            room = widths[column] - least[column]
-            widths[column] -= max(0, min(excess, room))
-    return widths
-
-
-def _table_line(parts: Iterable[str], widths: Sequence[int], right: Collection[int]) -> str:
-    line = ""
-    for column, (part, width) in enumerate(
-        zip(
-            parts,
-            widths,
-            strict=True,
-        )
-    ):
-        aligned = part.rjust(width) if column in right else part.ljust(width)
-        line += " " * _GAP + aligned
-    return line.rstrip()
 
 
 def parameter_lines(run: "Run") -> list[str]:
@@ -176,39 +161,21 @@ def parameter_lines(run: "Run") -> list[str]:
     return table(rows)
 
 
-def event_lines(
-    found: dict[str, float],
-    critical_length: float,
-) -> list[str]:
+def event_lines(found: dict[str, float], critical_length: float) -> list[str]:
     """Onset of the event and length of the patch then, with their ranges over the definitions.
 
-    Parameters
-    ----------
-    found : dict
-        The event of a run, from :func:`nucleation.extraction.extraction.extract`.
-    critical_length : float
-        L_c of the theory (m); NaN if homogeneous sliding is stable.
-
-    Returns
-    -------
-    list of str
+    `critical_length` is L_c (m) of the theory; NaN if homogeneous sliding is stable.
     """
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
-    onset, length = (_with_spread(found, name) for name in ("onset_time", "length"))
+    onset, length = (
+        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
+        for name in ("onset_time", "length")
+    )
     over_theory = ""
     if not math.isnan(critical_length):
         over_theory = f", {found['length'] / critical_length:.3g} L_c"
     return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
-
-
-def _with_spread(
-    found: dict[str, float],
-    name: str,
-) -> str:
-    """A value of an event with its range over the definitions."""
-    low, high = found[f"{name}_low"], found[f"{name}_high"]
-    return f"{found[name]:.4g} ({low:.4g} to {high:.4g})"
 
 
 def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
@@ -224,42 +191,8 @@ def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
     }
 
 
-def to_json(found: Mapping[str, Any]) -> str:
-    """The answer of a command as JSON: null for NaN, text for infinity."""
-    return json.dumps(_plain(found), indent=2)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    if value is None or isinstance(value, (str, int)):
-        return value
-    number = float(value)
-    if math.isnan(number):
-        return None
-    return "inf" if math.isinf(number) else number
-
-
-def require_writable(
-    path: Path,
-    force: bool,
-) -> None:
-    """Refuse a file that can't be written, or exists and may not be replaced.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    force : bool
-        Whether an existing file may be replaced.
-
-    Raises
-    ------
-    ParameterError
-        If the file can't be written.
-    """
+def require_writable(path: Path, force: bool) -> None:
+    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
     if path.exists() and not force:
         raise ParameterError(f"{path} exists already; --force replaces it")
     folder = path.absolute().parent

@@ -102,6 +102,18 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     ------
     DatasetError
         If the file is missing, truncated or damaged, or lacks a variable.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> import xarray as xr
+    >>> length = xr.DataArray(1.0, attrs={"units": "m", "long_name": "critical length"})
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "length.nc"
+    ...     write(length.to_dataset(name="length"), path)
+    ...     float(read(path)["length"])
+    1.0
     """
     with _refusing(path):
         sealed(path)  # before HDF5 reads any byte

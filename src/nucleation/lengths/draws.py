@@ -50,7 +50,7 @@ class Range(float):
         own.high = high
         return own
 
-    def quantiles(self, share: Array, entry: Quantity) -> Array:
+    def values_at(self, share: Array, entry: Quantity) -> Array:
         """Values at probabilities between 0 and 1."""
         ends = np.array([self.low, float(self), self.high])
         positive = entry.low >= 0.0 and self.low > 0.0
@@ -109,7 +109,7 @@ class Draws(NamedTuple):
     """Names of the uncertain parameters."""
 
 
-def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draws:
+def draw_samples(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draws:
     """Draw the uncertain parameters of a fault: ranges independently, samples row by row.
 
     The ranges are drawn by Latin hypercube sampling (McKay, Beckman and Conover, 1979): each range
@@ -138,7 +138,7 @@ def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draw
     Examples
     --------
     >>> from nucleation.api import Fault
-    >>> drawn = draw({"slip_distance": "5um (3 to 10)", "a": 0.010, "b": 0.015}, draws=100)
+    >>> drawn = draw_samples({"slip_distance": "5um (3 to 10)", "a": 0.010, "b": 0.015}, draws=100)
     >>> rock = Fault(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, **drawn.values)
     >>> quantiles(rock.critical_length()).round(2)
     array([1.51, 1.85, 2.52, 3.82, 5.03])
@@ -165,7 +165,7 @@ def draw(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draw
     for name, own in ranges.items():
         position = list(SAMPLED).index(name)
         order = np.random.default_rng([seed, position]).permutation(rows.size)
-        drawn[name] = own.quantiles((order + 0.5) / rows.size, SAMPLED[name])
+        drawn[name] = own.values_at((order + 0.5) / rows.size, SAMPLED[name])
     allowed = {name: SAMPLED[name].inside(values) for name, values in drawn.items()}
     valid = np.all(list(allowed.values()), axis=0)
     invalid = {name: int(np.sum(~own)) for name, own in allowed.items() if not own.all()}

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator
 
 from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION
-from .estimates import element_height
+from .complete import element_height
 from .run import Run
 
 Advice = tuple[str, float, str]
@@ -61,7 +61,6 @@ If it passes more, the steps perturb the patch at least as much as the strength
 
 _STEP_NOISE = 1e-5
 
-
 _STEPS_PER_PERIOD = 8.0
 """Fewest time steps per period of the nucleating mode."""
 
@@ -79,93 +78,30 @@ regularised Dieterich-Ruina law halves with V = 10 v0.
 def advice(run: Run, critical: float) -> Iterator[Advice]:
     """All warnings about a run, whose fault has the critical length `critical` (m; NaN: stable)."""
     yield from _resolution(run, critical)
-    zeta = run.fault.zeta
-    stable = math.isnan(critical)
-    if stable and _has_weakening_patch(run):
-        return
-    if stable or zeta <= 0.0:
-        yield _no_nucleation(run, critical)
-        return
-    yield from _steps(run)
-    if run.fault.loading != "edge":
-        return  # the other warnings are about patches that grow from an edge
-    yield from _span(run, critical)
-    yield from _block(run, critical)
-    yield from _start(run)
-    yield from changing_friction(run, critical)
-    yield from _roughness(run)
-    yield from _noise(run, critical)
-
-
-def _has_weakening_patch(run: Run) -> bool:
-    """Whether zeta, which is declared for the surroundings, is positive on a patch of the fault."""
-    own = run.heterogeneity
-    if own.varies == "a":
-        return run.fault.zeta - run.fault.a * own.change > 0.0
-    return own.varies == "zeta" and run.fault.zeta * (1.0 + own.change) > 0.0
-
-
-def _no_nucleation(run: Run, critical: float) -> Advice:
-    velocity = run.fault.velocity
+    zeta, velocity, own = run.fault.zeta, run.fault.velocity, run.heterogeneity
     if math.isnan(critical):
-        return (
-            "nothing will nucleate",
-            -run.fault.zeta,
-            f"homogeneous sliding is stable at every wavelength, zeta = {run.fault.zeta:.3g} at V "
-            f"= {velocity:g} m/s",
-        )
-    return (
-        "friction strengthens",
-        -run.fault.zeta,
-        f"zeta = {run.fault.zeta:.3g} at V = {velocity:g} m/s; the "
-        f"theory's critical length, {critical:.3g} m, is due to the normal stress "
-        "alone, which slip changes: the patch grows slowly",
-    )
-
-
-def changing_friction(run: Run, critical: float) -> Iterator[Advice]:
-    """Friction laws with scales v* and v0 so large that a and b change along the patch."""
-    friction = run.law
-    velocity = run.fault.velocity
-    _, a, zeta = friction.expansion(velocity)
-    _, a_near, zeta_near = friction.expansion(velocity * 0.1)
-    b = a + zeta
-    b_near = a_near + zeta_near
-    change_of_a = abs(a_near / a - 1.0)
-    scale = max(a, abs(b))
-    change_of_b = abs(b_near - b) / scale
-    change = max(change_of_a, change_of_b)
-    if change < _CHANGE_OF_FRICTION:
+        within = zeta - run.fault.a * own.change if own.varies == "a" else zeta
+        if own.varies == "zeta":
+            within = zeta * (1.0 + own.change)
+        if own.varies == "none" or within <= 0.0:  # no weakening patch
+            yield (
+                "nothing will nucleate",
+                -zeta,
+                f"homogeneous sliding is stable at every wavelength, zeta = {zeta:.3g} at V "
+                f"= {velocity:g} m/s",
+            )
         return
-    length = _stability_length(run, critical, constant=False)
-    length_if_constant = _stability_length(run, critical, constant=True)
-    scales = ", ".join(
-        f"{name} = {getattr(friction, name):g} m/s"
-        for name in ("slip_rate_scale", "regularisation_slip_rate")
-        if hasattr(friction, name)
-    )
-    yield (
-        FRICTION,
-        change,
-        f"{scales} beside V = {velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, "
-        f"{a_near:.3g}, {b_near:.3g} at V/10. L_s is {length}, with constant a and b "
-        f"{length_if_constant}; give smaller scales unless these are intended "
-        "(docs/creeping_patch.md)",
-    )
-
-
-def _stability_length(run: Run, critical: float, constant: bool) -> str:
-    """L_s as text, with the friction law's own or with constant a and b."""
-    from ..theory.creep.lengths import stability_length_of
-
-    ratio = stability_length_of(run.patches, critical, constant) / critical
-    return "none up to 3 L_c" if math.isnan(ratio) else f"{ratio:.2g} L_c"
-
-
-def _steps(run: Run) -> Iterator[Advice]:
+    if zeta <= 0.0:
+        yield (
+            "friction strengthens",
+            -zeta,
+            f"zeta = {zeta:.3g} at V = {velocity:g} m/s; the "
+            f"theory's critical length, {critical:.3g} m, is due to the normal stress "
+            "alone, which slip changes: the patch grows slowly",
+        )
+        return
     longest = run.stepping.longest_step
-    ratio = run.fault.a / run.fault.zeta
-    period = 2.0 * math.pi * math.sqrt(ratio)  # in units of D/V
+    period = 2.0 * math.pi * math.sqrt(run.fault.a / zeta)  # in units of D/V
     if longest > period / _STEPS_PER_PERIOD:
         yield (
             "time steps too long",
@@ -173,22 +109,27 @@ def _steps(run: Run) -> Iterator[Advice]:
             f"longest_step = {longest:g} D/V makes {period / longest:.2g} steps in a period of the "
             f"nucleating mode; recommended is {period / _STEPS_PER_PERIOD:.2g} or less",
         )
+    if run.fault.loading == "edge":
+        yield from _of_patches(run, critical)
+        yield from _changing_friction(run)
+        yield from _roughness(run)
+        if run.perturbation.acts and run.below is None:  # the measures are those of one block
+            yield from _noise_of_mesh(run, critical)
+            yield from _noise_of_steps(run, critical)
 
 
-def _span(run: Run, critical: float) -> Iterator[Advice]:
+def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
+    """Times, blocks and starts in which no patch grows from the edge to L_c (m)."""
     end = run.stepping.end_time
     earliest = run.growth_time(_UNSTABLE * critical)
     if end < earliest:
-        latest = run.growth_time(critical)
         yield (
             "simulated time too short",
             earliest / end,
             f"end_time = {end:g} s, but the patch needs about {earliest:.3g} s to become unstable "
-            f"and {latest:.3g} s to reach the theory's critical length, {critical:.3g} m",
+            f"and {run.growth_time(critical):.3g} s to reach the theory's critical length, "
+            f"{critical:.3g} m",
         )
-
-
-def _block(run: Run, critical: float) -> Iterator[Advice]:
     length = run.block.length
     if length <= critical:
         yield (
@@ -205,13 +146,9 @@ def _block(run: Run, critical: float) -> Iterator[Advice]:
             f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
             f"critical length, {critical:.3g} m; recommended are 4 to 6 times",
         )
-
-
-def _start(run: Run) -> Iterator[Advice]:
-    fault = run.fault
+    fault, initial = run.fault, run.start.initial_shear_stress
     coefficient = run.law.coefficient(fault.velocity, fault.initial_state)
     strength = float(coefficient) * fault.normal_stress
-    initial = run.start.initial_shear_stress
     if initial >= strength:
         yield (
             "start above the strength",
@@ -221,16 +158,33 @@ def _start(run: Run) -> Iterator[Advice]:
         )
 
 
+def _changing_friction(run: Run) -> Iterator[Advice]:
+    """Friction laws with scales v* and v0 so large that a and b change along the patch."""
+    friction, velocity = run.law, run.fault.velocity
+    _, a, zeta = friction.expansion(velocity)
+    _, a_near, zeta_near = friction.expansion(velocity * 0.1)
+    b, b_near = a + zeta, a_near + zeta_near
+    change = max(abs(a_near / a - 1.0), abs(b_near - b) / max(a, abs(b)))
+    if change < _CHANGE_OF_FRICTION:
+        return
+    scales = ", ".join(
+        f"{name} = {getattr(friction, name):g} m/s"
+        for name in ("slip_rate_scale", "regularisation_slip_rate")
+        if hasattr(friction, name)
+    )
+    yield (
+        FRICTION,
+        change,
+        f"{scales} beside V = {velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, {a_near:.3g}, "
+        f"{b_near:.3g} at V/10, which changes L_s; give smaller scales unless these are intended "
+        "(docs/creeping_patch.md)",
+    )
+
+
 def _zone(run: Run, critical: float) -> float:
     """Length (m) of the process zone when the patch has the theory's critical length."""
-    if math.isnan(critical):
-        return run.process_zone()
-    return run.process_zone(run.growth_time(critical))
-
-
-def elements_per_zone(run: Run, critical: float) -> float:
-    """Number of elements along x in a process zone."""
-    return _zone(run, critical) / _element(run)
+    rest = 0.0 if math.isnan(critical) else run.growth_time(critical)
+    return run.process_zone(rest)
 
 
 def _element(run: Run) -> float:
@@ -238,27 +192,27 @@ def _element(run: Run) -> float:
     return run.block.length / run.block.n_x
 
 
+def elements_per_zone(run: Run, critical: float) -> float:
+    """Number of elements along x in a process zone."""
+    return _zone(run, critical) / _element(run)
+
+
 def _resolution(run: Run, critical: float) -> Iterator[Advice]:
     """Meshes that do not resolve the process zone at the front."""
-    zone = _zone(run, critical)
-    mesh = run.block
-    along = _element(run)
+    zone, along, n_x = _zone(run, critical), _element(run), run.block.n_x
     if along > zone / _ELEMENTS_PER_ZONE:
-        least = math.ceil(mesh.n_x * along / zone * _ELEMENTS_PER_ZONE)
-        best = math.ceil(mesh.n_x * along / zone * _QUIET_ELEMENTS)
+        least = math.ceil(n_x * along / zone * _ELEMENTS_PER_ZONE)
+        best = math.ceil(n_x * along / zone * _QUIET_ELEMENTS)
         yield (
             COARSE_X,
             along / zone,
-            f"n_x = {mesh.n_x} makes elements of {along:.3g} m, {zone / along:.2g} to a process "
+            f"n_x = {n_x} makes elements of {along:.3g} m, {zone / along:.2g} to a process "
             f"zone of {zone:.3g} m; recommended is n_x = {least} or more, and about {best} for "
             "drops that follow a declared perturbation and not the mesh",
         )
-    bodies = {"": run.upper}
-    if run.below:
-        bodies["second_"] = run.below
-    for prefix, own in bodies.items():
-        across = element_height(own.height, own.n_y, own.grading)
-        if across > zone / _ELEMENTS_PER_ZONE:
+    for prefix, own in {"": run.upper, "second_": run.below}.items():
+        across = element_height(own.height, own.n_y, own.grading) if own else 0.0
+        if own and across > zone / _ELEMENTS_PER_ZONE:
             yield (
                 COARSE_Y,
                 across / zone,
@@ -270,13 +224,11 @@ def _resolution(run: Run, critical: float) -> Iterator[Advice]:
 
 def _roughness(run: Run) -> Iterator[Advice]:
     """Meshes that do not resolve the declared roughness."""
-    mesh = run.block
-    declared = run.perturbation
-    along = _element(run)
+    declared, along = run.perturbation, _element(run)
     scale = declared.correlation_length
     rough = declared.acts and declared.kind in ALONG_X
     if rough and scale < ELEMENTS_PER_CORRELATION * along:
-        least = math.ceil(mesh.n_x * ELEMENTS_PER_CORRELATION * along / scale)
+        least = math.ceil(run.block.n_x * ELEMENTS_PER_CORRELATION * along / scale)
         yield (
             ROUGHNESS,
             along / scale,
@@ -285,24 +237,14 @@ def _roughness(run: Run) -> Iterator[Advice]:
         )
 
 
-def _noise(run: Run, critical: float) -> Iterator[Advice]:
-    """Meshes and steps that perturb the patch as much as the declared perturbation."""
-    declared = run.perturbation
-    if not declared.acts or run.below is not None:
-        return  # the measures are those of one block
-    yield from _noise_of_mesh(run, critical)
-    yield from _noise_of_steps(run, critical)
-
-
 def _noise_of_mesh(run: Run, critical: float) -> Iterator[Advice]:
-    mesh = run.block
+    """Meshes that perturb the patch as much as the declared perturbation."""
     strength = run.perturbation.strength
-    zone = _zone(run, critical)
-    along = _element(run)
+    zone, along = _zone(run, critical), _element(run)
     fewer = _COARSE_ELEMENTS - zone / along
     lost = _COARSE_NOISE * 10.0 ** min(_DECADES_PER_ELEMENT * fewer, 0.0)
     if strength < lost and zone < _QUIET_ELEMENTS * along:
-        best = math.ceil(mesh.n_x * along / zone * _QUIET_ELEMENTS)
+        best = math.ceil(run.block.n_x * along / zone * _QUIET_ELEMENTS)
         yield (
             NOISE_OF_MESH,
             along / zone,
@@ -313,24 +255,20 @@ def _noise_of_mesh(run: Run, critical: float) -> Iterator[Advice]:
 
 
 def _noise_of_steps(run: Run, critical: float) -> Iterator[Advice]:
+    """Steps that perturb the patch as much as the declared perturbation.
+
+    The front's rough speed (m/s) is that at the length where the patch turns unstable.
+    """
     strength = run.perturbation.strength
-    passed = _front_speed(run, critical) * run.longest_step / _element(run)
+    shorter, longer = 0.95 * _UNSTABLE * critical, 1.05 * _UNSTABLE * critical
+    speed = (longer - shorter) / (run.growth_time(longer) - run.growth_time(shorter))
+    passed = speed * run.longest_step / _element(run)
     if passed > _ELEMENT_PART and strength <= _STEP_NOISE:
-        shorter = run.stepping.longest_step * _ELEMENT_PART / passed
+        best = run.stepping.longest_step * _ELEMENT_PART / passed
         yield (
             NOISE_OF_STEPS,
             passed,
             f"strength = {strength:g} while the front passes {100 * passed:.2g} % of an "
             "element in the longest step, which perturbs the patch as much; recommended is "
-            f"longest_step = {shorter:.1g} or less",
+            f"longest_step = {best:.1g} or less",
         )
-
-
-def _front_speed(run: Run, critical: float) -> float:
-    """Rough speed (m/s) of the front at the length where the patch turns unstable."""
-    length = _UNSTABLE * critical
-    shorter = 0.95 * length
-    longer = 1.05 * length
-    start = run.growth_time(shorter)
-    end = run.growth_time(longer)
-    return (longer - shorter) / (end - start)

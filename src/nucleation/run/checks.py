@@ -19,23 +19,34 @@ def require_consistent(run: Run) -> None:
 def contradictions(run: Run) -> Iterator[str]:
     """The contradictions in a run, one text for each, with name, value and what is allowed."""
     yield from _of_body(run)
-    yield from _of_start(run)
-    yield from _of_steps(run)
-    yield from _of_perturbation(run)
-
-
-def _of_body(run: Run) -> Iterator[str]:
-    yield from _of_loading(run)
-    yield from _of_heterogeneity(run)
-    below = run.below
-    if below is not None and below.far_side not in _SECOND_FAR_SIDES:
+    tau, kind = run.start.initial_shear_stress, run.start.initial_stress
+    if tau and kind == "no_slip":
         yield (
-            f"second_far_side = {below.far_side} is not allowed in a simulation: it must be one of "
-            f"{', '.join(_SECOND_FAR_SIDES)}"
+            f"initial_shear_stress = {tau:g} Pa is not allowed with initial_stress = no_slip: it "
+            "must be 0 Pa, or initial_stress uniform_shear"
+        )
+    shortest, longest, memory = run.stepping.shortest_step, run.longest_step, run.memory_time
+    first = FIRST_STEP * memory
+    if shortest >= min(longest, first):
+        yield (
+            f"shortest_step = {shortest:g} s is not allowed: it must be less than the first step, "
+            f"{first:.3g} s, and the longest one, {longest / memory:.3g} D/V = {longest:.3g} s"
+        )
+    declared = run.perturbation
+    if declared.kind == "none" and declared.strength > 0.0:
+        yield (
+            f"strength = {declared.strength:g} is not allowed with perturbation = none, "
+            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
+        )
+    length, element = declared.correlation_length, run.block.length / run.block.n_x
+    if declared.acts and declared.kind in ALONG_X and length < element:
+        yield (
+            f"correlation_length = {length:g} m is not allowed: it "
+            f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"
         )
 
 
-def _of_loading(run: Run) -> Iterator[str]:
+def _of_body(run: Run) -> Iterator[str]:
     loading, rate, n_x = run.fault.loading, run.start.stress_rate, run.block.n_x
     remote = loading == "remote"
     if remote != (rate > 0.0):
@@ -46,57 +57,22 @@ def _of_loading(run: Run) -> Iterator[str]:
         )
     if remote and n_x % 2 == 0:
         yield f"n_x = {n_x} is not allowed with loading = remote: it must be odd"
-
-
-def _of_heterogeneity(run: Run) -> Iterator[str]:
-    if run.heterogeneity.varies == "none":
-        return
-    length = run.block.length
-    for name, low, limits in (
-        ("centre", 0.0, "on the block"),
-        ("width", length / run.block.n_x, "from an element to the block"),
-    ):
-        value = getattr(run.heterogeneity, name)
+    length, own = run.block.length, run.heterogeneity
+    limits = (
+        ("centre", own.centre, 0.0, "on the block"),
+        ("width", own.width, length / n_x, "from an element to the block"),
+    )
+    for name, value, low, rule in limits if own.varies != "none" else ():
         if value is not None and not low <= value <= length:
             yield (
                 f"{name} = {value:g} m is not allowed: it must lie in [{low:.3g}, {length:.3g}] m, "
-                f"{limits}"
+                f"{rule}"
             )
-
-
-def _of_start(run: Run) -> Iterator[str]:
-    start = run.start
-    if start.initial_shear_stress and start.initial_stress == "no_slip":
+    below = run.below
+    if below is not None and below.far_side not in _SECOND_FAR_SIDES:
         yield (
-            f"initial_shear_stress = {start.initial_shear_stress:g} Pa is not allowed "
-            "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
-        )
-
-
-def _of_steps(run: Run) -> Iterator[str]:
-    shortest, longest = run.stepping.shortest_step, run.longest_step
-    memory = run.memory_time
-    first = FIRST_STEP * memory
-    if shortest >= min(longest, first):
-        yield (
-            f"shortest_step = {shortest:g} s is not allowed: it must be less than the first step, "
-            f"{first:.3g} s, and the longest one, {longest / memory:.3g} D/V = {longest:.3g} s"
-        )
-
-
-def _of_perturbation(run: Run) -> Iterator[str]:
-    declared = run.perturbation
-    if declared.kind == "none" and declared.strength > 0.0:
-        yield (
-            f"strength = {declared.strength:g} is not allowed with perturbation = none, "
-            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
-        )
-    length = declared.correlation_length
-    element = run.block.length / run.block.n_x
-    if declared.acts and declared.kind in ALONG_X and length < element:
-        yield (
-            f"correlation_length = {length:g} m is not allowed: it "
-            f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"
+            f"second_far_side = {below.far_side} is not allowed in a simulation: it must be one of "
+            f"{', '.join(_SECOND_FAR_SIDES)}"
         )
 
 
@@ -117,14 +93,12 @@ def require_uniform_edge(run: Run, computation: str) -> None:
 def memory_problem(run: Run, key: str, limit: float) -> Iterator[str]:
     """Why a run needs more memory than a limit (MB), which is called `key`; else nothing."""
     need = estimated_megabytes(run)
-    if need <= limit:
-        return
-    block = run.block
-    second = f", second_n_y = {run.below.n_y}" if run.below else ""
-    yield (
-        f"n_x = {block.n_x}, n_y = {block.n_y}{second} is not allowed: the simulation "
-        f"would need about {need:.0f} MB, more than {key} = {limit:g} MB"
-    )
+    if need > limit:
+        second = f", second_n_y = {run.below.n_y}" if run.below else ""
+        yield (
+            f"n_x = {run.block.n_x}, n_y = {run.block.n_y}{second} is not allowed: the simulation "
+            f"would need about {need:.0f} MB, more than {key} = {limit:g} MB"
+        )
 
 
 def estimated_megabytes(run: Run) -> float:

@@ -1,5 +1,6 @@
 """The parameters of a run that follow from its fault: sizes of blocks and mesh, times, scales."""
 
+import itertools
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -9,14 +10,15 @@ import numpy as np
 from ..fault import Fault
 from ..model.friction import Friction
 from ..model.friction.constants import roughness_length
+from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
 from ..model.settings import Start
 from ..theory.critical import unstable_modes
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
+from ..theory.stiffness import SATURATION
 from ..theory.values import ZONE
-from .estimates import element_height, growth_time, process_zone
-from .names import GROUPS, sections
+from .names import OF_GROUPS, sections
 
 HIGH = 4.0
 """Height of the blocks over L_c: their L_s is within 2 % of that of half-spaces."""
@@ -29,11 +31,15 @@ USUAL_LENGTH = 6.0
 
 _ELEMENTS = 6.0  # to a process zone, twice as many as resolve the front
 _ROWS = (16, 24, 32, 48, 64, 96)  # of elements, that are tried for the mesh of a half-space
-_GRADING = 300.0  # the largest of these meshes
-_DIGITS = 4  # significant, of sizes
+_GRADINGS = np.geomspace(1.0, 300.0, 60).round(1).tolist()  # of these meshes
 
 _LATEST_END = 1.5  # end of a run over the estimated time until the critical length
 _AFTER_EVENT = 10.0  # time after the event over D/V
+
+_THIN = 1e-3  # layer number k H at which a body is thin
+_FRESH = 1e-12  # Omega of an interface that has only just come to rest
+_NEAR_STEADY = 1e-9  # relative, of omega: round-off of D/V is no age
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # on (-1, 1)
 
 
 def flat(fault: Fault, law: Friction) -> dict[str, Any]:
@@ -58,10 +64,8 @@ def flat(fault: Fault, law: Friction) -> dict[str, Any]:
     return found
 
 
-def completed(
-    fault: Fault,
-    values: Mapping[str, Any],
-    law: Friction | None = None,
+def complete(
+    fault: Fault, values: Mapping[str, Any], law: Friction | None = None
 ) -> dict[str, Any]:
     """All parameters of a run of a single fault, from those that are given and its friction law.
 
@@ -70,7 +74,7 @@ def completed(
     """
     _require_single(fault)
     for name in values:
-        if not any(name in names for names in _of_groups()):
+        if not any(name in entries for entries in OF_GROUPS.values()):
             raise ParameterError(
                 f"{name} is a parameter of the fault: fault.replace({name}=...) changes it"
             )
@@ -78,7 +82,15 @@ def completed(
     if fault.initial_state is None:
         fault = fault.replace(initial_state=fault.age())
     found = dict(values)
-    critical = _critical_length(fault, found)
+    try:
+        critical = float(unstable_modes(single_system(fault)).length[0])
+    except NoLength as error:
+        if "block_length" not in found:
+            raise ParameterError(
+                f"{error}; a control run, in which nothing is to nucleate, needs its block_length "
+                "(m)"
+            ) from None
+        critical = math.nan
     if math.isinf(fault.height) or math.isinf(fault.second_height):
         fault, sizes = _as_blocks(fault, law, critical)
         found = sizes | found
@@ -88,17 +100,10 @@ def completed(
         modulus = fault.shear_modulus / (1.0 - fault.poisson_ratio)
         strength = b * fault.normal_stress
         found["correlation_length"] = roughness_length(modulus, law.slip_distance, strength)
-    of_start = {name: found[name] for name in sections()["loading"] if name in found}
+    of_start = {name: found[name] for name in OF_GROUPS["start"] if name in found}
     if "end_time" not in found and not math.isnan(critical):
         found |= late_end(fault, Start(**of_start), critical) | found
     return flat(fault, law) | found
-
-
-def _of_groups() -> list[list[str]]:
-    """Names of the parameters of a run that are not those of its fault."""
-    return [
-        [cls.called.get(name, name) for name in cls.__dataclass_fields__] for cls in GROUPS.values()
-    ]
 
 
 def _require_single(fault: Fault) -> None:
@@ -115,75 +120,136 @@ def _require_single(fault: Fault) -> None:
         )
 
 
-def _critical_length(fault: Fault, given: Mapping[str, Any]) -> float:
-    """L_c (m); NaN for a stable fault whose block has a length."""
-    try:
-        return float(unstable_modes(single_system(fault)).length[0])
-    except NoLength as error:
-        if "block_length" in given:
-            return math.nan
-        raise ParameterError(
-            f"{error}; a control run, in which nothing is to nucleate, needs its block_length (m)"
-        ) from None
-
-
 def late_end(fault: Fault, start: Start, critical: float) -> dict[str, float]:
     """An end time after the latest event, and a short time after the event (s).
 
     The estimated time until L_c (m) is an upper bound of the event's time.
     """
-    end = float(f"{_LATEST_END * growth_time(fault, start, critical):.2g}")
+    end = float(f"{_LATEST_END * time_to_length(fault, start, critical):.2g}")
     after = _AFTER_EVENT * fault.slip_distance / fault.velocity
     return {"end_time": end, "time_after_event": min(after, end)}
 
 
 def rounded(length: float) -> float:
     """A size (m) with four significant digits."""
-    return float(f"{length:.{_DIGITS}g}")
+    return float(f"{length:.4g}")
 
 
-def _as_blocks(
-    fault: Fault,
-    law: Friction,
-    critical: float,
-) -> tuple[Fault, dict[str, Any]]:
+def _as_blocks(fault: Fault, law: Friction, critical: float) -> tuple[Fault, dict[str, Any]]:
     """The fault with blocks in place of half-spaces, and the length and the mesh of the blocks."""
     if math.isnan(critical):
         raise ParameterError(
             "height = inf m is not allowed: sliding is stable at every wavelength, and the blocks "
             "in place of half-spaces are 4 L_c high; give their height"
         )
+    deformable = math.isfinite(fault.second_shear_modulus)
+    names = ("height", "second_height") if deformable else ("height",)
     high = rounded(HIGH * critical)
-    heights = {
-        name: high for name in ("height", "second_height") if math.isinf(getattr(fault, name))
-    }
-    if math.isinf(fault.second_shear_modulus):
-        heights.pop("second_height", None)
-    fault = fault.replace(**heights)
+    fault = fault.replace(**{name: high for name in names if math.isinf(getattr(fault, name))})
     length = rounded(LONG * critical)
-    element = process_zone(fault, law) / _ELEMENTS
+    element = zone_length(fault, law) / _ELEMENTS
     number = math.ceil(length / element)
     if (number % 2 == 1) != (fault.loading == "remote"):
         number += 1
     found: dict[str, Any] = {"block_length": length, "n_x": number}
     found["n_y"], found["grading"] = _rows(fault.height, element)
-    if math.isfinite(fault.second_shear_modulus):
+    if deformable:
         found["second_n_y"], found["second_grading"] = _rows(fault.second_height, element)
     return fault, found
 
 
 def _rows(height: float, element: float) -> tuple[int, float]:
     """Number of elements along y and grading, so that those at the interface have a size (m)."""
-    for rows in _ROWS:
-        for grading in (
-            np.geomspace(
-                1.0,
-                _GRADING,
-                60,
-            )
-            .round(1)
-            .tolist()
-        ):
-            if element_height(height, rows, grading) <= element:
-                return rows, grading
-    return _ROWS[-1], _GRADING
+    for rows, grading in itertools.product(_ROWS, _GRADINGS):
+        if element_height(height, rows, grading) <= element:
+            return rows, grading
+    return _ROWS[-1], _GRADINGS[-1]
+
+
+def stiffness_of(fault: Fault) -> tuple[float, float]:
+    """How bodies resist slip of wavenumber k: ``thick k`` if they are thick, ``thin k^2`` if thin.
+
+    For a block on a rigid base these are the customary ``mu/(1 - nu)`` (Pa) and ``2 mu H/(1 - nu)``
+    (Pa m), in antiplane shear ``mu`` and ``mu H``. For two blocks they are the limits of the
+    theory's ``mu k G1``, which are mainly those of the softer one. Two thin blocks also bend, which
+    makes them four times as compliant.
+    """
+    if math.isinf(fault.second_shear_modulus):
+        thick = fault.shear_modulus / (1.0 - in_plane_ratio(fault.poisson_ratio, fault.plane))
+        sides = 1.0 if fault.plane == ANTIPLANE else 2.0
+        return thick, sides * fault.height * thick
+    pair = single_system(fault).pair
+    heights = fault.height, fault.second_height
+    short = SATURATION / min(heights)
+    long = _THIN / max(heights)
+    resistance = pair.modulus * pair.stiffness(np.array([short, long])).xx
+    return float(resistance[0]), float(resistance[1]) / long
+
+
+def steepness(friction: Friction, omega: float) -> float:
+    """How much faster friction weakens with slip at a front than it does by its linearisation.
+
+    `omega` is ``phi V/D`` of the interface that the front reaches; 1 for the aging law.
+
+    Slip at a constant rate reduces Omega from its first value to 1, by ``D dOmega/d delta = g``,
+    and friction by ``b log(Omega)``. The fracture energy of this drop is ``b D`` times ``E = int u
+    exp(u)/(-g(exp(u))) du`` from 0 to ``U = log(Omega)``. Friction weakens on average at ``(b/D)
+    U^2/(2 E)``, and near steady sliding at ``b/D``; the larger of both counts. For the slip law ``E
+    = U``; for ``g = (1 - Omega^2)/2`` E is never above pi^2/4.
+    """
+    if omega <= 1.0 + _NEAR_STEADY:
+        return 1.0
+    drop = math.log(omega)
+    u = 0.5 * drop * (1.0 + _POINTS)
+    rates = friction.evolution_law.growth(np.exp(u))
+    integrand = u * np.exp(u) / -rates
+    energy = 0.5 * drop * float(_WEIGHTS @ integrand)
+    return max(drop**2 / (2.0 * energy), 1.0)
+
+
+def zone_length(fault: Fault, law: Friction, rest: float = 0.0) -> float:
+    """Length (m) over which friction at the front weakens; infinite if it does not weaken.
+
+    The interface has been at rest for the time `rest` (s) when the front reaches it; in many laws
+    it ages meanwhile.
+
+    The wavelength over 2 pi at which the body's stiffness equals friction's weakening with slip,
+    ``s b sigma0/D``, with ``b = a + zeta`` and the :func:`steepness` s of the state evolution: in a
+    thick body ``L_b/s``, ``L_b = mu D/((1 - nu) b sigma0)`` (Dieterich, 1992; Rubin and Ampuero,
+    2005), in a thin block ``sqrt(2 H L_b/s)``. The smaller of both counts.
+    """
+    weakening = (fault.a + fault.zeta) * fault.normal_stress
+    if weakening <= 0.0:
+        return math.inf
+    age = fault.initial_state + rest * float(law.evolution_law.growth(_FRESH))
+    weakening *= steepness(law, age * fault.velocity / law.slip_distance)
+    thick, thin = stiffness_of(fault)
+    scale = law.slip_distance / weakening
+    return min(thick * scale, math.sqrt(thin * scale))
+
+
+def time_to_length(fault: Fault, start: Start, length: float) -> float:
+    """Time (s) from the start until the creep patch has a length (m), roughly.
+
+    The edge's displacement ``V t`` that moves a patch against ``f sigma0``: ``(1 - nu)/mu f sigma0
+    [L^2/(4 H) + L]``. The first term compresses a thin block, the second a thick one. In the
+    paper's study the force drops at 0.5 to 0.8 of the time for the theory's critical length.
+
+    Under a remote load it is the time until the whole interface has its peak strength: that of
+    sliding at V, plus that of the interface's greater age at the start.
+    """
+    if fault.loading != "edge":
+        omega = fault.initial_state * fault.velocity / fault.slip_distance
+        peak = fault.friction + (fault.a + fault.zeta) * np.log1p(omega)
+        missing = peak * fault.normal_stress - start.initial_shear_stress
+        return max(missing, 0.0) / start.stress_rate
+    thick, thin = stiffness_of(fault)
+    strength = fault.friction * fault.normal_stress
+    moved = length**2 / (2.0 * thin) + length / thick
+    return strength * moved / fault.velocity
+
+
+def element_height(height: float, n_y: int, grading: float) -> float:
+    """Height (m) of the elements at the interface of a body that is `height` (m) high."""
+    growth = grading ** (1.0 / (n_y - 1))
+    return height / sum(growth**row for row in range(n_y))

@@ -7,6 +7,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
+from ..fault.flat import SECOND_BODY
 from ..model.friction import law_declarations
 from ..model.friction.constants import CONSTANTS, ZETA_OVER_A
 from ..model.heterogeneity import Heterogeneity
@@ -26,53 +27,37 @@ GROUPS: dict[str, Any] = {
 }
 """The parts of a run beside its fault and its friction law."""
 
-SECOND_BODY = Quantity(
-    "body below the interface: a rigid base, or a second deformable block, in all that is left "
-    "out like the first",
-    choices=("rigid", "deformable"),
-    kind="str",
-)
-
-_OF_FAULT = {
-    "material": ("shear_modulus", "poisson_ratio", "density", "plane"),
-    "loading": ("normal_stress", "velocity", "initial_state", "loading"),
-    "block": ("height",),
-    "second_body": (
-        "second_far_side",
-        "second_shear_modulus",
-        "second_poisson_ratio",
-        "second_density",
-        "second_height",
-    ),
+OF_GROUPS = {
+    group: {cls.called.get(name, name): entry for name, entry in declarations(cls).items()}
+    for group, cls in GROUPS.items()
 }
-"""Parameters of the fault that a run has too, by section."""
+"""Declarations of the parts of a run, by the names of their parameters."""
+
+_OF_SECOND = ("far_side", "shear_modulus", "poisson_ratio", "density", "height", "n_y", "grading")
 
 
-def _of_group(cls: Any) -> dict[str, Quantity]:
-    """Declarations of a part of a run, by the names of its parameters."""
-    return {cls.called.get(name, name): entry for name, entry in declarations(cls).items()}
+@cache
+def law_entries() -> dict[str, Quantity]:
+    """Declarations of the parameters of all friction laws by their names in a run."""
+    entries = law_declarations()
+    return {"friction_law" if name == "law" else name: entry for name, entry in entries.items()}
 
 
 @cache
 def sections() -> Mapping[str, tuple[str, ...]]:
     """The names of all parameters of a run, by section of a configuration."""
-    law = ["friction_law" if name == "law" else name for name in law_declarations()]
-    block = [name for name in _of_group(Block) if not name.startswith("second_")]
+    block = [name for name in OF_GROUPS["block"] if not name.startswith("second_")]
+    loading = ("normal_stress", "velocity", "initial_state", "loading")
     found = {
-        "material": _OF_FAULT["material"],
-        "friction": tuple(law),
-        "loading": (*_OF_FAULT["loading"], *_of_group(Start)),
-        "block": (*_OF_FAULT["block"], *block),
-        "stepping": tuple(_of_group(Stepping)),
-        "perturbation": tuple(_of_group(Perturbation)),
-        "heterogeneity": tuple(_of_group(Heterogeneity)),
-        "second_body": (
-            "second_body",
-            *_OF_FAULT["second_body"],
-            "second_n_y",
-            "second_grading",
-        ),
-        "recording": tuple(_of_group(Recording)),
+        "material": ("shear_modulus", "poisson_ratio", "density", "plane"),
+        "friction": tuple(law_entries()),
+        "loading": (*loading, *OF_GROUPS["start"]),
+        "block": ("height", *block),
+        "stepping": tuple(OF_GROUPS["stepping"]),
+        "perturbation": tuple(OF_GROUPS["perturbation"]),
+        "heterogeneity": tuple(OF_GROUPS["heterogeneity"]),
+        "second_body": ("second_body", *(f"second_{name}" for name in _OF_SECOND)),
+        "recording": tuple(OF_GROUPS["recording"]),
     }
     return MappingProxyType(found)
 
@@ -80,38 +65,28 @@ def sections() -> Mapping[str, tuple[str, ...]]:
 @cache
 def parameters() -> Mapping[str, Quantity]:
     """The declarations of all parameters of a run and of the constants of friction, by name."""
-    known = dict(QUANTITIES)
-    for name, entry in law_declarations().items():
-        known["friction_law" if name == "law" else name] = entry
-    known["second_body"] = SECOND_BODY
-    for cls in GROUPS.values():
-        known |= _of_group(cls)
+    known = {**QUANTITIES, **law_entries(), "second_body": SECOND_BODY, "zeta_over_a": ZETA_OVER_A}
+    for entries in OF_GROUPS.values():
+        known |= entries
     found = {}
     for names in sections().values():
         for name in names:
             left_out = name.startswith("second_") and name != "second_body"
-            found[name] = dataclasses.replace(
-                known[name], optional=left_out or known[name].optional
-            )
-    known["zeta_over_a"] = ZETA_OVER_A
+            optional = left_out or known[name].optional
+            found[name] = dataclasses.replace(known[name], optional=optional)
     return MappingProxyType(found | {name: known[name] for name in CONSTANTS})
-
-
-def require_known(name: str) -> None:
-    """Raise a ParameterError with a suggestion if no parameter of a run has a name."""
-    known = parameters()
-    if name not in known:
-        close = difflib.get_close_matches(name, known, n=3)
-        suggestion = hint(name, known) or f"similar: {', '.join(close or known)}"
-        raise ParameterError(f"there is no parameter {name}; {suggestion}")
 
 
 def read(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values in SI units and their declared types, from numbers and texts such as "5 mm"."""
     found = {}
+    known = parameters()
     for name, value in values.items():
-        require_known(name)
-        entry = parameters()[name]
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=3)
+            suggestion = hint(name, known) or f"similar: {', '.join(close or known)}"
+            raise ParameterError(f"there is no parameter {name}; {suggestion}")
+        entry = known[name]
         if isinstance(value, str) and not entry.worded:
             value = parse(name, value, entry)
         check(name, value, entry)

@@ -9,18 +9,16 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from ..fault import Fault
-from ..fault.paper import PAPER
-from ..model.friction import Friction, law_declarations
+from ..fault import PAPER, Fault
+from ..model.friction import Friction
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
 from ..model.quantities import ParameterError
 from ..model.settings import Block, Perturbation, Recording, Start, Stepping
 from ..theory.evaluation import single_system
-from .complete import completed, flat
-from .estimates import growth_time, process_zone
-from .names import GROUPS, read, sections
+from .complete import complete, flat, time_to_length, zone_length
+from .names import GROUPS, OF_GROUPS, law_entries, read, sections
 
 if TYPE_CHECKING:
     from ..theory.creep.patches import Patches
@@ -75,13 +73,18 @@ class Run:
     recording: Recording
 
     def __init__(self, fault: Fault, **values: Any) -> None:
-        self._set(completed(fault, read(values)))
+        self._set(complete(fault, read(values)))
+
+    @classmethod
+    def _of(cls, values: Mapping[str, Any]) -> Self:
+        """The run of a flat mapping of all parameters."""
+        run = object.__new__(cls)
+        run._set(values)
+        return run
 
     def completed(self, **values: Any) -> Self:
         """A run of the same fault and friction law in which only `values` are given."""
-        run = object.__new__(type(self))
-        run._set(completed(self.fault, read(values), self.law))
-        return run
+        return self._of(complete(self.fault, read(values), self.law))
 
     def _set(self, values: Mapping[str, Any]) -> None:
         """Set the fields from a flat mapping of all parameters."""
@@ -90,11 +93,8 @@ class Run:
         object.__setattr__(self, "law", law)
         object.__setattr__(self, "fault", _fault_of(values, law))
         for group, cls in GROUPS.items():
-            own = {}
-            for field in dataclasses.fields(cls):
-                name = cls.called.get(field.name, field.name)
-                if name in values:
-                    own[field.name] = values[name]
+            fields = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
+            own = {field.name: values[name] for name, field in fields if name in values}
             object.__setattr__(self, group, cls(**own))
 
     @classmethod
@@ -105,9 +105,7 @@ class Run:
                 "the parameters are no run of this version: records of earlier versions are made "
                 "again by their simulations"
             )
-        run = object.__new__(cls)
-        run._set(read(values))
-        return run
+        return cls._of(read(values))
 
     def to_dict(self) -> dict[str, Any]:
         """All parameters by name, in SI units; without those of a second body like the first."""
@@ -153,21 +151,15 @@ class Run:
             kept = [name for name in changed if not name.startswith("second_")]
             changed = {name: changed[name] for name in (*kept, "second_body")}
             changed |= {name: x for name, x in given.items() if name.startswith("second_")}
-        law = self.law.changed(
-            {
-                "law" if name == "friction_law" else name: value
-                for name, value in given.items()
-                if name in _OF_LAWS
-            }
-        )
-        law = with_constants(law, changed["velocity"], given)
-        for name in (*_OF_LAWS, *CONSTANTS):
+        of_law = {name: x for name, x in given.items() if name in law_entries()}
+        if "friction_law" in of_law:
+            of_law["law"] = of_law.pop("friction_law")
+        law = with_constants(self.law.changed(of_law), changed["velocity"], given)
+        for name in (*law_entries(), *CONSTANTS):
             changed.pop(name, None)
         for name, value in vars(law).items():
             changed[law.called.get(name, name)] = value
-        run = object.__new__(type(self))
-        run._set({name: value for name, value in changed.items() if value is not None})
-        return run
+        return self._of({name: value for name, value in changed.items() if value is not None})
 
     @property
     def upper(self) -> Body:
@@ -224,11 +216,11 @@ class Run:
 
     def process_zone(self, rest: float = 0.0) -> float:
         """Length (m) of the front's process zone after a time (s) at rest ahead of it."""
-        return process_zone(self.fault, self.law, rest)
+        return zone_length(self.fault, self.law, rest)
 
     def growth_time(self, length: float) -> float:
         """Time (s) from the start until the creep patch has a length (m), roughly."""
-        return growth_time(self.fault, self.start, length)
+        return time_to_length(self.fault, self.start, length)
 
     @property
     def patches(self) -> Patches:
@@ -246,10 +238,6 @@ class Run:
             return found
         rate = self.start.stress_rate * self.memory_time / fault.normal_stress
         return dataclasses.replace(found, loading="remote", load_rate=rate)
-
-
-_OF_LAWS = ("friction_law", *(name for name in law_declarations() if name != "law"))
-"""Names of the parameters of all friction laws."""
 
 
 def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
@@ -280,16 +268,5 @@ def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
     )
 
 
-def _paper_run() -> Run:
-    values = flat(PAPER, PAPER.law())
-    for cls in GROUPS.values():
-        for field in dataclasses.fields(cls):
-            if field.default is not None:
-                values[cls.called.get(field.name, field.name)] = field.default
-    run = object.__new__(Run)
-    run._set(values)
-    return run
-
-
-PAPER_RUN = _paper_run()
+PAPER_RUN = Run._of(flat(PAPER, PAPER.law()))
 """The paper's fault on the paper's mesh, without a declared perturbation."""

@@ -11,7 +11,7 @@ import xarray as xr
 from nucleation.fault import Fault
 from nucleation.model.friction import Expansion, Friction
 from nucleation.model.material import Material
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from nucleation.run.run import Run
 
 from ..configuration.roles import JUDGED, PAPERS

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 

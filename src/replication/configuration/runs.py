@@ -6,8 +6,8 @@ from functools import cached_property
 from typing import Any
 
 from nucleation.fault import Fault
-from nucleation.model.friction.constants import CONSTANTS, constants
-from nucleation.run.identity import ensemble
+from nucleation.model.friction.constants import CONSTANTS, constants_of
+from nucleation.run.derived import ensemble
 from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
@@ -59,7 +59,7 @@ class StudyRun:
         if name in self.given:
             return self.given[name]
         if name in CONSTANTS:
-            return constants(self.run.law, self.run.fault.velocity)[name]
+            return constants_of(self.run.law, self.run.fault.velocity)[name]
         return self.parameters.get(name)
 
     @property

@@ -18,8 +18,7 @@ from nucleation.datasets.variables import Variable, annotate, some, table, to_cs
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.model.settings import Perturbation
-from nucleation.run.drop import drop_of_run
-from nucleation.run.identity import ensemble, fault
+from nucleation.run.derived import drop_of_run, ensemble, fault
 from nucleation.run.run import Run
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.status import NoLength

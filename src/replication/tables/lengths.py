@@ -13,7 +13,7 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import follow_patch
 from nucleation.extraction.measures import MEASURED, MEASURES, measure
-from nucleation.run.identity import ensemble, fault
+from nucleation.run.derived import ensemble, fault
 from nucleation.run.names import parameters as known_parameters
 from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength

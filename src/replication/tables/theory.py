@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
 from nucleation.extraction.growth import FITTED
-from nucleation.run.identity import fault
+from nucleation.run.derived import fault
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.creep.front import advance, oscillating

@@ -10,7 +10,7 @@ import pytest
 from commands_of_slurm import output_of, wait_for
 
 from nucleation.datasets import netcdf
-from nucleation.fault.strict_yaml import read_yaml
+from nucleation.fault.files import read_yaml
 from nucleation.run.checks import estimated_megabytes
 from nucleation.simulation.checkpoints import VARIABLE
 from replication.configuration.load import configure

@@ -39,7 +39,7 @@ _ROUGHNESS = 0.2
 """Correlation length along x over mu/(1 - nu) D/(b sigma0)."""
 
 
-def constants(friction: Friction, velocity: float) -> dict[str, float]:
+def constants_of(friction: Friction, velocity: float) -> dict[str, float]:
     """The :data:`CONSTANTS` of a law at V (m/s), by name."""
     f, a, zeta = friction.expansion(velocity)
     return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
@@ -62,7 +62,7 @@ def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any
     weakenings = [name for name in CONSTANTS[2:] if name in given]
     if len(weakenings) > 1:
         raise ParameterError(f"{weakenings[0]} is not allowed together with {weakenings[1]}")
-    f, a, ratio, zeta, b = (constants(friction, velocity) | given).values()
+    f, a, ratio, zeta, b = (constants_of(friction, velocity) | given).values()
     if "b" in given:
         zeta = b - a
     elif "zeta" not in given:

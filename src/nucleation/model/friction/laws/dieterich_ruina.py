@@ -82,7 +82,15 @@ class Law(Friction):
         psi: Array,
         constants: tuple[float, ...],
     ) -> tuple[Array, Array, Array]:
-        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``."""
+        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``.
+
+        Parameters
+        ----------
+        v, psi : ndarray
+            Slip rates (m/s) and logarithms of the state (s).
+        constants : tuple of float
+            The law's :attr:`constants`.
+        """
         a, b = constants[:2]
         s = _scale(psi, constants)
         by_size = 1.0 / np.hypot(v, s)
@@ -94,6 +102,15 @@ class Law(Friction):
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
 
+        Parameters
+        ----------
+        velocity : float
+            Slip rate V of steady sliding (m/s).
+        f, a, zeta : float
+            Friction coefficient, direct effect and velocity weakening at V.
+
+        Notes
+        -----
         In steady sliding ``phi = D/w``, ``w = sqrt(V^2 + v0^2)``. With a* the law's own coefficient
         and ``c = V/sqrt(V^2 + s^2) = tanh(f/a*)`` the expansion has ``a = a* c`` and
         ``zeta = (b (V/w)^2 - a*) c``. So ``a* = a/c``; in double precision it is a itself if

@@ -62,7 +62,15 @@ class Law(Friction):
         psi: Array,
         constants: tuple[float, ...],
     ) -> tuple[Array, Array, Array]:
-        """The product of both factors, and its derivatives by v (s/m) and psi."""
+        """The product of both factors, and its derivatives by v (s/m) and psi.
+
+        Parameters
+        ----------
+        v, psi : ndarray
+            Slip rates (m/s) and logarithms of the state (s).
+        constants : tuple of float
+            The law's :attr:`constants`.
+        """
         v0, b, scale, theta, state_scale, xi = constants
         ratio = np.exp(np.minimum(psi - np.log(state_scale), 700.0))  # phi/phi*, no overflow
         aging = 1.0 + b * np.log1p(ratio)
@@ -77,6 +85,15 @@ class Law(Friction):
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
 
+        Parameters
+        ----------
+        velocity : float
+            Slip rate V of steady sliding (m/s).
+        f, a, zeta : float
+            Friction coefficient, direct effect and velocity weakening at V.
+
+        Notes
+        -----
         With ``A = 1 + b log(1 + phi/phi*)``, ``w = sqrt(V^2 + v0^2)`` and the rate factor ``R(v)``,
         ``f = A R``, ``a = A V R'`` and ``a + zeta = b R (V/w)^2 / (1 + phi*/phi)``. The last gives
         b, with R = f/A; the others are linear in theta and xi.

@@ -1,14 +1,18 @@
-"""Digests that identify the fault of a run, and the ensemble of its realisations.
+"""What follows from a run: digests of its fault and its ensemble, its expected drop.
 
-Tables have these digests in a column; runs of the same fault are found by comparing it. Values
-that differ only by round-off have the same digest, and a second body's value that is left out
-counts as the first body's.
+Tables have the digests in a column; runs of the same fault are found by comparing them. Values that
+differ only by round-off have the same digest, and a second body's value that is left out counts as
+the first body's.
 """
 
 import hashlib
 import json
 from functools import lru_cache
 
+from ..drop.expected_drop import Block, ExpectedDrop, expected_drop
+from ..theory.critical import critical_length_of
+from ..theory.evaluation import single_system
+from .checks import require_uniform_edge
 from .names import sections
 from .run import Run
 
@@ -43,3 +47,17 @@ def identity(run: Run, *excluded: str) -> str:
             kept[name] = float(f"{value:.{DIGITS}g}") if rounded else value
     content = json.dumps(kept, sort_keys=True)
     return hashlib.sha256(content.encode()).hexdigest()[:_DIGEST_LENGTH]
+
+
+def drop_of_run(run: Run) -> ExpectedDrop:
+    """The expected drop of a uniform run that is pushed at its edge; raises NoLength."""
+    require_uniform_edge(run, "the law of the drop")
+    fault = run.fault
+    return expected_drop(
+        run.patches,
+        run.perturbation,
+        critical_length_of(single_system(fault)),
+        fault.initial_state,
+        run.start.initial_shear_stress / fault.normal_stress,
+        Block(run.block.length, fault.height),
+    )

@@ -1,0 +1,241 @@
+"""What a command is given: options of parameters, and the fault or the run that they define.
+
+Further parameters are those of a file, of the dataset of a simulation, or the paper's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from ..fault import PAPER, Fault
+from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
+from ..installed import require
+from ..model.quantities import ParameterError, Quantity
+from ..model.settings import KINDS
+from ..model.units import parse
+from ..theory.reading import required
+
+if TYPE_CHECKING:
+    from ..lengths.draws import Draws
+    from ..run.run import Run
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+Decorator = Callable[[_Function], _Function]
+"""A decorator that adds options to the function of a command."""
+
+NOTES = {
+    "b": "this, --zeta or --zeta-over-a",
+    "zeta": "zeta = b - a",
+    "friction": "needed where the bodies differ, and for the length at the drop",
+    "velocity": "for frequencies and the length at the drop",
+    "height": "inf, a half-space, if left out",
+    "second_body": "deformable, like the first, if left out",
+    "second_height": "the first body's if left out",
+    "far_side": "traction if left out",
+    "second_far_side": "of the second body; the first one's if left out",
+    "plane": "strain if left out",
+    "density": "1200 of PMMA, the paper's, if left out",
+    "initial_state": "20 D/V if left out",
+    "friction_law": "none if left out: a and b are constant along the patch",
+}
+"""Additions to the help of options."""
+
+_OF_FAULT = {
+    *("shear_modulus", "poisson_ratio", "normal_stress", "slip_distance", "velocity"),
+    *("friction", "a", "b", "zeta", "zeta_over_a", "second_shear_modulus"),
+}
+"""Constants of which one at least makes a fault another one than the paper's."""
+
+
+def option(
+    key: str,
+    entry: Quantity,
+    note: str = "",
+    read: Callable[[str, str, Quantity], Any] = parse,
+    **settings: Any,
+) -> Decorator:
+    """A click option with unit, range and help of a parameter; `read` makes a value of its text."""
+
+    def value_of(text: str) -> Any:
+        try:
+            return (parse if entry.worded else read)(key, text, entry)
+        except ParameterError as error:
+            raise click.BadParameter(str(error)) from None
+
+    def matching(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem | str]:
+        return [choice for choice in entry.choices if choice.startswith(begun)]
+
+    metavar = "NUMBER" if entry.unit == "1" else f"VALUE[{entry.unit}]"
+    parts = [entry.description]
+    if entry.choices:
+        metavar = f"[{'|'.join(entry.choices)}]"
+    else:
+        parts.append(f"{'an integer in' if entry.kind == 'int' else 'in'} {entry.bounds}")
+    return click.option(
+        f"--{key.replace('_', '-')}",
+        key,
+        type=value_of,
+        metavar=metavar,
+        help="; ".join([*parts, note] if note else parts),
+        shell_complete=matching,
+        **settings,
+    )
+
+
+def options_of(
+    entries: Mapping[str, Quantity],
+    notes: Mapping[str, str] = NOTES,
+    read: Callable[[str, str, Quantity], Any] = parse,
+) -> Decorator:
+    """One option for each parameter, by its only name."""
+    options = [option(key, entry, notes.get(key, ""), read) for key, entry in entries.items()]
+    return together(*options)
+
+
+def together(*options: Decorator) -> Decorator:
+    """Several options as one decorator, in the order of the help."""
+
+    def with_options(function: _Function) -> _Function:
+        for add in reversed(options):
+            function = add(function)
+        return function
+
+    return with_options
+
+
+json_option = click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+
+source_options = together(
+    click.option(
+        "--parameters",
+        "file",
+        type=click.Path(exists=True, dir_okay=False, path_type=Path),
+        help="YAML or JSON file of parameters by the names of options, optionally with units; or "
+        "the dataset of an earlier simulation",
+    ),
+    click.option(
+        "--paper",
+        is_flag=True,
+        help="take other parameters from the paper: PMMA on a rigid base, with its friction law",
+    ),
+)
+"""Options for the source of parameters that are not given as options."""
+
+
+def fault_options(function: _Function) -> _Function:
+    """One option for each parameter of a fault, and options for the source of other parameters."""
+    from ..lengths.draws import parse_range
+
+    own = options_of(declarations_of_flat(), read=parse_range)
+    return together(own, source_options)(function)
+
+
+def _given(
+    options: Mapping[str, Any], known: Mapping[str, Quantity], ignored: Collection[str] = ()
+) -> tuple[dict[str, Any], Run | None]:
+    """The known values of options and their file (SI units), and the run of their dataset."""
+    file = options["file"]
+    own = {k: x for k, x in options.items() if x is not None and k in known}
+    if file is None:
+        return own, None
+    if file.suffix != ".nc":
+        return read_parameters(file, ignored, known) | own, None
+    if options["paper"]:
+        raise ParameterError("--paper is not allowed with a dataset, which has all values")
+    require("solver")
+    from ..datasets import netcdf
+    from ..extraction.extraction import parameters_of
+
+    return own, parameters_of(netcdf.read(file, requires=["slip_rate", "driving_force"]))
+
+
+def given_fault(
+    options: Mapping[str, Any],
+    samples: Mapping[str, Any] = {},
+    draws: int = 0,
+    sought: Mapping[str, float] = {},
+) -> tuple[Fault, frozenset[str], Draws | None]:
+    """The fault that options define (None: not given), names of what is given, and its draws.
+
+    There are draws, and arrays in the fault, if there are ranges or `samples` by name. A parameter
+    that is `sought` need not be given.
+    """
+    known = declarations_of_flat()
+    ignored: Collection[str] = ()
+    if options["file"]:  # one file serves all commands
+        from ..run.names import parameters
+
+        ignored = parameters().keys() - known.keys()
+    given, run = _given(options, known, ignored)
+    for name in samples:
+        if options.get(name) is not None:
+            raise ParameterError(f"{name} is given twice: as an option and in the samples")
+    given |= samples
+    names = frozenset(given)
+    base = run.fault if run else PAPER if options["paper"] else None
+    if base is None:
+        given = {**sought, **given}
+        law = given.get("friction_law") or given.keys() & {*LAW_NAMES}
+        for name in required(given.get("plane", "strain")):
+            if name not in given and not (law and name == "a"):
+                place = f"in {options['file']}" if options["file"] else "or --parameters FILE"
+                raise ParameterError(
+                    f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all "
+                    "other parameters from the paper by --paper"
+                )
+    from ..lengths.draws import Range, draw_samples
+
+    drawn = None
+    if samples or any(isinstance(x, Range) for x in given.values()):
+        if not draws:
+            _refuse_ranges(given)
+        drawn = draw_samples(given, draws)
+        given = drawn.values
+    own = keywords(given)
+    return (base.replace(**own) if base else Fault(**own)), names, drawn
+
+
+def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
+    """The run that options define (None: not given), names of what is given, if it is the paper's.
+
+    Without a dataset the sizes of the block and the times follow from the theory. Without any
+    constant of a fault it is the paper's.
+    """
+    from ..run.names import parameters
+    from ..run.run import PAPER_RUN, Run
+
+    given, base = _given(options, parameters())
+    names = frozenset(given)
+    if options["file"]:
+        _refuse_ranges(given)
+    usual = base.perturbation.kind if base else "none"
+    if "seed" in given and given.get("perturbation", usual) == "none":
+        raise ParameterError(
+            f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
+            f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
+        )
+    if base is not None:
+        return base.replaced(**given), frozenset(base.to_dict()), False
+    flat = declarations_of_flat()
+    of_fault = {name: x for name, x in given.items() if name in flat}
+    others = {name: x for name, x in given.items() if name not in flat}
+    if options["paper"] or not _OF_FAULT & names:
+        return PAPER_RUN.replaced(**of_fault).completed(**others), names, True
+    return Run(Fault(**keywords(of_fault)), **others), names, False
+
+
+def _refuse_ranges(given: Mapping[str, Any]) -> None:
+    from ..lengths.draws import Range
+
+    for name, value in given.items():
+        if isinstance(value, Range):
+            raise ParameterError(
+                f"{name}: a range is not allowed here, where each parameter has one value; "
+                "`nucleation length` takes ranges"
+            )
