@@ -159,7 +159,16 @@ def extract(
     """
     record = Record(simulation, settings)
     if record.onset is None:
-        _warn_of_early_end(record)
+        recorded, drop = record.run.stepping.event_drop, settings.drop
+        status = str(simulation.attrs.get("status"))
+        if drop > recorded and status.startswith(Outcome.AFTER_EVENT.value):
+            warnings.warn(
+                f"the run ended after its event, a drop of the force by {recorded:g}, and before "
+                f"it fell by drop = {drop:g}: simulate with a larger stepping.event_drop "
+                "or time_after_event",
+                UserWarning,
+                stacklevel=2,
+            )
         return dict.fromkeys(READ, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
@@ -172,18 +181,3 @@ def extract(
         edges.max(),
     )
     return dict(zip(READ, map(float, values), strict=True))
-
-
-def _warn_of_early_end(record: Record) -> None:
-    """Warn if the run ended after an event by a smaller drop than that of the settings."""
-    recorded = record.run.stepping.event_drop
-    drop = record.settings.drop
-    status = str(record.simulation.attrs.get("status"))
-    if drop > recorded and status.startswith(Outcome.AFTER_EVENT.value):
-        warnings.warn(
-            f"the run ended after its event, a drop of the force by {recorded:g}, and before "
-            f"it fell by drop = {drop:g}: simulate with a larger stepping.event_drop "
-            "or time_after_event",
-            UserWarning,
-            stacklevel=3,
-        )

@@ -103,22 +103,12 @@ class LayerFactors:
 
     def schur(self) -> Array:
         """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
-        sums = self._sums_of_unit_values()
-        rows = np.zeros_like(sums[0])
-        for matrix, by_value in zip(self._rows[:3], sums, strict=True):
-            rows += product(matrix, by_value.T).T
-        # the sums begin at the level of each edge value: the other half follows by symmetry
-        lower = np.tril(product(self._rows[3], np.eye(len(rows))) - rows.T)
-        return lower + np.tril(lower, -1).T
-
-    def _sums_of_unit_values(self) -> Array:
-        """Sums of the bulk's response over the modes, (edge weight, edge value, level)."""
         modes = self.layer.modes
         levels = self.layer.levels
         diagonal = np.empty_like(self.inverse)
         edge_kernels.diagonal_inverse(self.inverse, self.lower, diagonal)
         solution = np.zeros((levels, 2, modes.n_x))
-        sums = np.zeros((levels, 3, levels))
+        sums = np.zeros((levels, 3, levels))  # of the response to each edge value over the modes
         for i, unit in enumerate(np.eye(levels)):
             first = max(i, 1)
             profiles = self.profiles(unit)[:, first - 1 : first + 2]
@@ -135,7 +125,12 @@ class LayerFactors:
                 solution,
             )
             edge_kernels.edge_sums(modes.edge_weights, solution, first - 1, sums[i])
-        return np.moveaxis(sums, 1, 0)
+        rows = np.zeros((levels, levels))
+        for matrix, by_value in zip(self._rows[:3], np.moveaxis(sums, 1, 0), strict=True):
+            rows += product(matrix, by_value.T).T
+        # the sums begin at the level of each edge value: the other half follows by symmetry
+        lower = np.tril(product(self._rows[3], np.eye(levels)) - rows.T)
+        return lower + np.tril(lower, -1).T
 
     def to_modes(self) -> Array:
         """Forces on the interface's modes along x and y per edge value, bulk eliminated.

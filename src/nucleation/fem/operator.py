@@ -302,42 +302,40 @@ class Operator:
         of_modes[-1] *= 0.25
         return of_modes + self.edge.diagonal
 
-    @cached_property
-    def _edge_reach(self) -> int:
-        """The first node (1..n_x) on which the right edge acts beyond round-off."""
-        assert self.edge is not None
-        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self.diagonal
-        return int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
-
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
         """Dense blocks of D and N (N/m per m) between some of the nodes 1..n_x, sorted."""
         key = (nodes.tobytes(), dtype)
         if key != self._last_key:  # mostly the same nodes slip in the next step
             self._last_key = key
             blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+            self._last_blocks = blocks[0], blocks[1]
+            d, h = self._first_columns
             if self.edge is None:
                 between = np.subtract.outer(nodes, nodes)
-                blocks[:] = [column[between] for column in self._first_columns]
+                blocks[:] = d[between], h[between]
             else:
-                self._fill_between(nodes, self.edge, *blocks)
-            self._last_blocks = blocks[0], blocks[1]
+                edge_kernels.interface_blocks(d, h, self.body.modes.n_x, nodes, *blocks)
+                self._add_edge(nodes, self.edge, *blocks)
         return self._last_blocks
 
-    def _fill_between(
-        self, nodes: NDArray[np.intp], edge: EdgeValues, stiffness: NDArray, coupling: NDArray
+    def _add_edge(
+        self,
+        nodes: NDArray[np.intp],
+        edge: EdgeValues,
+        stiffness: NDArray,
+        coupling: NDArray,
     ) -> None:
-        n = self.body.modes.n_x
-        d, h = self._first_columns
-        edge_kernels.interface_blocks(d, h, n, nodes, stiffness, coupling)
-        near = int(np.searchsorted(nodes, self._edge_reach))
+        """Add the influence of the right edge to the blocks of D and N."""
+        felt = np.abs(edge.diagonal) > EDGE_FELT * self.diagonal
+        reach = int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
+        near = int(np.searchsorted(nodes, reach))
         if near == nodes.size:
             return
         own = nodes[near:]
         tangential, normal = edge.to_interface
         tangential = tangential[:, own - 1]
-        normal = normal[:, own]
         response = edge.response[:, own - 1]
         stiffness[near:, near:] += tangential.T @ response
-        coupling[near:, near:] += normal.T @ response
-        if own[-1] == n:
+        coupling[near:, near:] += normal[:, own].T @ response
+        if own[-1] == self.body.modes.n_x:
             coupling[-1, near:] += tangential[0]

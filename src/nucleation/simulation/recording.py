@@ -218,36 +218,32 @@ class Energy:
         self._drive = dynamics.drive
         self._works = np.zeros(2)  # of edge and loads, and of friction on the body
         self._start = np.empty(0)  # elastic and kinetic energy
-        self._last: list[Array] = []  # forces (N/m) and ways (m), external and friction's
+        self._last = np.empty(0)  # forces (N/m) and ways (m), those of friction last
 
     def take(self, state: State, report: StepReport) -> None:
         """Take in the initial state or a step."""
-        before = self._last
         self._state = state
-        self._last = [self._external(state, report), self._friction(state, report)]
-        if not before:
-            self._start = self._stored(state)
-        for i, (old, new) in enumerate(zip(before, self._last, strict=False)):
-            self._works[i] += 0.5 * (old[0] + new[0]) @ (new[1] - old[1])
-
-    def _external(self, state: State, report: StepReport) -> Array:
-        """Forces on the driven edge and the far sides, and their ways."""
+        grid, modes = self._body.grid, self._body.modes
         load, field = self._drive.load(state.time), state.displacement
         moved = self._drive.at(state.time).displacement
         far = np.cumsum([layer.levels for layer in self._body.layers]) - 1
-        modal = load.modes[far] * self._body.modes.norms
-        forces = np.concatenate(([-report.driving_force], modal.ravel(), load.edge[far]))
-        return np.array(
-            [forces, np.concatenate(([moved], field.modes[far].ravel(), field.edge[far]))]
+        slip = moved + modes.on_all_nodes(report.interface.w, 0.0)[grid.own]
+        forces = (
+            [-report.driving_force],
+            (load.modes[far] * modes.norms).ravel(),
+            load.edge[far],
+            report.interface.tangential[grid.own],
         )
-
-    def _friction(self, state: State, report: StepReport) -> Array:
-        """Forces of friction on the interface's nodes, and their ways."""
-        moved = self._drive.at(state.time).displacement
-        slip = moved + self._body.modes.on_all_nodes(report.interface.w, 0.0)
-        return np.array([report.interface.tangential, slip])[:, self._body.grid.own]
+        ways = ([moved], field.modes[far].ravel(), field.edge[far], slip)
+        before, self._last = self._last, np.array([np.concatenate(forces), np.concatenate(ways)])
+        if before.size:
+            works = 0.5 * (before[0] + self._last[0]) * (self._last[1] - before[1])
+            self._works += works[: -slip.size].sum(), works[-slip.size :].sum()
+        else:
+            self._start = self._stored(state)
 
     def _stored(self, state: State) -> Array:
+        """Elastic and kinetic energy (J/m)."""
         body, imposed = self._body, self._drive.at(state.time)
         parts = zip(body.layers, body.parts(state.displacement), strict=True)
         elastic = sum(elastic_energy(layer, part) for layer, part in parts)
@@ -255,24 +251,19 @@ class Energy:
 
     def since_start(self) -> dict[str, float]:
         """:data:`ENERGIES` (J/m) at the present step."""
-        stored = self._stored(self._state) - self._start
+        elastic, kinetic = self._stored(self._state) - self._start
         work, by_friction = self._works
-        values = (*stored, work, -by_friction)
+        values = (elastic, kinetic, work, -by_friction)
         return dict(zip(ENERGIES, map(float, values), strict=True))
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""
-        external, friction = self._last
-        return {
-            "energy_works": self._works.copy(),
-            "energy_start": self._start,
-            "energy_external": external,
-            "energy_friction": friction,
-        }
+        works = self._works.copy()
+        return {"energy_works": works, "energy_start": self._start, "energy_last": self._last}
 
     def restore(self, arrays: Mapping[str, Array]) -> None:
         """The inverse of :meth:`to_arrays`, with the arrays of the state."""
         self._works = arrays["energy_works"].copy()
         self._start = arrays["energy_start"]
-        self._last = [arrays["energy_external"], arrays["energy_friction"]]
+        self._last = arrays["energy_last"]
         self._state = State.from_arrays(arrays)

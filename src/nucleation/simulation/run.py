@@ -26,6 +26,7 @@ from .step import Dynamics, State, StepReport
 from .stepping import BDF, rung_below, rung_value
 
 SAFETY = 0.85  # of the step size against the estimated error
+PEAK_UNITS = 1e6 if sys.platform == "darwin" else 1e3  # of the largest resident memory, per MB
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
 RESOLVED = 16.0  # shortest step over the round-off of the time
 
@@ -233,7 +234,7 @@ def simulate(
         "steps": recorder.steps,
         "rejected_steps": control.rejected,
         "wall_seconds": earlier + time.perf_counter() - began,
-        "peak_megabytes": peak_megabytes(),
+        "peak_megabytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / PEAK_UNITS,
     }
     return dataset
 
@@ -250,11 +251,3 @@ def _arrays(
         "wall_seconds": np.array(seconds),
     }
     return control | instant.state.to_arrays() | recorder.to_arrays()
-
-
-def peak_megabytes() -> float:
-    """Largest resident memory of this process so far (MB)."""
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    if sys.platform == "darwin":
-        return peak / 1e6  # given in bytes there, and in kilobytes elsewhere
-    return peak / 1e3

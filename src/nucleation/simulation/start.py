@@ -101,12 +101,9 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     displacement = operator.balance(response, response.w).displacement
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
-    state = State.beginning(
-        body.at_rest(displacement, imposed.velocity),
-        slip_rate,
-        log_state,
-        response.w,
-    )
+    motion = body.at_rest(displacement, imposed.velocity)
+    past = slip_rate[None], log_state[None], response.w[None]
+    state = State((motion,), np.zeros(1), *past)
     interface = InterfaceSolution(
         slip_rate,
         log_state,
@@ -153,14 +150,12 @@ def _relaxed(
     of_law = friction.coefficient(run.fault.velocity, run.fault.initial_state)
     on_all_nodes = np.broadcast_to(of_law, dynamics.grid.n_x + 1)
     coefficient = on_all_nodes[-n:]
-
-    def normal_forces(now: Response) -> Array:
-        return (now.normal + dynamics.interface.extra_normal)[-n:]
-
+    extra = np.broadcast_to(dynamics.interface.extra_normal, n + 1)[-n:]
     slipped = np.zeros(n, dtype=bool)
     direction = np.sign(response.tangential)
     while True:
-        strength = coefficient * normal_forces(response)
+        normal = response.normal[-n:] + extra
+        strength = coefficient * normal
         weaker = ~slipped & (np.abs(response.tangential) > strength)
         if not weaker.any():
             return response
@@ -168,8 +163,7 @@ def _relaxed(
         nodes = np.flatnonzero(slipped)
         stiffness, coupling = operator.tangent(nodes + 1)
         signed = (direction * coefficient)[nodes]
-        strength = signed * normal_forces(response)[nodes]
-        excess = strength - response.tangential[nodes]
+        excess = signed * normal[nodes] - response.tangential[nodes]
         matrix = stiffness - signed[:, None] * coupling
         w = response.w.copy()
         w[nodes] += np.linalg.solve(matrix, excess)

@@ -49,23 +49,6 @@ class State:
     past_w: Array  # m, slip less that of the driven edge, (past, nodes 1..n_x)
     edge_error: float = np.inf  # relative, of the right edge's values as foreseen
 
-    @classmethod
-    def beginning(
-        cls,
-        motion: Motion,
-        slip_rate: Array,
-        log_state: Array,
-        w: Array,
-    ) -> State:
-        """The state at time zero, without a past."""
-        return cls(
-            (motion,),
-            np.zeros(1),
-            slip_rate[None],
-            log_state[None],
-            w[None],
-        )
-
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
         arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}

@@ -51,11 +51,6 @@ class Formula:
         return cls(step, beta, (c1, c2))
 
     @classmethod
-    def backward_euler(cls, beta: float) -> Formula:
-        """The first step, of first order, by its leading coefficient (s)."""
-        return cls(beta, beta, (1.0, 0.0))
-
-    @classmethod
     def bdf3(
         cls,
         step: float,
@@ -168,32 +163,19 @@ class BDF:
         beta = rung_value(rung)
         known = past_times.size
         if known == 1:
-            formula = Formula.backward_euler(beta)
+            formula = Formula(beta, beta, (1.0, 0.0))  # backward Euler
         else:
             formula = Formula.bdf2(beta, float(past_times[0] - past_times[1]))
         # the second step's guess is too poor for an error estimate
         share = error_factor(formula, past_times) if known == self.instants else 0.0
         weights = extrapolation_weights(float(past_times[0]) + formula.step, past_times)
-        interface = self._on_interface(formula, past_times)
+        interface = formula
+        if known == 3 and formula.step >= QUASI_STATIC * self.crossing_time:
+            now, before, earlier = past_times.tolist()
+            growths = formula.step / (now - before), (now - before) / (before - earlier)
+            if max(growths) <= LARGEST_GROWTH_OF_BDF3:
+                interface = Formula.bdf3(formula.step, past_times)
         return Step(formula, interface, weights, share, known == 1)
-
-    def _on_interface(
-        self,
-        formula: Formula,
-        past_times: Array,
-    ) -> Formula:
-        """The formula for slip and state: BDF3 if the step is quasi-static and grows slowly."""
-        step = formula.step
-        if past_times.size < 3 or step < QUASI_STATIC * self.crossing_time:
-            return formula
-        now, before, earlier = past_times.tolist()
-        last = now - before
-        last_but_one = before - earlier
-        if step > LARGEST_GROWTH_OF_BDF3 * last:
-            return formula
-        if last > LARGEST_GROWTH_OF_BDF3 * last_but_one:
-            return formula
-        return Formula.bdf3(step, past_times)
 
     def coefficient(
         self,

@@ -61,7 +61,7 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     rates = np.full(n + 1, velocity)
     steady = float(np.log(friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
-    return State.beginning(motion, rates, log_state, response.w)
+    return State((motion,), np.zeros(1), rates[None], log_state[None], response.w[None])
 
 
 def one_wavelength(
