@@ -31,16 +31,14 @@ def of_role(tables, role):
     return tables.isel(run=np.flatnonzero(tables["role"].values == role))
 
 
-def dispersion():
-    """The variables of results/dispersion.nc that the claims need, from its table."""
-    frame = pd.read_csv(REFERENCE / "dispersion.csv")
-    index = ["height", "wavenumber_over_critical", "branch"]
-    modes = frame.set_index(index).to_xarray().rename(wavenumber_over_critical="mode")
-    wavenumber = modes["mode_wavenumber"].isel(branch=0)
-    return modes.assign(
-        mode_wavenumber=wavenumber,
-        critical_wavenumber=(wavenumber / modes["mode"]).isel(mode=0, drop=True),
-    )
+def modes(name):
+    """A table of modes with their rates on ``branch`` as well."""
+    both = [table(name).to_dataframe().query("branch == @n").reset_index(drop=True) for n in (0, 1)]
+    found = {column: ("run", both[0][column].to_numpy()) for column in both[0]}
+    for column in ("measured_growth", "measured_frequency", "disagreement"):
+        found[column] = ("run", "branch"), np.stack([own[column] for own in both], axis=1)
+    del found["branch"]
+    return xr.Dataset(found)
 
 
 def evidence(**changes):
@@ -86,7 +84,7 @@ def _evidence():
     return Evidence(
         base=config.base,
         theory=theory,
-        dispersion=dispersion(),
+        dispersion=modes("dispersion.csv"),
         lengths=tuple(of_role(lengths, role) for role in ROLES),
         patches=by_id,
     )

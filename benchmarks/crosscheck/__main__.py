@@ -12,7 +12,7 @@ from nucleation.extraction.extraction import Record, extract
 from nucleation.run.run import Run
 from nucleation.simulation.run import simulate
 from replication.configuration.load import load
-from replication.tables.main_text import main_text
+from replication.tables.curves import main_text
 
 from .freefem import FIXED, solve
 

@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from reference_evidence import PAIRED, REFERENCE
+from reference_evidence import modes as modes_of
 from reference_evidence import table as of_reference
 
 from replication.claims import printed
@@ -203,14 +204,7 @@ def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     places = " ".join(rows["where"])
     assert all(name in places for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
     assert list(rows.index) == list(FOUND)
-    modes = of_reference("pair_modes.csv")
-    along, back = (modes.isel(run=modes["branch"].values == n) for n in (0, 1))
-    measured = ("measured_growth", "measured_frequency")
-    both = {}
-    for name in measured:
-        values = np.stack([along[name], back[name]], axis=1)
-        both[name] = ("run", "branch"), values
-    evidence = {"pairs": of_reference("pairs.csv"), "modes": along.drop_vars("branch").assign(both)}
+    evidence = {"pairs": of_reference("pairs.csv"), "modes": modes_of("pair_modes.csv")}
     for row in table_of_claims.evaluate(PAIRED, evidence):
         assert row["verdict"] == rows.loc[row["id"], "verdict"]
         assert row["ours"] == pytest.approx(rows.loc[row["id"], "ours"], rel=1e-4)

@@ -16,8 +16,7 @@ from nucleation.datasets.variables import Variable, annotate, table, to_csv
 from nucleation.model import units
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
-from replication.tables.curves import CURVES, length_curve
-from replication.tables.main_text import main_text
+from replication.tables.curves import CURVES, length_curve, main_text
 
 NUMBERS = {name: entry for name, entry in VARIABLES.items() if entry.units}
 

@@ -21,8 +21,8 @@ from nucleation.run.run import PAPER_RUN
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from replication.claims import printed
-from replication.tables import dispersion, pair_modes, sliding_modes
-from replication.tables.sliding_modes import sliding_period, sliding_state
+from replication.tables import modes as tables
+from replication.tables.modes import sliding_period, sliding_state
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 MATERIAL = Material(3.1e9, 0.29, 1200.0)
@@ -145,13 +145,13 @@ SETTINGS = {
 def test_modes_grow_as_the_theory_says(setting, ratio):
     parameters = SETTINGS[setting]
     k, expected = theory(parameters, ratio)
-    found = sliding_modes.measured_rates(parameters, parameters.fault.height, k)
+    found = tables.measured_rates(parameters, k)
     found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
     assert (found.real.max() > 0.0) == (ratio < 1.0)
 
 
-@pytest.mark.parametrize("ratios", [dispersion.MODES, pair_modes.RATIOS])
+@pytest.mark.parametrize("ratios", [tables.MODES, tables.PAIR_MODES])
 def test_modes_bracket_the_critical_wavenumber(ratios):
     """Growth and decay are tried within 3 % of it."""
     assert list(ratios) == sorted(set(ratios))
@@ -167,11 +167,14 @@ def test_modes_bracket_the_critical_wavenumber(ratios):
         *(pytest.param(h, 1.03, marks=pytest.mark.slow) for h in (0.005, 0.5)),
     ],
 )
-def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
-    dataset = dispersion.dispersion_dataset(PARAMETERS, heights=[height], modes=[ratio])
-    assert dict(dataset.sizes) == {"height": 1, "mode": 1, "branch": 2}
+def test_table_of_modes_is_that_of_the_reference_and_the_theorys(monkeypatch, height, ratio):
+    monkeypatch.setattr(tables, "HEIGHTS", [height])
+    one = functools.partial(tables.dispersion, ratios=[ratio])
+    monkeypatch.setattr(tables, "dispersion", one)
+    made = tables.dispersion_files(PARAMETERS)
+    assert dict(made[".nc"].sizes) == {"run": 1, "branch": 2}
     k, expected = theory(PARAMETERS.replaced(height=height), ratio)
-    now = pd.read_csv(io.StringIO(dispersion.dispersion_csv(dataset)))
+    now = pd.read_csv(io.StringIO(made[".csv"]))
     np.testing.assert_allclose(now["mode_wavenumber"], k, rtol=1e-6)
     # the wave along +x, of the larger frequency, comes first
     rates = now["theory_growth"] + 1j * now["theory_frequency"]
@@ -179,6 +182,7 @@ def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
     rates = now["measured_growth"] + 1j * now["measured_frequency"]
     assert (np.abs(rates / expected[np.argsort(-expected.imag)] - 1.0) < AGREEMENT).all()
     stored = pd.read_csv(REFERENCE / "dispersion.csv")
+    assert list(now) == list(stored)
     at = np.isclose(stored["height"], height)
     stored = stored[at & np.isclose(stored["wavenumber_over_critical"], ratio)]
     names = ["measured_growth", "measured_frequency", "theory_growth", "theory_frequency"]
@@ -190,11 +194,11 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
     """Second order in h; the step is small enough not to be seen."""
     fine = {"ROWS": (1, 100), "GRADING": 1.0, "STEP": 0.002, "DURATION": 1.0, "SKIPPED": 120}
     for name, value in (fine | {"INTERVAL": 30}).items():
-        monkeypatch.setattr(sliding_modes, name, value)
-    height, errors, sizes = 0.5, [], (17, 33, 65)
-    k, expected = theory(PARAMETERS.replaced(height=height), 0.9)
+        monkeypatch.setattr(tables, name, value)
+    high, errors, sizes = PARAMETERS.replaced(height=0.5), [], (17, 33, 65)
+    k, expected = theory(high, 0.9)
     for nodes in sizes:
-        found = sliding_modes.measured_rates(PARAMETERS, height, k, nodes)
+        found = tables.measured_rates(high, k, nodes)
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
     ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
     order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
@@ -204,8 +208,16 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
 
 # -- two layers ----------------------------------------------------------------------------------
 
-KINDS = ("measured", "theory")
-LAYERS = {layers.name: layers for layers in pair_modes.THIN_LAYERS + pair_modes.HALF_SPACES}
+
+def rates_of(modes):
+    """The measured rates, and those by Eq. (5)."""
+    return [
+        modes[f"{kind}_growth"].values + 1j * modes[f"{kind}_frequency"].values
+        for kind in ("measured", "theory")
+    ]
+
+
+LAYERS = tables.THIN_LAYERS | tables.HALF_SPACES
 QUICK = ("stiff above, free", "stiff below, clamped", "stiff above, roller")
 
 
@@ -216,8 +228,8 @@ QUICK = ("stiff above, free", "stiff below, clamped", "stiff above, roller")
 @pytest.mark.parametrize("ratio", [0.8, pytest.param(1.25, marks=pytest.mark.slow)])
 def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
     """Both roots: the wave along +x and the one along -x, which the contrast tells apart."""
-    row = pair_modes.mode_row(LAYERS[which], PARAMETERS, ratio)
-    found, expected = row["measured"], row["theory"]
+    modes = tables.pair_modes(PARAMETERS, {which: LAYERS[which]}, (ratio,)).isel(run=0)
+    found, expected = rates_of(modes)
     error = np.abs(found - expected) / np.abs(expected)
     assert error.max() < 5e-3  # 1 % is asked for
     assert (found.real.max() > 0.0) == (ratio < 1.0)
@@ -226,14 +238,14 @@ def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
 
 SLIDING = {
     "one": PARAMETERS,
-    "pair": LAYERS["stiff above, free"].run(PARAMETERS, 0.2, 0.12),
+    "pair": PARAMETERS.replaced(**LAYERS["stiff above, free"]),
 }
 
 
 @pytest.mark.parametrize("parameters", SLIDING.values(), ids=SLIDING)
 def test_homogeneous_sliding_persists(parameters):
     """With sigma0 on the interface, also where nothing holds the mean."""
-    parameters = sliding_modes.one_wavelength(parameters, 0.2, 20.0, nodes=17)
+    parameters = tables.one_wavelength(parameters.replaced(height=0.2), 20.0, nodes=17)
     dynamics = sliding_period(parameters)
     state = sliding_state(dynamics, np.zeros(17))
     for _ in range(40):
@@ -244,13 +256,14 @@ def test_homogeneous_sliding_persists(parameters):
 
 def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
     """Swapped layers: what went along +x goes along -x, G2 changing sign and G1 not."""
-    modes = pair_modes.pair_modes(PARAMETERS, pair_modes.HALF_SPACES[:2], (0.8,))
-    g1, g2 = pair_modes.measured_response(modes)
+    swapped = dict(list(tables.HALF_SPACES.items())[:2])
+    modes = tables.pair_modes(PARAMETERS, swapped, (0.8,))
+    g1, g2 = tables.measured_response(modes)
     modulus = modes["shear_modulus"].values[:, None]
     # Poisson's ratios are not swapped, so that the formulas are to be asked
-    for i, layers in enumerate(pair_modes.HALF_SPACES[:2]):
-        psi = layers.second_modulus / layers.modulus
-        nu = layers.poisson_ratio, layers.second_poisson_ratio
+    for i, layers in enumerate(swapped.values()):
+        psi = layers["second_shear_modulus"] / layers["shear_modulus"]
+        nu = layers["poisson_ratio"], layers["second_poisson_ratio"]
         expected = 0.5 * printed.bimaterial_modulus(psi, *nu)
         np.testing.assert_allclose(g1[i], expected, rtol=5e-3)
         beta = printed.bimaterial_contrast(psi, *nu)
@@ -260,11 +273,13 @@ def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
 
 def test_the_step_has_a_line_for_each_mode_and_direction(monkeypatch):
     """With its wavenumber over the critical one, and by how much both rates disagree."""
-    one = functools.partial(pair_modes.pair_modes, pairs=pair_modes.HALF_SPACES[:1], ratios=(0.8,))
-    monkeypatch.setattr(pair_modes, "pair_modes", one)
-    found = pair_modes.files(PARAMETERS)
+    name, layers = next(iter(tables.HALF_SPACES.items()))
+    one = functools.partial(tables.pair_modes, pairs={name: layers}, ratios=(0.8,))
+    monkeypatch.setattr(tables, "pair_modes", one)
+    found = tables.pair_mode_files(PARAMETERS)
     lines, modes = pd.read_csv(io.StringIO(found[".csv"])), found[".nc"]
+    assert list(lines) == list(pd.read_csv(REFERENCE / "pair_modes.csv"))
     np.testing.assert_allclose(lines["wavenumber_over_critical"], [0.8, 0.8])
-    rates = [modes[f"{kind}_growth"] + 1j * modes[f"{kind}_frequency"] for kind in KINDS]
-    apart = np.abs((rates[0] - rates[1]) / rates[1]).values[0]
+    measured, expected = rates_of(modes)
+    apart = np.abs((measured - expected) / expected)[0]
     np.testing.assert_allclose(lines["disagreement"], apart, rtol=1e-3)

@@ -28,7 +28,7 @@ rule dispersion:
         f"{RESULTS}/logs/dispersion.log",
     priority: 3  # the verdicts wait for it
     params:
-        call="replication.tables.dispersion:files",
+        call="replication.tables.modes:dispersion_files",
         loads=plugins(settings.base.law),
         base=settings.base.to_dict(),
     shell:
@@ -45,7 +45,7 @@ rule pair_modes:
     log:
         f"{RESULTS}/logs/pair_modes.log",
     params:
-        call="replication.tables.pair_modes:files",
+        call="replication.tables.modes:pair_mode_files",
         loads=plugins(settings.base.law),
         base=settings.base.to_dict(),
     shell:

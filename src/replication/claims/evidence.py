@@ -15,8 +15,8 @@ from nucleation.run.derived import fault
 from nucleation.run.run import Run
 
 from ..configuration.roles import JUDGED, PAPERS
+from ..tables.curves import main_text
 from ..tables.lengths import over_realisations, realisations
-from ..tables.main_text import main_text
 from ..tables.rows import Row, rows_of
 from .verdicts import Computation, Found, Missing, Result
 

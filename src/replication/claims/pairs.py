@@ -13,7 +13,7 @@ import xarray as xr
 
 from nucleation.types import Array
 
-from ..tables.pair_modes import measured_response
+from ..tables.modes import measured_response
 from ..tables.ratios import pairs_over_realisations
 from . import printed
 from .verdicts import Computation, Estimate, Missing, between

@@ -151,7 +151,7 @@ def _friction_perturbation(evidence: Evidence) -> Array:
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
     """The wavenumber over the critical one at which the growth changes sign, interpolated."""
-    ratios = (modes["mode_wavenumber"] / modes["critical_wavenumber"]).values
+    ratios = modes["wavenumber_over_critical"].values
     growth = modes["measured_growth"].max("branch").values
     last = int(np.flatnonzero(growth > 0.0)[-1])
     part = growth[last] / (growth[last] - growth[last + 1])
@@ -290,7 +290,7 @@ NUMBERS: dict[str, Computation] = {
     "friction-perturbation": _friction_perturbation,
     "spectrum-in-time": lambda e: e.dispersion["disagreement"],
     "growth-changes-sign": lambda e: [
-        _zero_of_growth(e.dispersion.isel(height=i)) for i in range(e.dispersion.sizes["height"])
+        _zero_of_growth(modes) for _, modes in e.dispersion.groupby("height")
     ],
     "short-waves-stable": _short_waves,
     "bimaterial-g1": lambda e: _bimaterial(e, 0),

@@ -13,7 +13,7 @@ from nucleation.model.units import Checked
 from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
-from ..tables.main_text import main_text
+from ..tables.curves import main_text
 from .roles import OWN, ROLES
 
 

@@ -17,7 +17,7 @@ from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from nucleation.theory.status import NoLength
 
-from ..tables.main_text import main_text
+from ..tables.curves import main_text
 from .runs import StudyRun, identifier, varied
 from .settings import Settings
 

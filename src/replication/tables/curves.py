@@ -1,18 +1,17 @@
 """The dataset of the linear theory: all curves of Figures 2, 3 and S1."""
 
+import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from nucleation.datasets.variables import Variable, annotate, some
 from nucleation.fault import Fault
-from nucleation.model.friction import Friction
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
-from nucleation.types import Array
 
-from .main_text import main_text, on_rigid_base
 from .rows import SHARED
 
 CURVES = {
@@ -33,27 +32,19 @@ CURVES = {
 }
 
 
-def theory_dataset(
-    base: Run,
-    curves: Mapping[str, Sequence[float]],
-) -> xr.Dataset:
-    """All curves of the linear theory, :data:`CURVES`, for the fault of a run.
-
-    `curves` has the section of the configuration. The curve of Figure 3, over heights (m), has the
-    main text's rounded friction; that of Figure S1, over slip rates (m/s), the full law.
-    """
-    heights, f_beta, zeta_over_a, slip_rates = (
-        np.array(curves[name]) for name in ("heights", "f_beta", "zeta_over_a", "slip_rates")
-    )
-    parts = (
-        length_curve(main_text(base.fault), heights),
-        _bimaterial_curves(f_beta, zeta_over_a),
-        _friction_curves(base.law, base.fault.velocity, slip_rates),
-    )
-    return annotate(xr.merge(parts), CURVES)
+def main_text(fault: Fault) -> Fault:
+    """A fault with f, a and zeta rounded to two digits and constant, as in the main text."""
+    rounded = {name: float(f"{fault.single(name):.2g}") for name in ("friction", "a", "zeta")}
+    kept = {"slip_distance": fault.slip_distance, "evolution": fault.evolution}
+    return fault.replace(**rounded, **kept, friction_law=None)
 
 
-def length_curve(fault: Fault, height: Array) -> xr.Dataset:
+def on_rigid_base(fault: Fault, height: Any) -> Fault:
+    """Blocks of heights (m) with a fault's material and friction, free on top, on a rigid base."""
+    return fault.replace(second_shear_modulus=math.inf, far_side="traction", height=height)
+
+
+def length_curve(fault: Fault, height: Any) -> xr.Dataset:
     """L_c, wavenumber and frequency of blocks on a rigid base over their height (m) (Figure 3)."""
     modes = on_rigid_base(fault, height).critical_mode()
     values = {
@@ -66,35 +57,29 @@ def length_curve(fault: Fault, height: Array) -> xr.Dataset:
     return xr.Dataset(on_height, {"height": height})
 
 
-def _bimaterial_curves(
-    f_beta: Array,
-    zeta_over_a: Array,
-) -> xr.Dataset:
-    """Critical length of bimaterial half-spaces over that without contrast (Figure 2)."""
+def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Dataset:
+    """All curves of the linear theory, :data:`CURVES`, for the fault of a run.
+
+    `curves` has the section of the configuration. The curve of Figure 3, over heights (m), has the
+    main text's rounded friction. Figure 2 has bimaterial half-spaces over those without contrast.
+    Figure S1 has steady-state friction over slip rates (m/s), by the full law and expanded at V.
+    """
+    f_beta, zeta_over_a, slip_rate = (
+        np.array(curves[name]) for name in ("f_beta", "zeta_over_a", "slip_rates")
+    )
+    law, velocity = base.law, base.fault.velocity
+    state = law.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
+    logarithmic = law.logarithmic(slip_rate, state, velocity)
+    expansion = law.expansion(velocity)
     ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
-    return xr.Dataset(
-        {"bimaterial_length_ratio": (("zeta_over_a", "f_beta"), ratio)},
-        {"zeta_over_a": zeta_over_a, "f_beta": f_beta},
+    found = length_curve(main_text(base.fault), np.array(curves["heights"])).assign(
+        bimaterial_length_ratio=(("zeta_over_a", "f_beta"), ratio),
+        steady_friction=("slip_rate", law.steady_coefficient(slip_rate)),
+        steady_friction_logarithmic=("slip_rate", logarithmic),
+        friction_reference=expansion.f0,
+        a=expansion.a,
+        zeta=expansion.zeta,
+        velocity=velocity,
     )
-
-
-def _friction_curves(
-    friction: Friction,
-    velocity: float,
-    slip_rate: Array,
-) -> xr.Dataset:
-    """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
-    state = friction.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
-    expansion = friction.expansion(velocity)
-    logarithmic = friction.logarithmic(slip_rate, state, velocity)
-    return xr.Dataset(
-        {
-            "steady_friction": ("slip_rate", friction.steady_coefficient(slip_rate)),
-            "steady_friction_logarithmic": ("slip_rate", logarithmic),
-            "friction_reference": expansion.f0,
-            "a": expansion.a,
-            "zeta": expansion.zeta,
-            "velocity": velocity,
-        },
-        {"slip_rate": slip_rate},
-    )
+    axes = {"zeta_over_a": zeta_over_a, "f_beta": f_beta, "slip_rate": slip_rate}
+    return annotate(found.assign_coords(axes), CURVES)

@@ -1,0 +1,303 @@
+"""The bridge between simulation and theory: growth of single modes on homogeneous sliding.
+
+The time-dependent, nonlinear solver starts from homogeneous sliding on a periodic block
+(:mod:`nucleation.fem.body`) with a small perturbation of the state variable at one wavenumber.
+The amplitude of ``exp(-i k x)`` in log(v) then follows ``C1 exp(Lambda1 t) + C2 exp(Lambda2 t)``:
+its samples at equal intervals obey a linear recurrence, which gives both rates without any guess.
+They have to be the two roots of Eq. (5). Each of them thus also gives the elastic response of two
+bodies without any theory of them:
+
+    G1 - i f G2 = -sigma0 Lambda (a Lambda ell - zeta V) / [mu k V (V + Lambda ell)] .
+
+Between layers higher than a wavelength that is the response of half-spaces, Eqs. (7) and (8).
+"""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from nucleation.datasets.variables import Variable, annotate
+from nucleation.fem.operator import Operator
+from nucleation.run.run import PAPER_RUN, Run
+from nucleation.simulation.drive import Steady
+from nucleation.simulation.interface import Interface
+from nucleation.simulation.start import layers_of
+from nucleation.simulation.step import Dynamics, State
+from nucleation.simulation.stepping import BDF
+from nucleation.theory.closed_forms import bimaterial_contrast
+from nucleation.theory.critical import unstable_modes
+from nucleation.theory.evaluation import single_system
+from nucleation.types import Array, ComplexArray
+
+from .curves import CURVES, on_rigid_base
+from .rows import SHARED, Row
+
+NODES = 65  # per wavelength, odd
+ROWS = (10, 40)  # fewest and most elements along y
+GRADED = 0.25  # blocks higher than this part of the wavelength have a graded mesh,
+GRADING = 4.0  # as the deformation is near the interface
+SEED = 1e-6  # of log(phi)
+NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: far below the seed
+STEP = 0.008  # in units of D/V
+DURATION = 1.5  # in units of D/V
+SKIPPED = 30  # steps: then they are equal, and the elastic waves of the start have decayed
+INTERVAL = 5  # steps between samples
+
+# -- one mode in time ---------------------------------------------------------------------------
+
+
+def sliding_period(run: Run) -> Dynamics:
+    """A period of a long block or pair that slides homogeneously at V.
+
+    It is as long as the block and driven by traction; `n_x` must be odd. The driving force of its
+    reports has no meaning.
+    """
+    body = layers_of(run, periodic=True)
+    fault, law = run.fault, run.law
+    steady = float(law.steady_coefficient(fault.velocity))
+    load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
+    interface = Interface(law, NEWTON_TOLERANCE)
+    drive = Steady(fault.velocity, load)
+    return Dynamics(body, interface, drive, BDF(body.crossing_time))
+
+
+def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
+    """Homogeneous steady sliding; the perturbation is added to log(phi) at the nodes, (n_x,)."""
+    body = dynamics.body
+    n = dynamics.grid.n_x
+    velocity = dynamics.drive.velocity
+    load = dynamics.drive.load(0.0)
+    operator = Operator(body, 0.0)
+    response = operator.respond(load, np.zeros(n))
+    displacement = operator.balance(response, response.w).displacement
+    # the driving traction moves the block at V: seen from there it is at rest
+    motion = body.at_rest(displacement, 0.0)
+    rates = np.full(n + 1, velocity)
+    steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
+    log_state = steady + np.append(0.0, perturbation)
+    return State((motion,), np.zeros(1), rates[None], log_state[None], response.w[None])
+
+
+def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
+    """The bodies one wavelength ``2 pi / k`` long; elements about as high as long."""
+    length = 2.0 * math.pi / wavenumber
+    changes: dict[str, Any] = {"block_length": length, "n_x": nodes}
+    bodies = {"": run.fault.height}
+    if run.below is not None:
+        bodies["second_"] = changes["second_height"] = run.below.height
+    for body, height in bodies.items():
+        changes[f"{body}n_y"] = round(min(max(height * nodes / length, ROWS[0]), ROWS[1]))
+        changes[f"{body}grading"] = GRADING if height > GRADED * length else 1.0
+    return run.replaced(**changes)
+
+
+def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexArray:
+    """Both growth rates (1/s) of a wavenumber (1/m), the faster growing one first.
+
+    Equidistant samples of a sum of two exponentials obey ``A[n+2] = p A[n+1] + q A[n]`` (Prony); p
+    and q follow by least squares and the rates from the roots of ``z^2 = p z + q``.
+    """
+    dynamics = sliding_period(one_wavelength(run, wavenumber, nodes))
+    phase = 2.0 * np.pi / nodes * np.arange(nodes)
+    state = sliding_state(dynamics, SEED * np.cos(phase))
+    rung = dynamics.scheme.steady_rung(STEP * run.memory_time)
+    amplitudes = []
+    while state.time < DURATION * run.memory_time:
+        state, report = dynamics.advance(state, rung)
+        log_rate = np.log(report.interface.slip_rate[1:])
+        first_mode = np.fft.rfft(log_rate)[1]
+        amplitudes.append(np.conj(first_mode) * 2.0 / nodes)
+    samples = np.array(amplitudes[SKIPPED::INTERVAL])
+    past = np.stack([samples[1:-1], samples[:-2]], axis=1)
+    (p, q), *_ = np.linalg.lstsq(past, samples[2:], rcond=None)
+    growth = np.roots([1.0, -p, -q])
+    rates = np.log(growth) / (dynamics.scheme.steady_step(rung) * INTERVAL)
+    return rates[np.argsort(-rates.real)]
+
+
+# -- tables of modes ----------------------------------------------------------------------------
+
+COLUMNS = {
+    **SHARED,
+    "mode_wavenumber": Variable("1/m", "wavenumber of the seeded mode", "k"),
+    "critical_wavenumber": CURVES["critical_wavenumber"],
+    "measured_growth": Variable("1/s", "growth rate in the time integration", "Re Lambda"),
+    "measured_frequency": Variable("1/s", "angular frequency in the time integration", "Im Lambda"),
+    "theory_growth": Variable("1/s", "growth rate of the seeded mode, Eq. (5)", "Re Lambda"),
+    "theory_frequency": Variable(
+        "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
+    ),
+    "wavenumber_over_critical": Variable("1", "wavenumber over the critical one", "k/k_c"),
+    "disagreement": Variable("1", "difference of the complex rates over the theory's"),
+}
+
+HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
+MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c
+PAIR_MODES = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)
+DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
+ENDLESS = 1e3  # m
+SOFT, STIFF = 3.1e9, 9.3e9  # Pa
+
+
+def _pair(
+    modulus: float,
+    second_modulus: float,
+    poisson_ratio: float = 1.0 / 3.0,
+    second_poisson_ratio: float = 0.2,
+    **changes: Any,
+) -> Row:
+    """Parameters of two layers."""
+    pair = {
+        "shear_modulus": modulus,
+        "second_shear_modulus": second_modulus,
+        "poisson_ratio": poisson_ratio,
+        "second_poisson_ratio": second_poisson_ratio,
+        "plane": "strain",
+        "second_body": "deformable",
+        "second_density": 2400.0,
+        "second_far_side": "free",
+    }
+    return pair | changes
+
+
+_FREE: Row = {"height": 0.2, "second_height": 0.6 * 0.2}  # higher: bending needs finer elements
+_CLAMPED: Row = {"height": 0.05, "second_height": 0.6 * 0.05, "second_far_side": "clamped"}
+_ROLLER = _CLAMPED | {"second_far_side": "roller"}
+
+THIN_LAYERS = {
+    "stiff above, free": _pair(STIFF, SOFT, **_FREE),
+    "stiff below, free": _pair(SOFT, STIFF, **_FREE),
+    "stiff above, clamped": _pair(STIFF, SOFT, **_CLAMPED),
+    "stiff below, clamped": _pair(SOFT, STIFF, **_CLAMPED),
+    "stiff above, roller": _pair(STIFF, SOFT, **_ROLLER),
+    "stiff below, roller": _pair(SOFT, STIFF, **_ROLLER),
+}
+
+HALF_SPACES = {
+    "half-spaces, stiff below": _pair(SOFT, STIFF),
+    "half-spaces, stiff above": _pair(STIFF, SOFT),
+    "half-spaces, ten times, below": _pair(SOFT, 10.0 * SOFT, 0.0, 0.0),
+    "half-spaces, ten times, above": _pair(10.0 * SOFT, SOFT, 0.0, 0.0),
+}
+"""Layers without a height have one at which their far sides do not matter."""
+
+
+def _critical(run: Run) -> float:
+    """k_c (1/m)."""
+    return float(unstable_modes(single_system(run.fault)).wavenumber[0])
+
+
+def mode_row(run: Run, ratio: float, critical: float) -> Row:
+    """Both rates of a mode, measured and by Eq. (5), at a wavenumber over the critical one (1/m).
+
+    The rate with the larger frequency is of the wave along +x and comes first.
+    """
+    k = ratio * critical
+    rates = {
+        "measured": measured_rates(run, k),
+        "theory": single_system(run.fault).growth_rates(np.array([k]))[:, 0],
+    }
+    first = {name: both[np.argsort(-both.imag)] for name, both in rates.items()}
+    return {"mode_wavenumber": k, "critical_wavenumber": critical, **first}
+
+
+def _table(rows: list[Row]) -> xr.Dataset:
+    """Modes on ``run``, and their rates on ``branch`` as well."""
+    rates: dict[str, Any] = {}
+    measured, theory = (
+        np.array([row.pop(kind) for row in rows]) for kind in ("measured", "theory")
+    )
+    along = ("run", "branch")
+    for kind, both in (("measured", measured), ("theory", theory)):
+        rates[f"{kind}_growth"] = (along, both.real)
+        rates[f"{kind}_frequency"] = (along, both.imag)
+    found = xr.Dataset({name: ("run", [row[name] for row in rows]) for name in rows[0]} | rates)
+    ratio = found["mode_wavenumber"] / found["critical_wavenumber"]
+    apart = np.abs(measured - theory) / np.abs(theory)
+    found = found.assign(wavenumber_over_critical=ratio, disagreement=(along, apart))
+    return annotate(found, COLUMNS)
+
+
+def _files(modes: xr.Dataset, columns: list[str]) -> dict[str, Any]:
+    """Modes as netCDF, and a line for each mode and direction as CSV."""
+    listed = modes.to_dataframe(["run", "branch"]).reset_index()[columns]
+    return {".nc": modes, ".csv": listed.to_csv(index=False, float_format="%.8g")}
+
+
+def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MODES) -> xr.Dataset:
+    """Rates of modes on one layer of each height (m) on a rigid base."""
+    rows = []
+    for height in heights:
+        own = run.replaced(height=height)
+        critical = _critical(own)
+        rows += [{"height": height, **mode_row(own, ratio, critical)} for ratio in ratios]
+    return _table(rows)
+
+
+def dispersion_files(base: Run) -> dict[str, Any]:
+    """The same for the configuration's fault; its heights have the paper's ratios to the L_c."""
+    own, papers = (
+        on_rigid_base(one.fault, math.inf).critical_length() for one in (base, PAPER_RUN)
+    )
+    heights = [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
+    found = dispersion(base, heights)
+    order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", "measured_growth"]
+    order += ["measured_frequency", "theory_growth", "theory_frequency", "disagreement"]
+    return _files(found, order)
+
+
+def pair_modes(
+    base: Run,
+    pairs: Mapping[str, Row] = THIN_LAYERS | HALF_SPACES,
+    ratios: Iterable[float] = PAIR_MODES,
+) -> xr.Dataset:
+    """Rates of modes between two layers with friction and loading of `base`."""
+    rows = []
+    for name, pair in pairs.items():
+        endless = {"height": ENDLESS, "second_height": ENDLESS}
+        critical = _critical(base.replaced(**endless | pair))
+        for ratio in ratios:
+            height = DEEP * 2.0 * np.pi / (ratio * critical)
+            run = base.replaced(**{"height": height, "second_height": height} | pair)
+            rows.append(_described(name, run) | mode_row(run, ratio, critical))
+    return _table(rows)
+
+
+def _described(name: str, run: Run) -> Row:
+    """The columns on the bodies and the interface of a pair."""
+    fault, below = run.fault, run.below
+    assert below is not None
+    upper, lower = run.upper.material, below.material
+    of_fault = ("friction", "a", "zeta", "slip_distance", "velocity", "normal_stress")
+    return {
+        "id": name,
+        "far_side": below.far_side,
+        "height": fault.height,
+        "second_height": below.height,
+        "shear_modulus": upper.shear_modulus,
+        "second_shear_modulus": lower.shear_modulus,
+        "poisson_ratio": upper.poisson_ratio,
+        "second_poisson_ratio": lower.poisson_ratio,
+        **{column: getattr(fault, column) for column in of_fault},
+        "f_beta": fault.friction * bimaterial_contrast(upper, lower),
+    }
+
+
+def pair_mode_files(base: Run) -> dict[str, Any]:
+    """:func:`pair_modes` as files; each pair replaces the moduli of the base."""
+    found = pair_modes(base)
+    return _files(found, ["branch", *map(str, found.data_vars)])
+
+
+def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
+    """G1 and G2 of the bodies by the measured rates of simulated modes, (run, branch)."""
+    rates = modes["measured_growth"] + 1j * modes["measured_frequency"]
+    a, zeta, ell, v = (modes[name] for name in ("a", "zeta", "slip_distance", "velocity"))
+    weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
+    load = modes["shear_modulus"] * modes["mode_wavenumber"]
+    response = -modes["normal_stress"] * weakening / load
+    response = response.transpose("run", "branch")
+    return response.real.values, (-response.imag / modes["friction"]).values
