@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from lengths.test_in_use import crack_coefficients
 
-from nucleation.extraction import definitions as zones
+from nucleation.extraction import measures as zones
 from nucleation.lengths.formulas import LOCALISED_LIMIT
 from nucleation.lengths.in_use import LENGTHS
 from nucleation.run.run import PAPER_RUN

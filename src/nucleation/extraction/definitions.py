@@ -5,14 +5,9 @@ Small rises during the fall, as under a fluctuating load, belong to the fall. A 
 the front on before the force at the pushed edge falls, and may raise that force when it arrives
 there; the onset is then the maximum before the rupture. How far the patch extends is defined in
 :mod:`nucleation.simulation.event`.
-
-Lengths of the literature are those of the accelerating zone of a period, by several definitions.
 """
 
 import dataclasses
-import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +15,8 @@ from numpy.typing import NDArray
 from ..model.quantities import quantity
 from ..model.settings import EVENT_DROP
 from ..model.units import Checked
-from ..simulation.event import SLIPPING, DropWatch, slipping_zone
+from ..simulation.event import SLIPPING, DropWatch
 from ..types import Array
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
@@ -140,119 +132,3 @@ def _last_maximum(force: Array, end: int) -> int:
         if force[step] >= force[start]:
             start = step
     return start
-
-
-class _Definition(NamedTuple):
-    """How a simulated length is read: the zone that slips faster than a share of the fastest."""
-
-    share: float
-    part: float  # length of the zone over the whole length, in the source's own solution
-    words: str
-    between_tips: bool = False  # slip may be slower within the zone, as in a crack
-
-
-DEFINITIONS = {
-    "rubin_ampuero_localised": _Definition(
-        share=0.5,
-        part=0.7434 / 1.3774,
-        words="width at half the largest slip rate, times 1.3774/0.7434",
-    ),
-    "rubin_ampuero_crack": _Definition(
-        share=0.1,
-        part=1.0,
-        words="distance of the outermost points at a tenth of the largest slip rate",
-        between_tips=True,
-    ),
-    "thin_layer": _Definition(
-        share=0.5,
-        part=0.5,
-        words="twice the width at half the largest slip rate",
-    ),
-    "state_evolution": _Definition(
-        share=0.5,
-        part=1.0,
-        words="width at half the largest slip rate",
-    ),
-}
-"""In Rubin and Ampuero's solution 0.7434 L_b on either side slip faster than half the maximum; in
-Viesca's, ``1 + cos(x/L)``, one half does."""
-
-
-def zone_length(
-    simulation: "xr.Dataset",
-    slip_rate: float,
-    definition: _Definition,
-) -> float:
-    """Length of the accelerating zone when its largest slip rate passes a value.
-
-    In m and m/s; between recorded times the length is linear in the logarithm of the largest slip
-    rate, and NaN if that slip rate is not reached.
-    """
-    x = simulation["x"].values
-
-    def width(rates: Array, states: Array) -> float:
-        threshold = definition.share * float(rates.max())
-        if definition.between_tips:
-            rates = _filled_between_tips(rates)
-        begin, end = slipping_zone(x, rates, threshold, periodic=True)
-        return (end - begin) / definition.part
-
-    return _when_passing(simulation, slip_rate, width)
-
-
-def _filled_between_tips(rates: Array) -> Array:
-    """Raise the slip rates of a period, so that they fall from the fastest node to both sides.
-
-    At each node the result is the smaller one of the largest slip rates on its left and right.
-    """
-    first = _opposite(rates)
-    around = np.roll(rates[:-1], -first)
-    from_left = np.maximum.accumulate(around)
-    from_right = np.maximum.accumulate(around[::-1])[::-1]
-    filled = np.roll(np.minimum(from_left, from_right), first)
-    return np.append(filled, filled[0])
-
-
-def far_ahead(
-    simulation: "xr.Dataset",
-    slip_rate: float,
-    slip_distance: float,
-) -> tuple[float, float]:
-    """Slip rate (m/s) and ``v phi/D`` half a period from the fastest point, when it slips as fast.
-
-    NaN if the largest slip rate (m/s) is not reached, or if the fault is stuck there.
-    """
-    rate = _when_passing(simulation, slip_rate, lambda rates, _: rates[_opposite(rates)])
-    if not rate > 0.0:  # slip rates of a stuck fault are not recorded
-        return math.nan, math.nan
-    state = _when_passing(simulation, slip_rate, lambda rates, states: states[_opposite(rates)])
-    return rate, rate * state / slip_distance
-
-
-def _opposite(rates: Array) -> int:
-    """The node half a period from the fastest; the first and the last node are the same."""
-    period = rates.size - 1
-    return (int(rates.argmax()) + period // 2) % period
-
-
-def _when_passing(
-    simulation: "xr.Dataset",
-    slip_rate: float,
-    measure: Callable[[Array, Array], float],
-) -> float:
-    """The measure of slip rates (m/s) and states (s) when the fastest passes a value (m/s)."""
-    rates = np.abs(simulation["slip_rate"].values.astype(float))
-    states = simulation["state"].values
-    fastest = rates.max(axis=1)
-    above = np.flatnonzero(fastest >= slip_rate)
-    if not above.size or above[0] == 0:
-        return math.nan
-    pair = [above[0] - 1, above[0]]
-    measured = [measure(rates[i], states[i]) for i in pair]
-    return float(
-        np.interp(
-            np.log(slip_rate),
-            np.log(fastest[pair]),
-            measured,
-        )
-    )

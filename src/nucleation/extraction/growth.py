@@ -21,22 +21,24 @@ around it gives the length.
 
 import copy
 from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
-from ..fem.operator import Operator
 from ..model.friction import Friction
 from ..run.run import Run
 from ..simulation.event import NEAR as NEAR_EDGE
 from ..simulation.recorded import RECORDED
-from ..simulation.start import body_of, grid_of, interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array, ComplexArray
 from .definitions import ExtractionSettings
 from .extraction import Record
+
+if TYPE_CHECKING:
+    from ..fem.operator import Operator
 
 FEWEST_NODES = 8  # a shorter patch is not resolved
 SCANNED = 40  # instants that give the rough crossing
@@ -69,7 +71,7 @@ FOLLOWED = {
 
 
 def frozen_patch(
-    operator: Operator,
+    operator: "Operator",
     law: Friction,
     slip_rate: Array,
     state: Array,
@@ -116,6 +118,9 @@ def freezer(run: Run, threshold: float) -> Freezer:
     A mode oscillates by the scale V/D of its frequency; without an edge that moves at V the scale
     is v/D of the patch itself.
     """
+    from ..fem.operator import Operator
+    from ..simulation.start import body_of, interface_of
+
     body = body_of(run)
     operator = Operator(body, 0.0)
     law = interface_of(run, body.grid).friction
@@ -149,6 +154,8 @@ def follow_patch(
         The variables :data:`FOLLOWED`: patches on ``instant``, the mode where growth begins on
         ``x``. NaN where no mode oscillates, and where growth does not begin.
     """
+    from ..simulation.start import grid_of
+
     record = Record(simulation, settings)
     creep, length = record.creep, record.lengths[record.creep]
     slip_rate, state = (simulation[name].values[creep] for name in ("slip_rate", "state"))

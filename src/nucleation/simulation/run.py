@@ -120,27 +120,11 @@ def instants(
 ) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
 
-    Parameters
-    ----------
-    run : Run
-    start : tuple of State and Control, optional
-        State and control of an instant of an earlier run with the same parameters. The steps that
-        followed it there are yielded, the same to the last bit.
-    dynamics : Dynamics, optional
-        By default :func:`composed` from the parameters.
+    `start` is an instant of an earlier run with the same parameters: the steps that followed it
+    there are yielded, the same to the last bit. `dynamics` are by default :func:`composed`. Raises
+    SimulationFailure if the step size fell below ``stepping.shortest_step``, also if every longer
+    step ends in tension.
 
-    Yields
-    ------
-    Instant
-
-    Raises
-    ------
-    SimulationFailure
-        If the step size fell below ``stepping.shortest_step``, also if every longer step ends in
-        tension.
-
-    Examples
-    --------
     >>> from nucleation.api import PAPER, Run
     >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
     >>> steps = instants(run)
@@ -173,25 +157,16 @@ def simulate(
 ) -> xr.Dataset:
     """Run one simulation to its end and return its record.
 
-    Parameters
-    ----------
-    run : Run
-    progress : callable, optional
-        Called with every accepted step.
-    start : dict of ndarray, optional
-        Arrays that `keep` received from an earlier run with the same parameters. The run resumes
-        there, with the same result to the last bit as if it had never stopped.
-    keep : callable, optional
-        Called after every step with a function that returns all arrays of the run at this instant,
-        to be stored for `start` (:class:`nucleation.simulation.checkpoints.Checkpoint`).
+    `progress` is called with every accepted step. `keep` is called after every step with a function
+    that returns all arrays of the run at this instant, to be stored
+    (:class:`nucleation.simulation.checkpoints.Checkpoint`); given these arrays as `start`, a run
+    with the same parameters resumes there, with the same result to the last bit as if it had never
+    stopped.
 
-    Returns
-    -------
-    Dataset
-        The interface's fields on (time, x), the driving force and the step sizes on (step), see
-        :data:`nucleation.simulation.recorded.RECORDED`. The attribute ``status`` says how the run
-        ended and, after semicolons, why its event is doubtful (:mod:`.remarks`). A run that fails
-        has everything recorded until then.
+    The record has the interface's fields on (time, x), the driving force and the step sizes on
+    (step), see :data:`nucleation.simulation.recorded.RECORDED`. Its attribute ``status`` says how
+    the run ended and, after semicolons, why its event is doubtful. A run that fails has everything
+    recorded until then.
     """
     began = time.perf_counter()
     earlier = 0.0

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 import xarray as xr
 
 from nucleation.datasets.variables import Variable, some, table
-from nucleation.extraction.definitions import DEFINITIONS, far_ahead, zone_length
+from nucleation.extraction.measures import DEFINITIONS, far_ahead, zone_length
 from nucleation.fault import Fault
 from nucleation.lengths.expanding_zone import expanding_length
 from nucleation.lengths.formulas import (
