@@ -10,7 +10,6 @@ from lengths.test_in_use import crack_coefficients
 
 from nucleation.extraction import measures as zones
 from nucleation.lengths.formulas import LOCALISED_LIMIT
-from nucleation.lengths.in_use import LENGTHS
 from nucleation.run.run import PAPER_RUN
 from replication.figures import figure_literature
 from replication.tables import literature
@@ -69,11 +68,6 @@ def test_far_ahead_is_read_half_a_period_from_the_fastest_point():
     assert np.isnan(zones.far_ahead(stuck, 1e-4, 5e-7)).all()
 
 
-def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():
-    assert {length.key for length in LENGTHS} == set(FRAME["name"])
-    assert FRAME["definition"].notna().all()
-
-
 def test_asymptotes_are_met_where_their_source_claims_them():
     """Within 3 %; the expanding length where a zone is long beside its tips, a/b = 0.7 and 0.9."""
     late = FRAME[np.isclose(FRAME["read_at"], 1e3)]
@@ -129,7 +123,6 @@ SETTINGS = {
 
 
 def test_a_run_is_read_as_the_length_whose_setting_it_is():
-    """Beside its formula; lengths without a run have their reason, and what is none has no row."""
     x = np.linspace(0.0, 1.0, 401)
     rate = np.array([1e-6, 2e3])[:, None] * 0.5 ** ((x - 0.5) / 0.05) ** 2
     fields = {"slip_rate": (("time", "x"), rate), "state": (("time", "x"), np.ones_like(rate))}
@@ -140,8 +133,7 @@ def test_a_run_is_read_as_the_length_whose_setting_it_is():
         constants = {"friction": 0.41, "a": 0.0068, "zeta_over_a": ratio}
         parameters = PAPER_RUN.replaced(**changes | constants)
         runs.append({"id": name, "parameters": parameters.to_dict()})
-    table = literature.literature_table(runs, [simulation] * len(runs)).to_dataframe()
-    read = table[table["id"] != ""]
+    read = literature.literature_table(runs, [simulation] * len(runs)).to_dataframe()
     assert list(read["id"].unique()) == [*SETTINGS]
     assert list(read["name"].unique()) == [*SETTINGS][:-1]
     assert len(read) == len(SETTINGS) * len(literature.SLIP_RATES)
@@ -152,6 +144,3 @@ def test_a_run_is_read_as_the_length_whose_setting_it_is():
     np.testing.assert_allclose(read["difference"], difference)
     thin = read[read["name"] == "thin_layer"]  # twice the width at half of the maximum, 0.1 m
     np.testing.assert_allclose(thin["simulated_length"], 0.2, rtol=1e-2)
-    others = table[table["id"] == ""]
-    assert {*others["name"]} == {length.key for length in LENGTHS} - {*SETTINGS}
-    assert others["definition"].ne("").all() and others["simulated_length"].isna().all()

@@ -31,8 +31,6 @@ def test_a_row_for_each_fault(table):
     assert list(table["id"].values) == [IDS[0], IDS[2]]
     assert table["stability_length"].values == pytest.approx([0.4418, 0.3537])
     assert table["front_length"].values == pytest.approx(table["stability_length"], rel=0.02)
-    assert table["front_frequency"].values == pytest.approx([13.15, 11.95], rel=0.03)
-    assert (table["front_time"].values > 6.5).all()
     assert set(theory_table.COLUMNS) <= set(table)
 
 

@@ -123,7 +123,7 @@ def row(ratio, outcome, velocity=1e-5):
 def test_bounds(rows, bounds):
     """Slow slip ends below the first event at any V, and events begin above the last slow slip."""
     slow, events = bounds
-    assert bounds_of(rows) == pytest.approx((max(1.0, slow / PERIOD), events))
+    assert bounds_of(pd.DataFrame(rows)) == pytest.approx((max(1.0, slow / PERIOD), events))
 
 
 def test_bounds_of_each_friction(table):

@@ -7,7 +7,8 @@ read at slip rates that no fault reaches.
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
+from typing import Any
 
 import xarray as xr
 
@@ -21,14 +22,17 @@ from nucleation.lengths.formulas import (
     LOCALISED_LIMIT,
     between_localised_and_crack,
 )
-from nucleation.lengths.in_use import LENGTHS, values_of
-from nucleation.lengths.length import TWO_MATERIALS
+from nucleation.lengths.in_use import values_of
 from nucleation.run.run import Run
 
 from .rows import SHARED, Row
 
 SLIP_RATES = (1e-4, 1e-2, 1.0, 1e3)  # m/s, at which lengths are read
 
+_OF_FORMULAS = (
+    *("shear_modulus", "poisson_ratio", "plane", "normal_stress"),
+    *("a", "zeta", "slip_distance", "height"),
+)
 
 IN_THE_GAP = (
     "width at half the largest slip rate, times 1.3774/0.7434; "
@@ -37,20 +41,6 @@ IN_THE_GAP = (
 OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 """Shares of the largest slip rate, for widths that show how much the definition matters."""
 
-SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
-ELSEWHERE = {
-    "homogeneous_sliding": "growth of single modes is simulated in dispersion.csv",
-    "rice_ruina": SPRING_BLOCK,
-    "dieterich_shortest": SPRING_BLOCK,
-    "dieterich_longest": SPRING_BLOCK,
-    "uenishi_rice": "the limit a -> 0 of the pinned patch; with a direct effect, which every law "
-    "here has, an accelerating zone widens beyond it to the fixed length",
-    "creeping_asperity": "rigid surroundings are a limit: others are in weakening_patches.csv",
-    "loaded_patch": "pinned ends; equal to the theory of the creeping patch under remote",
-    "thin_limit": "the limit of homogeneous sliding in low blocks",
-}
-"""Why a length is not among the simulated ones."""
-
 COLUMNS = {
     "id": SHARED["id"],
     "name": Variable("", "name of the length, as in Fault.lengths"),
@@ -58,7 +48,7 @@ COLUMNS = {
     "a": SHARED["a"],
     "b": Variable("1", "coefficient of the logarithm of the state", "b"),
     "a_over_b": Variable("1", "direct effect over b", "a/b"),
-    "definition": Variable("", "how the simulated length is read, or why it is not simulated"),
+    "definition": Variable("", "how the simulated length is read"),
     "read_at": Variable("m/s", "largest slip rate at which the length is read"),
     "formula_length": Variable("m", "length by the formula"),
     "simulated_length": Variable("m", "length in the simulation"),
@@ -93,84 +83,59 @@ def length_of(parameters: Run) -> str:
 
 
 def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
-    """Simulated lengths beside their formulas, and the lengths that have no run here."""
-    rows: list[Row] = []
+    """Simulated lengths beside their formulas: a row for each run and slip rate."""
+    rows = []
     for run, simulation in zip(runs, simulations, strict=True):
         parameters = Run.from_dict(run["parameters"])
-        rows += _rows(run["id"], parameters, simulation)
-    simulated = {row["name"] for row in rows}
-    return table([*rows, *_not_simulated(simulated)], COLUMNS)
+        described, fault, definition = _described(parameters)
+        is_crack = described["name"] == "rubin_ampuero_crack"
+        for slip_rate in SLIP_RATES:
+            found = zone_length(simulation, slip_rate, definition)
+            far = far_ahead(simulation, slip_rate, parameters.law.slip_distance)
+            expanding = float(expanding_length(fault, slip_rate, *far)) if is_crack else math.nan
+            row = {
+                **described,
+                "id": run["id"],
+                "read_at": slip_rate,
+                "simulated_length": found,
+                "difference": found / described["formula_length"] - 1.0,
+                "far_slip_rate": far[0],
+                "far_state_ratio": far[1],
+                "finite_speed_length": expanding,
+            }
+            for column, share in OTHER_SHARES.items():
+                other = definition._replace(part=1.0, share=share)
+                row[column] = zone_length(simulation, slip_rate, other)
+            rows.append(row)
+    return table(rows, COLUMNS)
 
 
-def _rows(id: str, parameters: Run, simulation: xr.Dataset) -> Iterator[Row]:
-    """A run's rows, one for each slip rate."""
-    friction = parameters.law
-    slip_distance = friction.slip_distance
-    own = parameters.fault
-    fault = Fault(  # of the formulas
-        shear_modulus=own.shear_modulus,
-        poisson_ratio=own.poisson_ratio,
-        plane=own.plane,
-        normal_stress=own.normal_stress,
-        a=own.a,
-        zeta=own.zeta,
-        slip_distance=own.slip_distance,
-        height=own.height,
-    )
-    _, a, zeta = friction.expansion(parameters.fault.velocity)
+def _described(parameters: Run) -> tuple[Row, Fault, Any]:
+    """The columns of all slip rates, the fault of the formulas, and how the length is read."""
+    own, law, varies = parameters.fault, parameters.law, parameters.heterogeneity
+    fault = Fault(**{name: getattr(own, name) for name in _OF_FORMULAS})
+    _, a, zeta = law.expansion(own.velocity)
     b = a + zeta
     name = length_of(parameters)
-    expands = name == "rubin_ampuero_crack"
     values = values_of(fault)
     formula = float(values[name])
     definition = DEFINITIONS[name]
     if name == "rubin_ampuero_localised" and between_localised_and_crack(a, b):
         formula = LOCALISED_FACTOR * float(values["state_evolution"])
         definition = definition._replace(words=IN_THE_GAP)
-    given = {
-        "id": id,
+    row = {
         "name": name,
-        "evolution": friction.evolution,
+        "evolution": law.evolution,
         "a": a,
         "b": b,
         "a_over_b": a / b,
         "definition": definition.words,
         "formula_length": formula,
-        "height": parameters.fault.height,
+        "height": own.height,
         "n_x": parameters.block.n_x,
         "n_y": parameters.block.n_y,
         "stress_rate": parameters.start.stress_rate,
-        "change": parameters.heterogeneity.change,
-        "width": parameters.heterogeneity.width,
+        "change": varies.change,
+        "width": varies.width,
     }
-    for slip_rate in SLIP_RATES:
-        found = zone_length(simulation, slip_rate, definition)
-        far_slip_rate, far_state_ratio = far_ahead(simulation, slip_rate, slip_distance)
-        at_this_rate = expanding_length(fault, slip_rate, far_slip_rate, far_state_ratio)
-        row = {
-            **given,
-            "read_at": slip_rate,
-            "simulated_length": found,
-            "difference": found / formula - 1.0,
-            "far_slip_rate": far_slip_rate,
-            "far_state_ratio": far_state_ratio,
-            "finite_speed_length": float(at_this_rate) if expands else math.nan,
-        }
-        for column, share in OTHER_SHARES.items():
-            other = definition._replace(part=1.0, share=share)
-            row[column] = zone_length(simulation, slip_rate, other)
-        yield row
-
-
-def _not_simulated(simulated: set[str]) -> Iterator[Row]:
-    """A row with the reason for each length without a run."""
-    empty: Row = {"n_x": 0, "n_y": 0}
-    for column, variable in COLUMNS.items():
-        empty.setdefault(column, math.nan if variable.units else "")
-    for length in LENGTHS:
-        if length.key in simulated:
-            continue
-        reason = ELSEWHERE.get(length.key, "no run of the study is its setting")
-        if length.system == TWO_MATERIALS:
-            reason = "the formula of one material, with M in the place of mu*"
-        yield empty | {"name": length.key, "definition": reason}
+    return row, fault, definition

@@ -1,8 +1,10 @@
 """L_s by the theory of the creeping patch beside L_s of simulations: a row for each fault."""
 
+import contextlib
 import math
 from collections.abc import Iterable
 from dataclasses import replace
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -14,7 +16,7 @@ from nucleation.extraction.growth import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast
-from nucleation.theory.creep.front import advance, oscillating
+from nucleation.theory.creep.front import advance
 from nucleation.theory.creep.front_onset import first_growing
 from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.creep.thin import thin_limit
@@ -31,8 +33,6 @@ COLUMNS = {
     "stability_length": FITTED["stability_length"],
     "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
     "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
-    "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
-    "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),
     "fault": LENGTHS["fault"],
 }
 """``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
@@ -52,23 +52,23 @@ PLACES = 241  # along a patch, in its angle
 _SHOWN_MODES = 256  # with fewer, curves have kinks near a pushed edge under strong contrast
 PROFILES = 4  # number of faults with their creep: evenly over the contrasts
 
-_PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
-
 
 def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str, Any]:
     """The table, the thin limit's curve and the creep of some faults; the table also as CSV."""
-    known = _stability_lengths(tables)
+    known: dict[str, float] = {}
+    for measured in tables:
+        lengths = measured["stability_length"].values.tolist()
+        known |= dict(zip(measured["id"].values.tolist(), lengths, strict=True))
     faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:
-        if run["id"] in known:
+        if math.isfinite(known.get(run["id"], math.nan)):
             key = run["study"], fault(Run.from_dict(run["parameters"]))
             faults.setdefault(key, []).append(run)
-    firsts = {}
     rows = []
-    for first, *others in faults.values():
-        mean = float(np.mean([known[run["id"]] for run in (first, *others)]))
-        rows.append(_row(first, mean))
-        firsts[first["id"]] = first
+    for own in faults.values():
+        mean = float(np.mean([known[run["id"]] for run in own]))
+        rows.append(_row(own[0]) | {"stability_length": mean})
+    firsts = {own[0]["id"]: own[0] for own in faults.values()}
     drawn = xr.Dataset(
         {
             "curve_ratio": ("curve", CURVE),
@@ -80,54 +80,37 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
     return {".nc": annotate(listed.merge(drawn), DRAWN), ".csv": to_csv(listed)}
 
 
-def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
-    """Simulated L_s (m) of each run that has it, by its name."""
-    found = {}
-    for measured in tables:
-        names = measured["id"].values
-        lengths = measured["stability_length"].values
-        for name, length in zip(names, lengths, strict=True):
-            if np.isfinite(length):
-                found[str(name)] = float(length)
-    return found
-
-
-def _row(run: Row, measured: float) -> Row:
-    """The columns of one fault, from its first run and its mean simulated L_s (m)."""
+def _row(run: Row) -> Row:
+    """The columns of one fault by theory, from its first run."""
     parameters = Run.from_dict(run["parameters"])
-    own = parameters.fault
-    below = parameters.below
-    f_beta = 0.0
-    if below is not None:
-        f_beta = own.friction * bimaterial_contrast(parameters.upper.material, below.material)
-    row = description(run) | dict.fromkeys(_PREDICTED, math.nan)
-    row |= {
-        "zeta_over_a": own.zeta / own.a,
-        "f_beta": f_beta,
-        "stability_length": measured,
-    }
-    patches = parameters.patches
+    own, below, patches = parameters.fault, parameters.below, parameters.patches
     critical = run["critical_length"]
-    start = own.initial_state, parameters.start.initial_shear_stress / own.normal_stress
-    try:
+    row = description(run) | {
+        "zeta_over_a": own.zeta / own.a,
+        "f_beta": 0.0,
+        "creep_length": math.nan,
+        "front_length": math.nan,
+    }
+    if below is not None:
+        contrast = bimaterial_contrast(parameters.upper.material, below.material)
+        row["f_beta"] = own.friction * contrast
+    stress = parameters.start.initial_shear_stress / own.normal_stress
+    with contextlib.suppress(NoLength):
         row["creep_length"] = stability_point(replace(patches, law=None), critical).length
-        row["front_length"] = first_growing(patches, critical, *start)
-        made = advance(patches, [row["front_length"]], *start)
-        row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time
-        row["front_time"] = float(made.time[0])
-    except NoLength:
-        pass
+        row["front_length"] = first_growing(patches, critical, own.initial_state, stress)
     return row
 
 
 def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
-    """The creep of some faults at their L_s, over the range of contrasts."""
-    known = [row for row in rows if row["front_length"] > 0.0]
+    """The creep of up to :data:`PROFILES` faults at their L_s, evenly over the contrasts."""
+    known = sorted((row for row in rows if row["front_length"] > 0.0), key=itemgetter("f_beta"))
     if not known:
         return {}
-    shown = _evenly_over_contrast(known)
+    different = list({round(row["f_beta"], 6): row for row in known}.values())
+    evenly = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
     contrasts, places, rates, stresses = [], [], [], []
-    for row in shown:
+    for i in dict.fromkeys(evenly.tolist()):
+        row = different[i]
         parameters = Run.from_dict(runs[row["id"]]["parameters"])
         start = parameters.fault.initial_state
         made = advance(parameters.patches, [row["front_length"]], start, number=_SHOWN_MODES)
@@ -145,20 +128,3 @@ def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
         "shown_rate": (at, np.array(rates)),
         "shown_stress": (at, np.array(stresses)),
     }
-
-
-def _evenly_over_contrast(rows: list[Row]) -> list[Row]:
-    """Up to :data:`PROFILES` rows with different contrasts, in their order."""
-    ordered = sorted(rows, key=lambda row: row["f_beta"])
-    different = list({round(row["f_beta"], 6): row for row in ordered}.values())
-    places = (
-        np.linspace(
-            0,
-            len(different) - 1,
-            PROFILES,
-        )
-        .round()
-        .astype(int)
-    )
-    shown = {different[i]["id"]: different[i] for i in places}
-    return list(shown.values())

@@ -9,6 +9,7 @@ slip, or the patch has an event: it slips so fast that inertia limits the slip r
 from collections.abc import Iterable
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from nucleation.datasets.variables import Variable, some, table
@@ -20,7 +21,7 @@ from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 
 from .curves import CURVES
-from .rows import SHARED, Row, rows_of
+from .rows import SHARED, Row
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
 TALL = 1e5  # m, height of bodies that are half-spaces
@@ -38,7 +39,6 @@ COLUMNS = {
     **some(SHARED, "plane velocity height a zeta"),
     "varies": Variable("", "how the surroundings differ: zeta by another b, or a at the same b"),
     "outside_a": Variable("1", "direct effect of the surroundings", "a_out"),
-    "outside_weakening": Variable("1", "velocity weakening of the surroundings", "zeta_out"),
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
     "width": SHARED["width"],
@@ -90,20 +90,13 @@ def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Datase
     rows = []
     for entry, simulation in zip(runs, simulations, strict=True):
         run = Run.from_dict(entry["parameters"])
-        fastest = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
-        row = _of_patch(run)
-        row |= {
-            "id": entry["id"],
-            "fastest": fastest,
-            "outcome": outcome(fastest, row["dynamic_rate"], _dropped(simulation)),
-        }
+        row = {"id": entry["id"], **_of_patch(run)}
+        row["fastest"] = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
+        status = str(simulation.attrs.get("status", ""))
+        dropped = status.startswith(Outcome.AFTER_EVENT.value)
+        row["outcome"] = outcome(row["fastest"], row["dynamic_rate"], dropped)
         rows.append(row)
     return table(rows, COLUMNS)
-
-
-def _dropped(simulation: xr.Dataset) -> bool:
-    """Whether a run ended because the force had dropped."""
-    return str(simulation.attrs.get("status", "")).startswith(Outcome.AFTER_EVENT.value)
 
 
 def _of_patch(run: Run) -> Row:
@@ -111,7 +104,6 @@ def _of_patch(run: Run) -> Row:
     fault, block = run.fault, run.block
     patch = patch_of(run.replaced(height=TALL))
     a, zeta = float(patch.inside.a[0]), float(patch.inside.zeta[0])
-    outside_zeta = float(patch.outside.zeta[0])
     critical = 2.0 * np.pi / float(largest_crossings(patch.inside)[0])
     smallest = smallest_width(patch, critical)
     width = run.heterogeneity.width
@@ -125,9 +117,8 @@ def _of_patch(run: Run) -> Row:
         "zeta": zeta,
         "varies": run.heterogeneity.varies,
         "outside_a": float(patch.outside.a[0]),
-        "outside_weakening": outside_zeta,
         "zeta_over_a": zeta / a,
-        "strengthening": -outside_zeta / zeta,
+        "strengthening": -float(patch.outside.zeta[0]) / zeta,
         "width": width,
         "critical_length": critical,
         "smallest_width": smallest,
@@ -141,35 +132,24 @@ def _of_patch(run: Run) -> Row:
 
 def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
     """Bounds of slow slip and events: :data:`BOUNDS` of each simulated friction on ``run``."""
-    groups: dict[tuple[str, float, float], list[Row]] = {}
-    for row in rows_of(patches):
-        key = row["varies"], round(row["zeta_over_a"], 4), round(row["strengthening"], 4)
-        groups.setdefault(key, []).append(row)
+    frame = patches.to_dataframe()
+    keys = [frame["varies"], frame["zeta_over_a"].round(4), frame["strengthening"].round(4)]
     found = []
-    for key, rows in sorted(groups.items()):
-        names = ("varies", "zeta_over_a", "strengthening", "slow_slip_up_to", "events_from")
-        found.append(
-            dict(
-                zip(
-                    names,
-                    (*key, *bounds_of(rows)),
-                    strict=True,
-                )
-            )
-        )
+    for key, own in frame.groupby(keys):
+        found.append(dict(zip(BOUNDS, (*key, *bounds_of(own)), strict=True)))
     return table(found, BOUNDS)
 
 
-def bounds_of(rows: Iterable[Row]) -> tuple[float, float]:
+def bounds_of(runs: pd.DataFrame) -> tuple[float, float]:
     """W/W_c up to which no run had an event (1 if none is known), and from which all had one.
 
     The first one is a run's at the largest V, over the W_c of the period, which is larger at most
     by :data:`PERIOD`; the second one a run's at the least V, infinite if there is none.
     """
-    runs = [(row["width_ratio"], row["outcome"], row["velocity"]) for row in rows]
-    velocities = [velocity for _, _, velocity in runs]
-    first = min((w for w, outcome, _ in runs if outcome in (EVENT, UNDECIDED)), default=np.inf)
-    last = max((w for w, outcome, _ in runs if outcome != EVENT), default=0.0)
-    slow = [w / PERIOD for w, _, velocity in runs if w < first and velocity == max(velocities)]
-    events = [w for w, _, velocity in runs if w > last and velocity == min(velocities)]
-    return max([1.0, *slow]), min(events, default=np.inf)
+    width, velocity = runs["width_ratio"], runs["velocity"]
+    no_event = runs["outcome"] != EVENT
+    first = width[~no_event | (runs["outcome"] == UNDECIDED)].min()
+    slow = width[(velocity == velocity.max()) & ~(width >= first)]
+    last = width[no_event].max()
+    events = width[(velocity == velocity.min()) & ~(width <= last)]
+    return max([1.0, *(slow / PERIOD)]), min(events, default=np.inf)
