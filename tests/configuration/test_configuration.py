@@ -144,7 +144,7 @@ def test_identifiers_stay_when_studies_are_edited():
 def test_identifiers_do_not_depend_on_notation(tmp_path):
     forms = [
         "{height: 0.005, n_x: 100, density: 1200, slip_distance: 5.0e-7}",
-        "{height: 5.0e-3, n_x: 1_00, density: 1.2e+3, slip_distance: 0.0000005}",
+        "{height: 5.0e-3, n_x: 100, density: 1.2e+3, slip_distance: 0.0000005}",
         "{height: 0.0050, n_x: +100, density: 1200.0, slip_distance: 5e-7}",
     ]
     found = []
