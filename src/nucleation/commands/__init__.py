@@ -12,7 +12,6 @@ import sys
 from collections.abc import Sequence
 
 import click
-from click.shell_completion import CompletionItem
 
 from .. import __version__
 from ..installed import MissingExtra
@@ -63,13 +62,6 @@ class _LazyGroup(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
-
-    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        begun = []
-        for name, help in COMMANDS.items():
-            if name.startswith(incomplete):
-                begun.append(CompletionItem(name, help=help))
-        return begun + click.Command.shell_complete(self, ctx, incomplete)
 
 
 @click.command(

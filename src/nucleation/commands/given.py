@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
-from click.shell_completion import CompletionItem
 
 from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
@@ -68,9 +67,6 @@ def option(
         except ParameterError as error:
             raise click.BadParameter(str(error)) from None
 
-    def matching(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem | str]:
-        return [choice for choice in entry.choices if choice.startswith(begun)]
-
     metavar = "NUMBER" if entry.unit == "1" else f"VALUE[{entry.unit}]"
     parts = [entry.description]
     if entry.choices:
@@ -83,7 +79,6 @@ def option(
         type=value_of,
         metavar=metavar,
         help="; ".join([*parts, note] if note else parts),
-        shell_complete=matching,
         **settings,
     )
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import click
-import numpy as np
 import xarray as xr
 
 from ..datasets import DatasetError, netcdf, provenance
@@ -54,14 +52,19 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         if not is_simulation:
             raise ParameterError("there is a plot of simulations alone, and this is none")
     try:
-        found = _described(dataset, kind) if as_json else {}
-        lines = [] if as_json else _lines(dataset, kind)
+        found, lines = {"file": str(file), "kind": kind, **dataset.to_dict(data=False)}, []
+        for name in provenance.STRUCTURES & dataset.attrs.keys():
+            found["attrs"][name] = json.loads(dataset.attrs[name])
+        if not as_json:
+            lines = _lines(dataset, kind)
+        elif is_simulation:
+            found |= text.outcome(dataset)
         event = extract(dataset) if plot else {}
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         reason = f"{error} is missing" if isinstance(error, KeyError) else error
         raise DatasetError(f"{file} is no {kind} of this version: {reason}") from error
     lines = text.wrapped(f"{file}: {kind}", *map(text.printable, lines))
-    text.show(as_json, {"file": str(file), **found}, lines)
+    text.show(as_json, found, lines)
     if plot:
         from ..pictures import run, style
 
@@ -70,28 +73,11 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     return DONE
 
 
-def _described(dataset: xr.Dataset, kind: str) -> dict[str, Any]:
-    """Kind, origin and variables of a dataset, and the event of a simulation."""
-    found: dict[str, Any] = {"kind": kind}
-    for name, value in dataset.attrs.items():
-        if name in provenance.TEXTS:
-            found[name] = json.loads(value) if name in provenance.STRUCTURES else str(value)
-    variables = {}
-    for name, variable in dataset.variables.items():
-        variables[name] = {
-            "long_name": variable.attrs.get("long_name", ""),
-            "units": variable.attrs.get("units", ""),
-            "sizes": dict(variable.sizes),
-        }
-    found["variables"] = variables
-    return found | (text.outcome(dataset) if kind == "simulation" else {})
-
-
 def _lines(dataset: xr.Dataset, kind: str) -> list[str]:
     """The content of a dataset, and its command, date, code and versions."""
     attributes = dataset.attrs
     is_simulation = kind == "simulation"
-    lines = _simulation_lines(dataset) if is_simulation else _variable_lines(dataset)
+    lines = _simulation_lines(dataset) if is_simulation else str(dataset).splitlines()
     for name in ("command", "created"):
         if name in attributes:
             lines.append(f"{name}: {attributes[name]}")
@@ -135,18 +121,3 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
         f"theory: {theory_text}",
         *text.event_lines(extract(dataset), theory),
     ]
-
-
-def _variable_lines(dataset: xr.Dataset) -> list[str]:
-    """Every variable with its meaning, shape, and the range of its finite numbers with unit."""
-    rows = []
-    for name, variable in dataset.variables.items():
-        sizes = " x ".join(f"{n} {dimension}" for dimension, n in variable.sizes.items())
-        parts = [sizes or "one value"]
-        if variable.dtype.kind in "fiu" and np.isfinite(variable.values).any():
-            ends = float(np.nanmin(variable.values)), float(np.nanmax(variable.values))
-            unit, size = text.engineering_unit(max(map(abs, ends)), variable.attrs.get("units", ""))
-            span = " to ".join(dict.fromkeys(f"{end / size:.4g}" for end in ends))
-            parts.append(span if unit in ("", "1") else f"{span} {unit}")
-        rows.append((str(name), f"{variable.attrs['long_name']}: {'; '.join(parts)}"))
-    return text.table(rows)

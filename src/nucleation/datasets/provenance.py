@@ -13,10 +13,9 @@ from typing import Any
 from .. import __version__
 from . import DatasetError
 
-TEXTS = ("parameters", "code_digest", "sources", "versions", "command", "created", "key")
-"""Attributes of :func:`attributes`; those of :data:`STRUCTURES` are JSON."""
+STRUCTURES = {"parameters", "sources", "versions"}
+"""Attributes that are JSON."""
 
-STRUCTURES = ("parameters", "sources", "versions")
 _LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "matplotlib", "snakemake")
 
 

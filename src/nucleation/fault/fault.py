@@ -98,20 +98,11 @@ class Fault:
     initial_state : array_like, optional
         Age phi0 (s) of the interface when the loading begins; 20 D/V by default.
 
-    Attributes
-    ----------
-    registry : pint.UnitRegistry or None
-        Registry of a parameter that was a pint quantity; the fields themselves are in SI units.
-
-    Warns
-    -----
-    ImplausibleWarning
-        If no known fault has such a magnitude, as with a shear modulus of 30 Pa.
-
     Raises
     ------
     ParameterError
-        If a parameter is outside its range, missing, given twice or of another unit's dimension.
+        If a parameter is outside its range, missing, given twice or of another unit's dimension. An
+        ImplausibleWarning warns of magnitudes that no known fault has, as a modulus of 30 Pa.
 
     Examples
     --------
@@ -148,12 +139,8 @@ class Fault:
     density: Any = 1200.0
     second_density: Any = None
     initial_state: Any = None
-    registry: Any = dataclasses.field(
-        default=None,
-        init=False,
-        repr=False,
-        compare=False,
-    )
+    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
+    """The pint registry of a parameter that was a quantity; the fields are in SI units."""
 
     def __new__(cls, **given: Any) -> Self:
         for name in given:
@@ -180,14 +167,8 @@ class Fault:
             return getattr(self, name) is getattr(self, first)
         if name in _OF_LAW and self.friction_law is not None and not np.ndim(self.velocity):
             law = self.friction_law
-            own = dict(
-                zip(
-                    _OF_LAW,
-                    (*law.expansion(self.velocity), law.slip_distance),
-                    strict=True,
-                )
-            )
-            return bool(np.all(getattr(self, name) == own[name]))
+            own = (*law.expansion(self.velocity), law.slip_distance)
+            return bool(np.all(getattr(self, name) == own[_OF_LAW.index(name)]))
         return name in ("b", "registry")
 
     def __getitem__(self, name: str) -> Any:
@@ -197,16 +178,7 @@ class Fault:
         return self.registry.Quantity(value, QUANTITIES[name].unit)
 
     def replace(self, **changes: Any) -> Self:
-        """The fault with other parameters.
-
-        Parameters
-        ----------
-        **changes
-            By name; ``b`` replaces ``zeta``, and the other way round.
-
-        Returns
-        -------
-        Fault
+        """The fault with other parameters; ``b`` replaces ``zeta``, and the other way round.
 
         Examples
         --------
@@ -223,32 +195,14 @@ class Fault:
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
         """The fault of a flat mapping, the inverse of :meth:`to_dict`.
 
-        Parameters
-        ----------
-        values : mapping
-            By the names of the parameters; beside them ``second_body`` (same, rigid or
-            MODULUS,POISSON[,HEIGHT]), ``zeta_over_a``, and ``friction_law`` by its name with
-            parameters of the law.
-
-        Returns
-        -------
-        Fault
+        Beside the names of the parameters it may have ``second_body`` (rigid or deformable),
+        ``zeta_over_a``, and ``friction_law`` by its name with parameters of the law.
         """
         return cls(**keywords(values))
 
     @classmethod
     def from_file(cls, path: Path | str) -> Self:
-        """The fault in a YAML or JSON file, a mapping as of :meth:`from_dict`.
-
-        Parameters
-        ----------
-        path : Path or str
-            Values are in SI units or texts with units.
-
-        Returns
-        -------
-        Fault
-        """
+        """The fault in a YAML or JSON file, a mapping as of :meth:`from_dict`; units in texts."""
         return cls(**keywords(read_parameters(path)))
 
     def to_dict(self) -> dict[str, Any]:
@@ -270,31 +224,11 @@ class Fault:
 
         The given law, or the regularised Dieterich-Ruina law, with the fault's constants at V.
         """
-        f, a, zeta, velocity, distance = (
-            self.single(name) for name in ("friction", "a", "zeta", "velocity", "slip_distance")
-        )
-        return law_of(
-            self.friction_law,
-            str(self.evolution),
-            velocity,
-            distance,
-            f,
-            a,
-            zeta,
-        )
+        names = ("velocity", "slip_distance", "friction", "a", "zeta")
+        return law_of(self.friction_law, str(self.evolution), *map(self.single, names))
 
     def single(self, name: str) -> float:
-        """The number that a parameter of a single fault has, which is not missing (SI units).
-
-        Parameters
-        ----------
-        name : str
-            Of the parameter.
-
-        Returns
-        -------
-        float
-        """
+        """The number that a parameter of a single fault has, which is not missing (SI units)."""
         value, entry = getattr(self, name), QUANTITIES[name]
         if value is None:
             unit = f" ({entry.unit})" if entry.unit != "1" else ""
@@ -314,24 +248,13 @@ class Fault:
 
         k_c is the largest wavenumber at which a root of Eq. (5) is marginal. Two half-spaces of one
         material have Eq. (6), of different ones Eq. (9), a thin layer on a rigid body Eq. (11).
-
-        Returns
-        -------
-        float, ndarray or DataArray
-            ``L_c = 2 pi/k_c`` (m); NaN where homogeneous sliding is stable (:meth:`lengths` has the
-            reason). A DataArray if there is one among the parameters, else a pint quantity if there
-            is one.
+        ``L_c = 2 pi/k_c`` (m) is NaN where sliding is stable (:meth:`lengths` has the reason). It
+        is a DataArray if there is one among the parameters, else a pint quantity if there is one.
         """
         return self._critical().length
 
     def critical_mode(self) -> CriticalMode:
-        """Critical length (m), wavenumber (1/m) and angular frequency (rad/s); needs `velocity`.
-
-        Returns
-        -------
-        CriticalMode
-            Each field as :meth:`critical_length` returns it.
-        """
+        """Critical length (m), wavenumber (1/m) and angular frequency (rad/s); needs `velocity`."""
         self._require_velocity()
         return self._critical()
 
@@ -347,15 +270,11 @@ class Fault:
         -------
         ndarray or DataArray
             Lambda (1/s), complex, of perturbations ``exp(Lambda t - i k x)``; shape ``(2,)`` and
-            the broadcast shape, the faster root first. The first dimension of a DataArray is
-            ``root``.
+            the broadcast shape, the faster root first (dimension ``root`` of a DataArray).
         """
         self._require_velocity()
 
-        def rates(systems: Systems, k: Any) -> Any:
-            return systems.growth_rates(as_wavenumber(k))
-
-        found = self._at(wavenumber, rates, dtype=complex)
+        found = self._at(wavenumber, Systems.growth_rates, dtype=complex)
         if labelled(found):
             found = found.rename(row="root")
         return named(found, "growth_rate", "1/s", "growth rate of the mode", self)
@@ -374,24 +293,14 @@ class Fault:
             ``delta sigma_xy = -mu k G1 delta epsilon``, ``delta sigma_yy = i mu k G2 delta
             epsilon`` with mu of the first body; dimensionless, broadcast shape.
         """
-
-        def functions(systems: Systems, k: Any) -> Any:
-            return systems.pair.transfer_functions(as_wavenumber(k))
-
-        shear, normal = self._at(wavenumber, functions)
+        shear, normal = self._at(wavenumber, lambda own, k: own.pair.transfer_functions(k))
         return (
             named(shear, "G1", "1", "shear response", self),
             named(normal, "G2", "1", "normal response", self),
         )
 
     def stability_length(self) -> Any:
-        """Stability length L_s: where the creeping patch turns unstable.
-
-        Returns
-        -------
-        float, ndarray or DataArray
-            L_s (m); NaN where there is none (:meth:`lengths` has the reason).
-        """
+        """Stability length L_s (m), where the creeping patch turns unstable; NaN without one."""
         from ..theory.creep.lengths import stability_answers
 
         found = stability_answers(self)[0]
@@ -401,13 +310,8 @@ class Fault:
         """Runaway length L_run, beyond which a creeping patch can't slip slowly.
 
         Between L_s and L_run a patch slips slowly. Where friction weakens little, zeta/a below
-        about 2, the force drops at L_run or later.
-
-        Returns
-        -------
-        float, ndarray or DataArray
-            L_run (m), of constant a and b, within 2 % in thin layers and up to 7 % between
-            half-spaces; NaN where there is none. A fault takes one to two seconds.
+        about 2, the force drops at L_run or later. L_run (m) is that of constant a and b, within
+        2 % in thin layers and up to 7 % between half-spaces; NaN where there is none.
         """
         from ..theory.creep.runaway import runaway_answers
 
@@ -478,28 +382,22 @@ class Fault:
         >>> granite.lengths()["critical_length"].status
         'stable'
         """
-        from ..lengths.answer import (
-            Lengths,
-            answers_of_literature,
-            answers_of_theory,
-            process_zone_answer,
-        )
+        from ..lengths import answer
 
-        found = answers_of_theory(self)
+        found = answer.answers_of_theory(self)
         if perturbation != "none":
             from ..drop.answer import answers_of_drop
 
-            if correlation_length is None:
-                correlation_length = self._roughness() if perturbation in ALONG_X else 1.0
-            declared = Perturbation(perturbation, strength, correlation_time, correlation_length)
+            if correlation_length is None and perturbation in ALONG_X:
+                modulus = self.single("shear_modulus") / (1.0 - self.single("poisson_ratio"))
+                strength = self.single("b") * self.single("normal_stress")
+                distance = self.single("slip_distance")
+                correlation_length = roughness_length(modulus, distance, strength)
+            scale = 1.0 if correlation_length is None else correlation_length
+            declared = Perturbation(perturbation, strength, correlation_time, scale)
             found |= answers_of_drop(self, declared)
-        found["process_zone"] = process_zone_answer(self)
-        return Lengths(found | answers_of_literature(self, weakening_rate))
-
-    def _roughness(self) -> float:
-        modulus = self.single("shear_modulus") / (1.0 - self.single("poisson_ratio"))
-        strength = self.single("b") * self.single("normal_stress")
-        return roughness_length(modulus, self.single("slip_distance"), strength)
+        found["process_zone"] = answer.process_zone_answer(self)
+        return answer.Lengths(found | answer.answers_of_literature(self, weakening_rate))
 
     def specimen(
         self,
@@ -548,16 +446,15 @@ class Fault:
             angular_frequency=named(omega, "critical_frequency", "rad/s", frequency, self),
         )
 
-    def _at(
-        self,
-        wavenumber: Values,
-        function: Callable[..., Any],
-        dtype: type = float,
-    ) -> Any:
+    def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
         """Two rows of a function of Systems and wavenumbers."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})
-        return evaluate(self, function, k, rows=2, dtype=dtype)
+
+        def at(systems: Systems, k: Any) -> Any:
+            return function(systems, as_wavenumber(k))
+
+        return evaluate(self, at, k, rows=2, dtype=dtype)
 
     def _require_velocity(self) -> None:
         if self.velocity is None:
