@@ -5,7 +5,7 @@ import pytest
 from extraction.made_up_patch import force_record
 
 from nucleation.extraction.definitions import find_onset
-from nucleation.simulation.event import DropWatch, slipping_edge, slipping_zone
+from nucleation.simulation.event import slipping_edge, slipping_zone
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 
@@ -32,16 +32,6 @@ def test_the_first_of_two_events_counts():
     assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
 
 
-def test_small_rises_on_the_way_down_belong_to_the_drop():
-    time, force = force_record(fall=0.04, size=0.5)
-    shaken = force * (1 + 0.008 * (-1.0) ** np.arange(time.size))
-    onset = find_onset(time, shaken, MEMORY_TIME, 0.2)
-    assert time[onset.start] == pytest.approx(10.0, abs=0.011)
-    between = shaken[onset.start : onset.end + 1]
-    assert (np.diff(between) > 0.0).any()
-    assert between[0] == between.max()
-
-
 def test_a_force_that_follows_its_load_is_no_event():
     time, force = force_record()
     before = time < 10.0
@@ -52,13 +42,6 @@ def test_a_force_that_follows_its_load_is_no_event():
     assert time[early.end] < 1.0
     assert time[onset.end] == pytest.approx(10.0, abs=0.004)
     assert fast[onset.end]
-
-
-def test_drop_watch_counts_a_fall_once_slip_is_fast():
-    watch = DropWatch(window=1.0, drop=0.1)
-    assert not watch.dropped(0.0, 100.0, fast=False)
-    assert not watch.dropped(0.1, 80.0, fast=False)
-    assert watch.dropped(0.2, 81.0, fast=True)
 
 
 @pytest.mark.parametrize("threshold", [1e-8, 1e-6, 5e-6])

@@ -65,14 +65,6 @@ def test_numbers_of_a_steady_front():
     assert ONSET / found["drop_time"] > 1e3
 
 
-def test_time_of_acceleration_is_from_ten_to_a_hundred_times_the_velocity():
-    run = made_up()
-    fastest = run["maximal_slip_rate"].values.copy()
-    fastest[-2:] = VELOCITY * np.array([50.0, 200.0])
-    found = measure(Record(run.assign(maximal_slip_rate=("step", fastest))))
-    assert found["acceleration_time"] == pytest.approx(2e-3)
-
-
 @pytest.mark.parametrize(
     ("slower", "faster", "time"),
     [(9.9, 101.0, 2e-3), (10.1, 101.0, np.nan), (9.9, 99.0, np.nan)],
@@ -111,13 +103,6 @@ def test_nothing_is_read_of_runs_of_other_kinds(given):
     assert measure(Record(run))
     other = run.assign_attrs(parameters=PARAMETERS.replaced(**given).to_json())
     assert measure(Record(other)) == {}
-
-
-def test_patch_that_two_frames_do_not_show_has_lengths_alone():
-    run = made_up()
-    found = measure(Record(run.isel(time=[0, -2, -1])))
-    assert np.isfinite([found[name] for name in BY_DEFINITION]).all()
-    assert np.isnan(found["front_speed"]) and np.isnan(found["state_rate_share"])
 
 
 def test_a_rupture_slips_faster_than_a_millimetre_per_second():

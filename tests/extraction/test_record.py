@@ -5,7 +5,7 @@ import pytest
 from extraction.made_up_patch import VELOCITY, synthetic_simulation
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import Record, extract
+from nucleation.extraction.extraction import Record
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.event import slipping_edge
 
@@ -30,14 +30,6 @@ def test_lengths_never_fall_and_are_those_of_a_run_that_is_going_on():
     rates = record.simulation["slip_rate"].values
     one_by_one = [slipping_edge(record.x, rate, record.threshold) for rate in rates]
     np.testing.assert_array_equal(np.maximum.accumulate(one_by_one), record.lengths)
-
-
-def test_onset_creep_and_extraction_agree():
-    record = Record(synthetic_simulation(onset=10.0), SETTINGS)
-    assert record.drop_times[0] == pytest.approx(10.0, abs=0.011)
-    assert record.time[record.creep[-1]] <= record.drop_times[0] < record.time[record.creep[-1] + 1]
-    length = record.lengths[record.frames_at(record.drop_times)][0]
-    assert extract(record.simulation, SETTINGS)["length"] == length
 
 
 @pytest.mark.parametrize(("fall", "abrupt"), [(0.8, True), (1.6, False)])

@@ -121,13 +121,3 @@ def test_the_theory_has_the_time_and_the_growth_of_each_patch(followed):
     frozen = np.array([np.mean(twin.frozen) for twin in followed])
     assert rates.real == pytest.approx(frozen.real, abs=0.35)
     assert rates.imag == pytest.approx(frozen.imag, rel=0.025)
-
-
-def test_twin_without_a_kick_is_the_run(monkeypatch):
-    """It takes the very steps of the run, and the restarted state loses nothing."""
-    monkeypatch.setattr("test_twins.PERIODS", 0.1)
-    (twin,), state = twins((0.3,), kick=0.0)
-    assert twin.state.time == pytest.approx(state.time, rel=1e-12)
-    displacement, log_state = np.split(twin.difference(state), 2)
-    assert np.abs(displacement).max() < 1e-12 * PARAMETERS.block.length
-    assert np.abs(log_state).max() < 1e-7

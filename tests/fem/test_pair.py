@@ -1,19 +1,14 @@
 """Two blocks on one another against the assembled matrix, and what must hold for any pair."""
 
-import itertools
-
 import numpy as np
 import pytest
 from fem.assembled_pair import AssembledPair
 from two_bodies import Body, transfer_functions
 
-from nucleation.fem import body as body_module
 from nucleation.fem.body import Body as ElasticBody
 from nucleation.fem.grid import Grid, Motion
 from nucleation.fem.operator import Operator
 from nucleation.model.material import Material
-from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.run import instants
 
 UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
 LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)
@@ -179,23 +174,6 @@ def test_a_translation_that_has_grown_from_rounding_is_taken_out():
                 np.testing.assert_allclose(y - y_new, moved, atol=1e-13)
     assert body.settled(motions, step, 0.1 * abs(rise)) is motions
     assert pair_of(GRIDS[0], "roller").settled(motions, step, 0.0) is motions
-
-
-def test_what_is_taken_out_is_not_felt(monkeypatch):
-    """A run of a free pair, from which every step takes the translation, or none does."""
-    parameters = PAPER_RUN.replaced(
-        height=0.01, block_length=0.4, n_x=40, n_y=3, end_time=1.0, second_body="deformable"
-    )
-
-    def last(lifted):
-        monkeypatch.setattr(body_module, "LIFTED", lifted)
-        *_, instant = itertools.takewhile(lambda one: one.state.time < 1.0, instants(parameters))
-        return instant.state
-
-    never, always = last(np.inf), last(0.0)
-    assert always.displacement.edge[0] == 0.0 != never.displacement.edge[0]
-    np.testing.assert_allclose(always.past_w, never.past_w, rtol=1e-9)
-    np.testing.assert_allclose(always.past_log_states, never.past_log_states, rtol=1e-9)
 
 
 def test_other_elements_along_x_are_refused():

@@ -1,14 +1,19 @@
 """Perturbed runs: each kind acts as declared, and none is none."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from parts import with_parts
 
 from nucleation.model.settings import KINDS, Perturbation
 from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.drive import Steady
+from nucleation.simulation.interface import Interface
 from nucleation.simulation.perturbed import Series, profile
 from nucleation.simulation.run import simulate
-from nucleation.simulation.start import composed
+from nucleation.simulation.start import at_rest, composed, grid_of, interface_of
+from nucleation.simulation.step import Dynamics
 
 QUIET = PAPER_RUN.replaced(
     height=0.005,
@@ -118,12 +123,57 @@ def test_steps_resolve_the_correlation_time():
     assert short["step_size"].values.max() <= 0.1 * 0.2 * 0.05 * (1 + 1e-12)
 
 
-@pytest.mark.slow
-def test_step_error_falls_with_the_second_order_of_the_steps():
-    def last(longest):
-        values = {"longest_step": longest, "end_time": 0.6, "tolerance": 0.9}
-        return simulate(perturbed("drive_velocity", 0.1).replaced(**values))
+def tolerance(**values):
+    parameters = PAPER_RUN.replaced(tolerance=1e-2, **values)
+    return interface_of(parameters, grid_of(parameters.upper)).tolerance
 
-    runs = [last(step) for step in (0.08, 0.04, 0.005)]
-    at = [np.interp(0.5, r["step_time"].values, r["driving_force"].values) for r in runs]
-    assert abs(at[1] - at[2]) < 0.5 * abs(at[0] - at[2])
+
+def test_under_a_perturbation_it_is_a_thousandth_of_the_step_s():
+    assert tolerance(perturbation="normal_load", strength=1e-2) == pytest.approx(1e-5)
+
+
+def test_it_is_no_coarser_than_the_perturbation_and_no_finer_than_of_an_unperturbed_run():
+    assert tolerance(perturbation="normal_load", strength=1e-7) == pytest.approx(1e-7)
+    assert tolerance(perturbation="normal_load", strength=1e-12) == tolerance() == 1e-8
+
+
+SLIDING = PAPER_RUN.replaced(
+    height=0.02, block_length=0.4, n_x=16, n_y=4, grading=2.0, normal_stress=2e5, velocity=1e-3
+)
+LADDER = (*range(-92, -60, 4), *[-60] * 30)
+STRENGTH = 1.3
+
+
+def last_step(parameters, drive=None, interface=None):
+    """The report after some steps of the usual composition, but for drive and interface."""
+    usual = composed(parameters)
+    dynamics = Dynamics(
+        usual.body, interface or usual.interface, drive or usual.drive, usual.scheme
+    )
+    state, report = at_rest(dynamics, parameters)
+    for rung in LADDER:
+        state, report = dynamics.advance(state, rung)
+    return state, report
+
+
+@dataclasses.dataclass(frozen=True)
+class Stronger(Steady):
+    """The same friction at all nodes, but stronger."""
+
+    def at(self, time):
+        return super().at(time)._replace(strength=np.full(17, STRENGTH))
+
+
+def test_strength_multiplies_friction():
+    friction, steady = SLIDING.law, composed(SLIDING).drive
+    _, found = last_step(SLIDING, Stronger(steady.velocity, steady.constant_load))
+    stronger = dataclasses.replace(
+        friction,
+        base_friction=STRENGTH * friction.base_friction,
+        rate_coefficient=STRENGTH * friction.rate_coefficient,
+    )
+    _, expected = last_step(SLIDING, interface=Interface(stronger))
+    assert np.count_nonzero(expected.interface.slip_rate > 1e-5) >= 2
+    for name in ("slip_rate", "log_state", "tangential", "normal"):
+        one, other = getattr(found.interface, name), getattr(expected.interface, name)
+        np.testing.assert_allclose(one, other, rtol=1e-7, atol=1e-9 * np.abs(other).max())

@@ -79,13 +79,6 @@ def test_a_declared_perturbation_makes_one_number(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("change", [{"tolerance": 1e-3}, {"longest_step": 0.05}], ids=str)
-def test_nor_does_it_hang_on_the_steps(change):
-    parameters, exact = exact_drop("normal_load")
-    np.testing.assert_allclose(drop(parameters.replaced(**change)), exact, rtol=3e-3)
-
-
-@pytest.mark.slow
 def test_in_numerical_silence_the_last_digits_decide():
     """On a mesh and with steps that shake the patch by less than that."""
     finer = SILENT.replaced(n_x=330, longest_step=0.04)

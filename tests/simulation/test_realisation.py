@@ -25,10 +25,6 @@ def test_numbers_are_standard_normal_and_independent():
     assert np.abs(correlation).max() < 0.06
 
 
-def test_more_numbers_begin_with_the_same_ones():
-    np.testing.assert_array_equal(normals(3, 2, 7, 500)[:9], normals(3, 2, 7, 9))
-
-
 def test_numbers_never_change():
     # from version to version and machine to machine; the last digits are those of ndtri
     np.testing.assert_allclose(

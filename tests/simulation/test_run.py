@@ -13,7 +13,6 @@ from nucleation.simulation.event import Outcome
 from nucleation.simulation.interface import Interface, NewtonFailure
 from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import SimulationFailure, instants, simulate
-from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 COARSE = PAPER_RUN.replaced(
@@ -54,30 +53,12 @@ def test_records_are_whole(coarse_run):
     assert Run.from_json(coarse_run.attrs["parameters"]) == COARSE
 
 
-def test_frames_are_dense_through_the_event(coarse_run):
-    """Between frames the slip rate changes by little even where it changes within microseconds."""
-    scaled = np.arcsinh(coarse_run["slip_rate"].values / 1e-5)
-    assert np.abs(np.diff(scaled, axis=0)).max() < 1.5
-    assert float(coarse_run["maximal_slip_rate"].max()) > 1e-2
-    assert float(coarse_run["time"].diff("time").min()) < 1e-4
-
-
 def test_interface_obeys_friction_in_every_frame(coarse_run):
     law = COARSE.law
     f = law.coefficient(coarse_run["slip_rate"].values[1:], coarse_run["state"].values[1:])
     ratio = -coarse_run["shear_stress"] / coarse_run["sigma_yy"]
     np.testing.assert_allclose(ratio.values[1:], f, atol=1e-6)
     assert (coarse_run["sigma_yy"] < 0).all()
-
-
-def test_the_body_meets_the_boundary_conditions():
-    """Its left edge has no more than the drive's displacement, and its base stays at y = 0."""
-    dynamics = composed(COARSE)
-    for instant in itertools.islice(instants(COARSE, dynamics=dynamics), 0, 60, 20):
-        along_x, along_y = dynamics.body.nodal_values(instant.state.displacement)
-        np.testing.assert_allclose(along_x[:, 0], 0.0, atol=1e-18)
-        assert (along_y[0] == 0.0).all()
-    assert dynamics.drive.at(2.0).displacement == pytest.approx(2e-5)
 
 
 @pytest.mark.slow

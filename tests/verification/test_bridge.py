@@ -189,23 +189,6 @@ def test_table_of_modes_is_that_of_the_reference_and_the_theorys(monkeypatch, he
     np.testing.assert_allclose(now[names], stored[names], rtol=1e-4)
 
 
-@pytest.mark.slow
-def test_growth_rates_converge_with_the_mesh(monkeypatch):
-    """Second order in h; the step is small enough not to be seen."""
-    fine = {"ROWS": (1, 100), "GRADING": 1.0, "STEP": 0.002, "DURATION": 1.0, "SKIPPED": 120}
-    for name, value in (fine | {"INTERVAL": 30}).items():
-        monkeypatch.setattr(tables, name, value)
-    high, errors, sizes = PARAMETERS.replaced(height=0.5), [], (17, 33, 65)
-    k, expected = theory(high, 0.9)
-    for nodes in sizes:
-        found = tables.measured_rates(high, k, nodes)
-        errors.append(np.abs(found - expected).max() / np.abs(expected).max())
-    ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
-    order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
-    np.testing.assert_allclose(order, 2.0, atol=0.2)
-    assert errors[-1] < 1e-3
-
-
 # -- two layers ----------------------------------------------------------------------------------
 
 

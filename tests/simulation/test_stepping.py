@@ -1,12 +1,11 @@
-"""The step formulas for any steps: exact for polynomials of their order, and their error."""
-
-from itertools import pairwise
+"""Formulas of steps: exact for polynomials of their order, their error, stability and control."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nucleation.simulation.run import _step_factor
 from nucleation.simulation.stepping import (
     BDF,
     LARGEST_GROWTH,
@@ -81,15 +80,70 @@ def test_a_rung_is_below_and_near(beta):
     assert rung_below(rung_value(rung)) == rung
 
 
-def test_second_order_on_an_oscillator_with_changing_steps():
-    """Global error of y' = i y falls as the square of the step, growing and shrinking steps."""
+TIMES = np.array([1.0, 0.6, 0.35])  # s
 
-    def error(n):
-        steps = (1.0 + 0.5 * np.sin(np.arange(n) * 2 * np.pi * 3 / n)) / n
-        y = [1.0 + 0j, np.exp(1j * steps[0])]  # exact start
-        for previous, h in pairwise(steps):
-            f = Formula.bdf2(BDF().coefficient(h, previous), previous)
-            y.append(f.from_past(np.array(y[:-3:-1])) / (1 - 1j * f.beta))
-        return abs(y[-1] - np.exp(1j * steps.sum()))
 
-    assert np.log2(error(100) / error(200)) == pytest.approx(2.0, abs=0.1)
+@pytest.mark.parametrize("step", [1e-6, 0.005, 3.0])
+def test_steady_steps_stay_on_their_rung(step):
+    scheme = BDF()
+    rung = scheme.steady_rung(step)
+    steady = scheme.steady_step(rung)
+    assert steady <= step * (1 + 1e-9) < scheme.steady_step(rung + 1) * (1 + 1e-9)
+    past = -steady * np.arange(3)
+    assert scheme.step(rung, past).length == pytest.approx(steady, rel=1e-12)
+
+
+def test_slip_and_state_are_of_third_order_where_waves_are_not_resolved():
+    """A polynomial of the scheme's order is followed exactly, in the values and in the guess."""
+    past = np.array([0.0, -0.1, -0.2])
+    rung = BDF().steady_rung(0.1)
+    length = BDF().step(rung, past).length
+    for crossings, power in ((np.inf, 3), (11.0, 3), (9.0, 2), (1e-9, 2)):
+        step = BDF(length / crossings).step(rung, past)
+        new, formula = step.length, step.interface
+        found = formula.from_past(past**power) + formula.beta * power * new ** (power - 1)
+        assert found == pytest.approx(new**power, rel=1e-12)
+        assert len(formula.past) == power
+        assert len(step.body.past) == BDF.levels == 2
+        assert step.extrapolation @ past**2 == pytest.approx(new**2, rel=1e-12)
+
+
+def test_the_first_steps_have_no_estimate():
+    first, second, third = (BDF().step(-20, TIMES[-n:]) for n in (1, 2, 3))
+    assert (first.error(0.0), second.error(0.3)) == (np.inf, 0.0)
+    assert 0.0 < third.error(1.0) < 1.0
+    assert (first.first, second.first, third.first) == (True, False, False)
+
+
+def amplification(formula):
+    """Largest factor by which errors grow in a step of y' = 0."""
+    companion = np.eye(len(formula.past), k=-1)
+    companion[0] = formula.past
+    return np.abs(np.linalg.eigvals(companion)).max()
+
+
+def test_the_largest_growth_of_steps_is_stable_and_twice_as_much_is_not():
+    """Of steps that grow again and again by the same factor; shorter ones never grow."""
+
+    def bdf2(growth):
+        return Formula.bdf2(BDF().coefficient(growth, 1.0), 1.0)
+
+    def bdf3(growth):
+        return Formula.bdf3(growth, -np.cumsum([0.0, 1.0, 1.0 / growth]))
+
+    for formula, growth in ((bdf2, LARGEST_GROWTH), (bdf3, LARGEST_GROWTH_OF_BDF3)):
+        assert growth > 1.2
+        assert amplification(formula(growth)) == pytest.approx(1.0, abs=1e-9)
+        assert amplification(formula(2.0 * growth)) > 1.2
+
+
+@pytest.mark.parametrize(("error", "factor"), [(1.0, 0.85), (8.0, 0.85 / 2.0), (0.125, 1.7)])
+def test_the_step_follows_the_cube_root_of_the_error_with_a_margin(error, factor):
+    """The local error is of third order; `error` is in units of the tolerance."""
+    assert _step_factor(error, BDF()) == pytest.approx(factor)
+
+
+def test_a_step_grows_to_twice_and_shrinks_to_a_fifth_at_most():
+    assert _step_factor(0.0, BDF()) == 2.0
+    assert _step_factor(1e9, BDF()) == 0.2
+    assert _step_factor(float("inf"), BDF()) == 1.0  # no estimate
