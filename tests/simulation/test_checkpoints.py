@@ -25,26 +25,13 @@ from nucleation.simulation.checkpoints import (
 from nucleation.simulation.run import simulate
 
 COARSE = PAPER_RUN.replaced(
-    height=0.005,
-    block_length=0.9,
-    n_x=60,
-    n_y=6,
-    grading=2.0,
-    end_time=30.0,
-    time_after_event=0.1,
-    tolerance=5e-2,
-    longest_step=0.25,
-)
+    height=0.005, block_length=0.9, n_x=60, n_y=6, grading=2.0, end_time=30.0,
+    time_after_event=0.1, tolerance=5e-2, longest_step=0.25
+)  # fmt: skip
 SHORT = PAPER_RUN.replaced(
-    height=0.1,
-    block_length=1.5,
-    n_x=40,
-    n_y=4,
-    grading=2.0,
-    end_time=0.5,
-    tolerance=5e-2,
-    longest_step=0.1,
-)
+    height=0.1, block_length=1.5, n_x=40, n_y=4, grading=2.0, end_time=0.5, tolerance=5e-2,
+    longest_step=0.1
+)  # fmt: skip
 SHAKEN = {"strength": 1e-2, "seed": 7}
 PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 5}
 RUNS = {

@@ -46,14 +46,9 @@ def drop(parameters, units=0):
 
 
 SILENT = PAPER_RUN.replaced(
-    height=0.02,
-    block_length=0.85,
-    n_x=250,
-    n_y=4,
-    grading=20.0,
-    end_time=30.0,
-    time_after_event=0.0,
-)
+    height=0.02, block_length=0.85, n_x=250, n_y=4, grading=20.0, end_time=30.0,
+    time_after_event=0.0
+)  # fmt: skip
 NINE_DIGITS = 2**20  # units in the last place: arithmetic with nine digits
 
 

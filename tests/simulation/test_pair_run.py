@@ -12,16 +12,9 @@ from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import body_of, composed
 
 COARSE = PAPER_RUN.replaced(
-    height=0.02,
-    block_length=1.2,
-    n_x=60,
-    n_y=4,
-    grading=2.0,
-    end_time=30.0,
-    time_after_event=0.0,
-    longest_step=0.2,
-    tolerance=0.05,
-)
+    height=0.02, block_length=1.2, n_x=60, n_y=4, grading=2.0, end_time=30.0,
+    time_after_event=0.0, longest_step=0.2, tolerance=0.05
+)  # fmt: skip
 BOTTOMS = ("free", "clamped", "roller")
 
 

@@ -14,18 +14,9 @@ from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 
 ONE = PAPER_RUN.replaced(
-    height=0.02,
-    block_length=1.83,
-    n_x=80,
-    n_y=4,
-    grading=6.0,
-    tolerance=5e-2,
-    longest_step=0.5,
-    time_after_event=0.0,
-    end_time=30.0,
-    strength=1e-3,
-    perturbation="normal_load",
-)
+    height=0.02, block_length=1.83, n_x=80, n_y=4, grading=6.0, tolerance=5e-2, longest_step=0.5,
+    time_after_event=0.0, end_time=30.0, strength=1e-3, perturbation="normal_load"
+)  # fmt: skip
 """A run to its event of a tenth of the usual cost."""
 
 

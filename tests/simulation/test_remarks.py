@@ -12,15 +12,9 @@ from nucleation.simulation.event import FEW, front_width, long_after
 from nucleation.simulation.run import simulate
 
 COARSE = PAPER_RUN.replaced(
-    height=0.02,
-    block_length=1.84,
-    n_x=60,
-    n_y=6,
-    end_time=30.0,
-    time_after_event=0.0,
-    tolerance=5e-2,
-    longest_step=0.2,
-)
+    height=0.02, block_length=1.84, n_x=60, n_y=6, end_time=30.0, time_after_event=0.0,
+    tolerance=5e-2, longest_step=0.2
+)  # fmt: skip
 """The mesh of docs/extending.md: two elements to the process zone of the aging law."""
 
 X = np.linspace(0.0, 1.84, 61)

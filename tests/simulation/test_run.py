@@ -16,16 +16,9 @@ from nucleation.simulation.run import SimulationFailure, instants, simulate
 from nucleation.simulation.step import Dynamics
 
 COARSE = PAPER_RUN.replaced(
-    height=0.005,
-    block_length=0.9,
-    n_x=60,
-    n_y=6,
-    grading=2.0,
-    end_time=30.0,
-    time_after_event=0.1,
-    tolerance=5e-2,
-    longest_step=0.1,
-)
+    height=0.005, block_length=0.9, n_x=60, n_y=6, grading=2.0, end_time=30.0,
+    time_after_event=0.1, tolerance=5e-2, longest_step=0.1
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")

@@ -255,20 +255,10 @@ def test_energy_balance_of_two_blocks_and_of_perturbed_loads(parameters):
 
 
 REMOTE = PAPER_RUN.replaced(
-    loading="remote",
-    stress_rate=2e5,
-    height=0.5,
-    block_length=3.0,
-    n_x=61,
-    n_y=6,
-    grading=4.0,
-    end_time=10.0,
-    time_after_event=0.0,
-    longest_step=0.2,
-    heterogeneity="normal_stress",
-    change=-0.1,
-    width=0.3,
-)
+    loading="remote", stress_rate=2e5, height=0.5, block_length=3.0, n_x=61, n_y=6, grading=4.0,
+    end_time=10.0, time_after_event=0.0, longest_step=0.2, heterogeneity="normal_stress",
+    change=-0.1, width=0.3
+)  # fmt: skip
 
 
 # Where all slips, the forces are balanced to what displacements are rounded to, whatever Newton's
