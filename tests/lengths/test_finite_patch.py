@@ -83,12 +83,12 @@ def test_the_factor_without_direct_effect_is_that_of_slip_weakening():
 
 def test_the_polynomial_is_as_good_as_what_it_goes_through(monkeypatch):
     ratios = np.array([0.02, 0.11, 0.37, 0.5, 0.77, 0.95, 0.985])
-    exact = [finite_patch.marginal_loaded_patch(ratio) for ratio in ratios]
+    exact = finite_patch.marginal_loaded_patches(ratios)
     np.testing.assert_allclose(finite_patch.loaded_patch_factor(ratios), exact, rtol=1e-5)
     monkeypatch.setattr(finite_patch, "TERMS", 48)
     monkeypatch.setattr(finite_patch, "NODES", 400)
     finite_patch._basis.cache_clear()
-    finer = [finite_patch.marginal_loaded_patch(ratio) for ratio in ratios]
+    finer = finite_patch.marginal_loaded_patches(ratios)
     finite_patch._basis.cache_clear()
     np.testing.assert_allclose(exact, finer, rtol=1e-4)
 

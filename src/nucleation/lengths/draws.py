@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.special import ndtri
 
 from ..model.friction.constants import ZETA_OVER_A
 from ..model.quantities import ParameterError, Quantity, check, declared
@@ -16,6 +15,9 @@ from ..theory.status import BEYOND, STABLE
 from ..theory.values import QUANTITIES, checked
 from ..types import Array
 
+WEAKENING_RATE = declared(
+    "rate of linear slip weakening of the shear strength", "(0.0, 1e25) Pa/m", symbol="W"
+)
 DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
 _FALL = "rate of linear slip weakening of the shear strength"
 WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
@@ -52,6 +54,8 @@ class Range(float):
 
     def values_at(self, share: Array, entry: Quantity) -> Array:
         """Values at probabilities between 0 and 1."""
+        from scipy.special import ndtri
+
         ends = np.array([self.low, float(self), self.high])
         positive = entry.low >= 0.0 and self.low > 0.0
         low, middle, high = np.log(ends) if positive else ends

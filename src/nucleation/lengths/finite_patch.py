@@ -28,55 +28,50 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from ..theory.roots import roots
 from ..types import Array
 
 _Numbers = TypeVar("_Numbers")
 
 TERMS = 24  # slip modes sin(n theta), n odd: the first instability is even in x
 NODES = 200  # of the quadrature over theta
+LOWEST = 1e-3  # frequency over that of a uniform slip rate at which a search begins
+PRECISION = 1e-10  # of the frequency over V(0)/D
 _DEGREE = 12  # of the polynomial in log(1 - a/b) through the logarithms of the computed factors
 NEAREST = 0.99  # largest a/b of a loaded patch: closer to 1 the mode is confined to the middle
 
 
 @lru_cache(maxsize=1)
 def _basis() -> tuple[Array, Array, Array]:
-    """n; sin(theta) at the nodes; ``sin(m theta) sin(n theta)`` times the weights, (m, n, node)."""
+    """n; sin(theta) at the nodes; ``sin(m theta) sin(n theta)`` times the weights, (node, m n)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
     theta = 0.5 * np.pi * (points + 1.0)
     n = 2 * np.arange(TERMS) + 1
     sines = np.sin(np.outer(n, theta))
     products = weights * sines[:, None] * sines[None]
-    return n.astype(float), np.sin(theta), products
+    return n.astype(float), np.sin(theta), products.reshape(-1, NODES).T.astype(complex)
 
 
-def softest(answer: NDArray) -> complex:
-    """The softest mode of a patch, as the largest ``1/(2 lambda)`` with ``K u = lambda answer u``.
+def marginal_loaded_patches(a_over_b: Array) -> Array:
+    """``L zeta sigma0/(mu* D)`` at which loaded patches become unstable, for a/b in (0, 1), (n,).
 
-    Returns: With lambda in units of 1/h.
+    The softest mode has the largest ``1/(2 lambda)`` of ``K u = lambda answer u``, lambda over 1/h.
     """
-    n, _, products = _basis()
-    matrix = (products @ answer) / n[:, None]
-    values = np.linalg.eigvals(matrix)
-    return complex(values[np.argmax(values.real)])
+    n, sine, products = _basis()
 
+    def compliance(frequency: Array, index: NDArray) -> Array:
+        rate = 1j * frequency[:, None]
+        answer = rate * sine / (rate + sine) - rate * a_over_b[index, None]
+        values = np.linalg.eigvals((answer @ products).reshape(-1, n.size, n.size) / n[:, None])
+        softest = np.argmax(values.real, axis=1)
+        return values[np.arange(softest.size), softest]
 
-def marginal_loaded_patch(a_over_b: float) -> float:
-    """``L zeta sigma0/(mu* D)`` at which a loaded patch becomes unstable, for a/b in (0, 1)."""
-    _, sine, _ = _basis()
+    def negative(frequency: Array, index: NDArray) -> Array:
+        return -compliance(frequency, index).imag / frequency
 
-    def compliance(frequency: float) -> complex:
-        rate = 1j * frequency
-        return softest(rate * sine / (rate + sine) - rate * a_over_b)
-
-    low = 0.0
-    high = np.sqrt((1.0 - a_over_b) / a_over_b)  # the frequency of a uniform slip rate V(0)
-    while high - low > 1e-9 * high:
-        middle = 0.5 * (low + high)
-        if compliance(middle).imag > 0.0:
-            low = middle
-        else:
-            high = middle
-    return (1.0 - a_over_b) / compliance(high).real
+    uniform = np.sqrt((1.0 - a_over_b) / a_over_b)  # the frequency of a uniform slip rate V(0)
+    frequency = roots(negative, LOWEST * uniform, uniform, PRECISION)
+    return (1.0 - a_over_b) / compliance(frequency, np.arange(frequency.size)).real
 
 
 @lru_cache(maxsize=1)
@@ -84,7 +79,7 @@ def polynomial() -> Array:
     """Chebyshev coefficients of the factor's logarithm, over a scaled log(1 - a/b) in (-1, 1)."""
     points = np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
-    factors = [marginal_loaded_patch(ratio) for ratio in ratios]
+    factors = marginal_loaded_patches(ratios)
     return cast(Array, chebyshev.chebfit(points, np.log(factors), _DEGREE))
 
 

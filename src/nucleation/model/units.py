@@ -30,6 +30,13 @@ _EXPONENT = re.compile(r"(?<=[A-Za-zµμ])(-?\d+)")  # m-3 in the style of CF
 _COMMON_UNITS = "Pa kPa MPa GPa m km cm mm um nm s ms min h yr m/s mm/yr mm/s um/s Pa/s MPa/s"
 """Suggestions for an unknown unit; upper and lower case are not distinguished."""
 
+QUICK = {
+    "Pa": {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"},
+    "m": {"m": "1", "km": "1e3", "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "nm": "1e-9"},
+    "m/s": {"m/s": "1", "mm/s": "1e-3", "um/s": "1e-6", "nm/s": "1e-9"},
+}
+"""Common units over the declared one: importing the units library takes longer than an answer."""
+
 _DIMENSIONS = {
     "mass / length / time ** 2": "stress",
     "length / time": "velocity",
@@ -112,6 +119,8 @@ def _number(text: str, entry: Quantity) -> float:
 
 def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
     """A number of a unit, converted to the declared unit; the ValueError gives the reason."""
+    if unit in QUICK.get(entry.unit, {}):
+        return number * Decimal(QUICK[entry.unit][unit])
     import pint
 
     try:

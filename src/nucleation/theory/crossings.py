@@ -8,12 +8,11 @@ wavenumbers. Every dip of it above the last unstable point is searched for its m
 unstable band between two points is overlooked.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from .marginal import marginal_stiffness, stability_margin
+from .roots import roots
 from .spectrum import Systems
 from .stiffness import SATURATION, Array
 
@@ -23,8 +22,7 @@ ZOOMS = 4
 LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
 HALVINGS = 60  # of k, in the search among long waves
 TOGETHER = 50  # systems that are searched at once, so that their arrays stay in the cache
-MOST_STEPS = 100  # of Ridders' method, which needs about ten
-ROUND_OFF = 1e-16  # change of log k at which it ends
+ROUND_OFF = 1e-16  # change of log k at which a search ends
 
 
 def largest_crossings(systems: Systems) -> Array:
@@ -37,9 +35,18 @@ def largest_crossings(systems: Systems) -> Array:
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
     for start in range(0, layered.size, TOGETHER):
         chosen = layered[start : start + TOGETHER]
-        part = systems.at(chosen)
-        k[chosen] = _refined(part, *_brackets(part))
+        k[chosen] = _refined(systems.at(chosen))
     return k
+
+
+def _refined(systems: Systems) -> Array:
+    """The crossings, to round-off."""
+    low, high = _brackets(systems)
+
+    def margins(log_ratio: Array, index: NDArray) -> Array:
+        return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
+
+    return low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
 
 
 def _half_space_crossings(systems: Systems) -> Array:
@@ -135,72 +142,3 @@ def _brackets_of_long_waves(
     first = np.argmax(growing, axis=1)
     found = np.stack([k[rows, first], k[rows, first - 1]])
     return np.where(growing.any(axis=1), found, np.nan)
-
-
-class _Bracket(NamedTuple):
-    """Changes from negative to positive: positions and values to the left and to the right."""
-
-    left: Array
-    f_left: Array
-    right: Array
-    f_right: Array
-
-    def narrowed(
-        self,
-        x: Array,
-        f: Array,
-    ) -> "_Bracket":
-        """The brackets narrowed by a point within."""
-        inside = (self.left < x) & (x < self.right)
-        lower = inside & (f < 0.0)
-        upper = inside & (f >= 0.0)
-        return _Bracket(
-            left=np.where(lower, x, self.left),
-            f_left=np.where(lower, f, self.f_left),
-            right=np.where(upper, x, self.right),
-            f_right=np.where(upper, f, self.f_right),
-        )
-
-    def at(self, index: NDArray[np.bool_]) -> "_Bracket":
-        return _Bracket(*(values[index] for values in self))
-
-
-def _refined(
-    systems: Systems,
-    low: Array,
-    high: Array,
-) -> Array:
-    """The crossings within brackets, by Ridders' method in ``log(k/low)``, to round-off.
-
-    NaN brackets stay NaN. A crossing does not depend on the other systems.
-    """
-    found = np.full(low.size, np.nan)
-    index = np.flatnonzero(np.isfinite(low))
-    own = systems.at(index)
-    base = low[index]
-    bracket = _Bracket(
-        left=np.zeros_like(base),
-        f_left=stability_margin(own, base),
-        right=np.log(high[index] / base),
-        f_right=stability_margin(own, high[index]),
-    )
-    last = bracket.right
-    for _ in range(MOST_STEPS):
-        left, f_left, right, f_right = bracket
-        middle = 0.5 * (left + right)
-        f_middle = stability_margin(own, base * np.exp(middle))
-        scale = np.sqrt(f_middle**2 - f_left * f_right)
-        new = middle - (middle - left) * f_middle / scale
-        f_new = stability_margin(own, base * np.exp(new))
-        bracket = bracket.narrowed(middle, f_middle).narrowed(new, f_new)
-        found[index] = base * np.exp(new)
-        moving = np.abs(new - last) > ROUND_OFF
-        on = moving & (f_new != 0.0) & (bracket.f_left * bracket.f_right < 0.0)
-        if not on.any():
-            break
-        index = index[on]
-        own = own.at(on)
-        base = base[on]
-        last = new[on]
-        bracket = bracket.at(on)
-    return found

@@ -26,10 +26,10 @@ from typing import Any
 import numpy as np
 
 from ..types import Array, ComplexArray
-from .bisection import bisected
 from .crossings import largest_crossings
 from .evaluation import evaluate, require_broadcast
 from .patch_basis import patch_basis
+from .roots import bisected
 from .spectrum import Systems
 from .values import QUANTITIES, FaultLike, Values, checked, numbers_of
 

@@ -23,9 +23,8 @@ from ...model.friction import Friction
 from ...types import Array
 from ..status import NoLength
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import mirror_modes
 from .patches import Patches, require_contact
-from .response import MORE_MODES, response
+from .response import MORE_MODES, mirror_modes
 from .steady import Creep, EdgeSlip, edge_slip
 
 ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
@@ -72,14 +71,7 @@ class _Front:
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
         self.length = length
         self.responses = [
-            [
-                response(
-                    patches.one,
-                    one,
-                    number,
-                )
-                for one in length * np.exp(step)
-            ]
+            [patches.response(one, number) for one in length * np.exp(step)]
             for step in (-STEP, 0.0, STEP)
         ]
         steady_friction = self.law.expansion(self.velocity).f0

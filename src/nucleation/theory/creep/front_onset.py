@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...types import Array
-from ..bisection import bisected
+from ..roots import bisected
 from ..status import BEYOND, NoLength
 from .front import Advance, advance, fastest, oscillating
 from .patches import Patches

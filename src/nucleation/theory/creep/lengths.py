@@ -18,7 +18,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from ...model.friction import Friction
 from ...model.friction.constants import full_law
@@ -26,6 +25,7 @@ from ...model.quantities import ParameterError
 from ...types import Array
 from ..crossings import largest_crossings
 from ..evaluation import evaluate
+from ..roots import roots
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE, NoLength
 from ..values import FaultLike
@@ -78,6 +78,9 @@ def _point_beyond(
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
 
+    def growths(log_lengths: Array, _: NDArray) -> Array:
+        return np.array([growth(at) for at in log_lengths])
+
     step = math.log(FACTOR)
     longest = math.log(LONGEST * critical)
     low = math.log(start)
@@ -92,7 +95,7 @@ def _point_beyond(
                 f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
                 BEYOND,
             )
-    log_length = brentq(growth, low, high, xtol=PRECISION)
+    (log_length,) = roots(growths, np.array([low]), np.array([high]), PRECISION)
     return _point(patches, math.exp(log_length))
 
 

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
 
 from ...model.friction import Friction
 from ...types import Array, ComplexArray
@@ -89,6 +88,8 @@ class FrozenPatch:
 
 def _null_vector(matrix: ComplexArray) -> ComplexArray:
     """Null vector of a nearly singular matrix, by inverse iteration."""
+    from scipy.linalg import lu_factor, lu_solve
+
     factors = lu_factor(matrix)
     vector = np.ones(matrix.shape[0], dtype=complex)
     for _ in range(INVERSE_ITERATIONS):

@@ -11,7 +11,7 @@ from ...model.friction import Friction
 from ..spectrum import Systems
 from ..status import NoLength
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
-from .response import modes_for, response
+from .response import PatchResponse, SlimLayers, modes_for, response
 from .steady import Creep, creep
 
 
@@ -31,6 +31,12 @@ class Patches:
     load_rate: float = 1.0
     evolution: str = "aging"  # of the state, with constant a and b; a law has its own
     refinement: int = 1  # times the usual number of modes
+    _slim: SlimLayers = dataclasses.field(
+        default_factory=dict,
+        init=False,
+        repr=False,
+        compare=False,
+    )
 
     @cached_property
     def number(self) -> int:
@@ -49,6 +55,10 @@ class Patches:
         """f, a and zeta of the fault at V."""
         one = self.one
         return float(one.friction[0]), float(one.a[0]), float(one.zeta[0])
+
+    def response(self, length: float, number: int) -> PatchResponse:
+        """The bodies' response to slip of a patch (m) in a number of modes."""
+        return response(self.one, length, number, self.loading, self._slim)
 
     def creep(
         self,
@@ -74,7 +84,7 @@ class Patches:
         NoLength
             If the creep removes all of the compression somewhere.
         """
-        bodies = response(self.one, length, number or self.number, self.loading)
+        bodies = self.response(length, number or self.number)
         load_rate = None if self.loading == "edge" else self.load_rate
         found = creep(bodies, self.constants[0], load_rate)
         require_contact(found)

@@ -1,12 +1,42 @@
-"""The stress due to slip of a patch between given bodies, in the modes of :mod:`.modes`."""
+"""The stress due to slip of a patch between given bodies, in modes that fit the patch's two ends.
+
+With ``x = L cos(theta)`` and U the displacement of an edge that is pushed, slip is expanded as
+
+    odd       u(x) = U phi_0 + sum_n c_n sin(2 n theta),    phi_0 = 2 theta/pi,    u - U odd in x,
+    even      u(x) = sum_n c_n sin((2 n - 1) theta),                               u even in x,
+
+n = 1 ... N. Odd slip is that of an edge that is pushed. Under a remote load it is the sum of both
+without U, with L half the patch. Each mode vanishes at the front (theta = 0) as a square root. At x
+= 0 is the edge, which has no shear stress, or the middle of the patch; beyond it fields continue as
+their mirror image, and beyond the front ``u = 0``. The Fourier transform of ``sin(m theta)'`` is
+then a sum of ``-pi m (-i)^m J_m(k L)`` (DLMF 10.9), that of ``phi_0'`` has ``2/pi`` for m and J_0.
+With the transfer functions of :mod:`nucleation.theory.stiffness` and ``kappa = k L > 0``
+
+    shear stress lost:     mu int G1 s_m m J_m(kappa) sin(kappa x/L) dkappa/L ,    m even,
+    compression gained:    mu int G2 s_m m J_m(kappa) cos(kappa x/L) dkappa/L ,
+
+``s_m = -(-1)^(m/2)``; for odd m with cos and -sin, ``s_m = (-1)^((m-1)/2)``. For half-spaces G1 and
+G2 are constant and the integrals known, ``mu G1 m sin(m theta)/(L sin theta)`` and ``mu G2 u'``.
+The difference between layers and half-spaces is integrated up to ``kH = CUT``, where it vanishes.
+There is no box and no mesh.
+"""
 
 import dataclasses
+from functools import cached_property, lru_cache
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...types import Array
 from ..spectrum import Systems
-from .modes import CUT, Modes, mirror_modes
+
+CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
+WIDTH = 6.0  # of the panels of kappa: J_2n(kappa) oscillates with 2 pi
+POINTS = 10  # Gauss points of a panel
+FINEST = 1e-3  # the first panel, of thick layers
+NEGLIGIBLE = 1e-100  # of J_m at small kappa, whose products underflow
+GRADED = 14  # ends of panels that grow from the finest to the full width
 
 MODES = 16  # of slip: enough for an error of L_s of some 1e-4
 MORE_MODES = 32
@@ -21,6 +51,82 @@ thinner than the last are extrapolated."""
 SLIMMEST = REACHES[-1]
 EXTRAPOLATED = 1e-3  # error of L_s of the slimmest layers, against their limit (:mod:`.thin`)
 ROUNDING = 1.0 + 1e-9  # of a ratio that is compared with REACHES
+
+SlimLayers: TypeAlias = dict[tuple[int, float, bool], tuple[Array, Array]]
+"""Shear and normal response of a patch of length 1 between layers of one slimness, by the number
+of modes, the length over the height, and the symmetry."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Modes:
+    """The modes at `theta`, for any fault; column 0 is the imposed displacement."""
+
+    theta: Array  # (N,), from the front to the edge, or on to the other front
+    values: Array  # phi_0, or zero, and the sines at theta, (N, N + 1)
+    smoothing: Array  # factors that damp the last sines, (N + 1,)
+
+    @cached_property
+    def inverse(self) -> Array:
+        """From values at theta to the sines' coefficients, (N, N)."""
+        return np.asarray(np.linalg.inv(self.values[:, 1:]), dtype=float)
+
+    def at(self, theta: Array) -> Array:
+        """phi_0 and the sines of a pushed edge at other angles, (angle, N + 1)."""
+        n = np.arange(self.theta.size + 1)
+        values = np.sin(2.0 * np.outer(theta, n))
+        values[:, 0] = 2.0 * theta / np.pi
+        return values
+
+
+@dataclasses.dataclass(frozen=True)
+class MirrorModes(Modes):
+    """Modes that are even or odd about x = 0."""
+
+    orders: NDArray  # m, (N + 1,)
+    weights: Array  # m, or 2/pi of phi_0, (N + 1,)
+    gradients: Array  # L u', (N, N + 1)
+    half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
+
+
+@lru_cache(maxsize=16)
+def mirror_modes(number: int, even: bool = False) -> MirrorModes:
+    """The modes of one symmetry about x = 0, at as many angles."""
+    n = np.arange(number + 1)
+    theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number
+    sine_of_theta = np.sin(theta)[:, None]
+    orders = np.abs(2 * n - 1) if even else 2 * n
+    angles = np.outer(theta, orders) if even else 2.0 * np.outer(theta, n)
+    values = np.sin(angles)
+    values[:, 0] = 0.0 if even else 2.0 * theta / np.pi
+    weights = np.where(n == 0, 0.0 if even else 2.0 / np.pi, orders)
+    return MirrorModes(
+        theta=theta,
+        values=values,
+        smoothing=np.exp(-36.0 * (n / (number + 1)) ** 6),
+        orders=orders,
+        weights=weights,
+        gradients=-weights * np.cos(angles) / sine_of_theta,
+        half_space=orders * (n > 0) * np.sin(angles) / sine_of_theta,
+    )
+
+
+@lru_cache(maxsize=16)
+def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array, Array]:
+    """kappa; sin(kappa x/L) at theta, or cos; cos, or -sin; weighted ``s_m m J_m(kappa)``."""
+    from scipy.special import jv
+
+    modes = mirror_modes(number, even)
+    edges = np.append(0.0, np.geomspace(FINEST, WIDTH, GRADED))
+    edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * reach + WIDTH, WIDTH))
+    points, shares = np.polynomial.legendre.leggauss(POINTS)
+    half = 0.5 * np.diff(edges)[:, None]
+    kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
+    bessel = jv(modes.orders, kappa[:, None]) * (half * shares).reshape(-1, 1)
+    bessel[np.abs(bessel) < NEGLIGIBLE] = 0.0
+    phase = np.outer(kappa, np.cos(modes.theta))
+    sine, cosine = np.sin(phase), np.cos(phase)
+    slip = -bessel * modes.weights * (-1.0) ** np.arange(number + 1)
+    return (kappa, cosine, -sine, slip) if even else (kappa, sine, cosine, slip)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,27 +155,35 @@ def response(
     length: float,
     number: int = MODES,
     loading: str = "edge",
+    slim: SlimLayers | None = None,
 ) -> PatchResponse:
-    """The response of one fault's bodies to slip of a patch.
+    """The response of one fault's bodies to slip of a patch (m), which `slim` makes cheaper.
 
-    Takes length (m). Returns: Column 0 is for the imposed quantity: the edge's displacement, or
-    under a remote load a shear stress of sigma0 on all of the interface.
+    Column 0 is for the imposed quantity: the edge's displacement, or under a remote load a shear
+    stress of sigma0 on all of the interface.
     """
+    known: SlimLayers = {} if slim is None else slim
     if loading == "edge":
-        return _mirror_response(one, length, number, even=False)
-    odd = _mirror_response(one, 0.5 * length, number, even=False)
-    even = _mirror_response(one, 0.5 * length, number, even=True)
-    one_side = odd.modes.theta
-    modes = Modes(
-        theta=np.append(one_side, np.pi - one_side),
-        values=_on_both_sides(odd.modes.values, even.modes.values, 1.0),
-        smoothing=np.append(odd.modes.smoothing, even.modes.smoothing[1:]),
-    )
+        odd, normal = _mirror_response(one, length, number, False, known)
+        return PatchResponse(mirror_modes(number), length, odd, normal)
+    odd, odd_normal = _mirror_response(one, 0.5 * length, number, False, known)
+    even, even_normal = _mirror_response(one, 0.5 * length, number, True, known)
     return PatchResponse(
-        modes=modes,
+        modes=_modes_of_both(number),
         length=length,
-        shear=_on_both_sides(odd.shear, even.shear, 1.0, imposed=-1.0),
-        normal=_on_both_sides(odd.normal, even.normal, -1.0),
+        shear=_on_both_sides(odd, even, 1.0, imposed=-1.0),
+        normal=_on_both_sides(odd_normal, even_normal, -1.0),
+    )
+
+
+@lru_cache(maxsize=16)
+def _modes_of_both(number: int) -> Modes:
+    """The modes of both symmetries, at x > 0 and at x < 0."""
+    odd, even = mirror_modes(number), mirror_modes(number, even=True)
+    return Modes(
+        theta=np.append(odd.theta, np.pi - odd.theta),
+        values=_on_both_sides(odd.values, even.values, 1.0),
+        smoothing=np.append(odd.smoothing, even.smoothing[1:]),
     )
 
 
@@ -85,17 +199,20 @@ def _on_both_sides(
     return np.insert(columns, 0, imposed, axis=1)
 
 
-def _slimness(
-    one: Systems,
-    length: float,
-) -> float:
-    """Patch length (m) over the height of the lower of the bodies."""
-    return length / min(float(body.height[0]) for body in one.pair.deformable)
+def _lowest(one: Systems) -> float:
+    """The height (m) of the lower of the bodies."""
+    return min(float(body.height[0]) for body in one.pair.deformable)
+
+
+def extrapolation_error(one: Systems, length: float) -> float:
+    """Upper bound of the relative error of L_s (m) due to layers slimmer than the tables reach."""
+    slim = length / _lowest(one)
+    return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
 
 
 def _half_space_functions(one: Systems) -> tuple[Array, Array]:
     """G1 and G2 of half-spaces of the same materials, for k > 0."""
-    return _with_heights_times(one, np.inf).pair.transfer_functions(np.ones(1))
+    return one.pair.with_heights(lambda height: np.inf * height).transfer_functions(np.ones(1))
 
 
 def _mirror_response(
@@ -103,35 +220,21 @@ def _mirror_response(
     length: float,
     number: int,
     even: bool,
-) -> PatchResponse:
-    """The response in the modes of one symmetry about x = 0, at x > 0.
+    known: SlimLayers,
+) -> tuple[Array, Array]:
+    """The shear and the normal response in the modes of one symmetry about x = 0, at x > 0.
 
     A layer that is slimmer than the tables reach is extrapolated, linearly in H/L, from the
     slimmest one with tables and one twice as high.
     """
-    slim = _slimness(one, length)
+    slim = length / _lowest(one)
     if slim <= SLIMMEST:
         return _resolved(one, length, number, even)
-    first = _thickened(one, length, number, even, slim / SLIMMEST)
-    second = _thickened(one, length, number, even, slim / (0.5 * SLIMMEST))
+    first = _thickened(one, length, number, even, SLIMMEST, known)
+    second = _thickened(one, length, number, even, 0.5 * SLIMMEST, known)
     beyond = SLIMMEST / slim - 1.0
-    return dataclasses.replace(
-        first,
-        shear=first.shear + beyond * (second.shear - first.shear),
-        normal=first.normal + beyond * (second.normal - first.normal),
-    )
-
-
-def extrapolation_error(
-    one: Systems,
-    length: float,
-) -> float:
-    """Upper bound of the error of L_s due to layers slimmer than the tables reach.
-
-    Takes length (m). Returns: Relative error of L_s.
-    """
-    slim = _slimness(one, length)
-    return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
+    shear, normal = (one + beyond * (two - one) for one, two in zip(first, second, strict=True))
+    return shear, normal
 
 
 def _resolved(
@@ -139,30 +242,25 @@ def _resolved(
     length: float,
     number: int,
     even: bool,
-) -> PatchResponse:
+) -> tuple[Array, Array]:
     """The same of layers that are not slimmer than the tables reach.
 
     A slimmer zone beside the fault is replaced by a thicker one that resists long waves alike.
     """
-    one = one._replace(pair=one.pair.with_zones_at_least(length / SLIMMEST))
-    slim = length / min(float(thickness[0]) for thickness in one.pair.thicknesses)
-    reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
-    modes = mirror_modes(number, reach, even)
-    used = np.searchsorted(modes.kappa, CUT * slim)
-    far_g1, far_g2 = _half_space_functions(one)
-    g1, g2 = one.pair.transfer_functions(modes.kappa[:used] / length)
-    slip = modes.slip[:used]
-    more_g1 = (g1 - far_g1)[:, None]
-    more_g2 = (g2 - far_g2)[:, None]
-    more_shear = modes.shear[:used].T @ (more_g1 * slip)
-    more_normal = modes.normal[:used].T @ (more_g2 * slip)
+    pair = one.pair.with_zones_at_least(length / SLIMMEST)
+    slim = length / min(float(thickness[0]) for thickness in pair.thicknesses)
+    modes = mirror_modes(number, even)
+    far_g1, far_g2 = _half_space_functions(one._replace(pair=pair))
+    shear, normal = far_g1 * modes.half_space, far_g2 * modes.gradients
+    if slim > 0.0:
+        reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
+        kappa, *waves, slip = _tables(number, reach, even)
+        used = np.searchsorted(kappa, CUT * slim)
+        g1, g2 = pair.transfer_functions(kappa[:used] / length)
+        shear = shear + waves[0][:used].T @ ((g1 - far_g1)[:, None] * slip[:used])
+        normal = normal + waves[1][:used].T @ ((g2 - far_g2)[:, None] * slip[:used])
     scale = float(one.softness[0]) / length
-    return PatchResponse(
-        modes=modes,
-        length=length,
-        shear=scale * (far_g1 * modes.half_space + more_shear),
-        normal=scale * (far_g2 * modes.gradients + more_normal),
-    )
+    return scale * shear, scale * normal
 
 
 def _thickened(
@@ -170,32 +268,25 @@ def _thickened(
     length: float,
     number: int,
     even: bool,
-    factor: float,
-) -> PatchResponse:
-    """The response of layers made thicker by a factor, corrected by the ratio of G at ``kL = pi``.
+    reach: float,
+    known: SlimLayers,
+) -> tuple[Array, Array]:
+    """The response of layers made thicker, corrected by the ratio of G at ``kL = pi``.
 
-    Where ``kH`` is small G1 and G2 are powers of k, and thickness only scales them.
+    Where ``kH`` is small G1 and G2 are powers of k, and thickness only scales them. Over L, layers
+    of one slimness are the same whatever L is.
     """
-    thicker = _with_heights_times(one, factor)
-    k = np.array([np.pi / length])
-    g1, g2 = one.pair.transfer_functions(k)
-    thick_g1, thick_g2 = thicker.pair.transfer_functions(k)
+    factor = 1.0 / (reach * _lowest(one))
+    unit = one._replace(pair=one.pair.with_heights(lambda height: factor * height))
+    key = number, reach, even
+    if key not in known:
+        known[key] = _resolved(unit, 1.0, number, even)
+    shear, normal = known[key]
+    g1, g2 = one.pair.transfer_functions(np.array([np.pi / length]))
+    thick_g1, thick_g2 = unit.pair.transfer_functions(np.array([np.pi]))
     with np.errstate(divide="ignore", invalid="ignore"):
         by_shear = float(g1[0] / thick_g1[0])
         by_normal = float(g2[0] / thick_g2[0])
     if not np.isfinite(by_normal):
         by_normal = 0.0
-    found = _resolved(thicker, length, number, even)
-    return dataclasses.replace(
-        found,
-        shear=by_shear * found.shear,
-        normal=by_normal * found.normal,
-    )
-
-
-def _with_heights_times(
-    one: Systems,
-    factor: float,
-) -> Systems:
-    """The system with all heights multiplied."""
-    return one._replace(pair=one.pair.with_heights(lambda height: factor * height))
+    return by_shear / length * shear, by_normal / length * normal

@@ -16,12 +16,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from ...types import Array
+from ..roots import roots
 
 DEGREE = 48  # of the polynomials: eigenvalues to 1e-10 for zeta/a from 0.1 on
 LOWEST = 1e-3  # angular frequency over V/D at which the search begins
-PRECISION = 1e-12  # relative, of the frequency
+PRECISION = 1e-12  # of the frequency over V/D
 
 
 class _ThinLimit(NamedTuple):
@@ -67,14 +69,12 @@ def thin_limit(
     """
     if not zeta_over_a > 0.0:
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
-    low = LOWEST
-    high = np.sqrt(zeta_over_a)  # the frequency of homogeneous sliding
-    while high - low > PRECISION * high:
-        middle = 0.5 * (low + high)
-        if _longest_wave(zeta_over_a, middle, degree).imag > 0.0:
-            low = middle
-        else:
-            high = middle
-    found = _longest_wave(zeta_over_a, high, degree)
+
+    def negative(frequency: Array, _: NDArray) -> Array:
+        return np.array([-_longest_wave(zeta_over_a, at, degree).imag for at in frequency])
+
+    homogeneous = np.sqrt([zeta_over_a])  # the frequency of homogeneous sliding
+    (frequency,) = roots(negative, np.array([LOWEST]), homogeneous, PRECISION)
+    found = _longest_wave(zeta_over_a, frequency, degree)
     ratio = 1.0 / (2.0 * np.pi * np.sqrt(found.real))
-    return _ThinLimit(float(ratio), high)
+    return _ThinLimit(float(ratio), float(frequency))

@@ -1,0 +1,66 @@
+"""Where functions change their sign: importing scipy.optimize takes longer than most answers."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..types import Array
+
+MOST_STEPS = 100  # of Ridders' method, which needs about ten
+
+
+def roots(
+    function: Callable[[Array, NDArray[np.intp]], Array],
+    low: Array,
+    high: Array,
+    precision: float,
+) -> Array:
+    """Where functions rise through zero between `low` and `high`, (n,), by Ridders' method.
+
+    `function` takes positions and the numbers of the functions. NaN remains NaN. The method ends
+    where a step is below `precision`; a root does not depend on the other functions.
+    """
+    found = np.full(low.size, np.nan)
+    index = np.flatnonzero(np.isfinite(low))
+    left, right = low[index], high[index]
+    f_left, f_right = function(left, index), function(right, index)
+    last = right
+    for _ in range(MOST_STEPS):
+        middle = 0.5 * (left + right)
+        f_middle = function(middle, index)
+        scale = np.sqrt(f_middle**2 - f_left * f_right)
+        new = middle - (middle - left) * f_middle / scale
+        f_new = function(new, index)
+        for x, f in ((middle, f_middle), (new, f_new)):
+            inside = (left < x) & (x < right)
+            lower, upper = inside & (f < 0.0), inside & (f >= 0.0)
+            left, f_left = np.where(lower, (x, f), (left, f_left))
+            right, f_right = np.where(upper, (x, f), (right, f_right))
+        found[index] = new
+        on = (np.abs(new - last) > precision) & (f_new != 0.0) & (f_left * f_right < 0.0)
+        if not on.any():
+            break
+        index, last = index[on], new[on]
+        left, f_left, right, f_right = (values[on] for values in (left, f_left, right, f_right))
+    return found
+
+
+def bisected(
+    beyond: Callable[[float], bool],
+    low: float,
+    high: float,
+    precision: float,
+) -> float:
+    """The length (m) from which on a condition holds, to a relative precision.
+
+    It does not hold at `low` and holds at `high`.
+    """
+    while high > low * (1.0 + precision):
+        middle = math.sqrt(low * high)
+        if beyond(middle):
+            high = middle
+        else:
+            low = middle
+    return math.sqrt(low * high)
