@@ -41,6 +41,10 @@ try:
 except SystemExit as end:
     assert not end.code
 """
+HALF_SPACES = (
+    "length --shear-modulus=30GPa --poisson-ratio=0.25 --normal-stress=50MPa --a=0.010 --b=0.015 "
+    "--slip-distance=5um"
+)
 DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
 NEEDED_LATER = {
     "theory": (LENGTHS, (*SOLVER, *HEAVY, "scipy", "pandas")),
@@ -49,6 +53,7 @@ NEEDED_LATER = {
     "help": (COMMAND.format(words="--help"), (*SOLVER, *HEAVY)),
     "help of simulate": (COMMAND.format(words="simulate --help"), (*SOLVER, *HEAVY)),
     "help of length": (COMMAND.format(words="length --help"), SOLVER),  # it knows named dimensions
+    "length": (COMMAND.format(words=HALF_SPACES), (*SOLVER, *HEAVY, "scipy")),
     "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
     "plan": (PLAN.format(root=ROOT), COMPILED),
     "reading and drawing": (

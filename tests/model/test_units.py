@@ -1,6 +1,7 @@
 """Values as people write them, and arrays that carry a unit."""
 
 import math
+from decimal import Decimal
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,7 +11,7 @@ import xarray as xr
 
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations, declared
-from nucleation.model.units import magnitude, parse, registry
+from nucleation.model.units import QUICK, magnitude, parse, registry
 from nucleation.run.names import parameters
 from nucleation.theory.values import QUANTITIES
 from replication.configuration.settings import GROUPS
@@ -47,6 +48,13 @@ DENSITY = declarations(Material)["density"]
 def test_values_in_si_units(key, text, value):
     found = parse(key, text, QUANTITIES[key])
     assert found == value if isinstance(value, str) else found == pytest.approx(value, rel=1e-6)
+
+
+def test_common_units_are_those_of_the_units_library():
+    for declared_unit, known in QUICK.items():
+        for unit, factor in known.items():
+            found = registry().Quantity(Decimal(1), registry().parse_units(unit))
+            assert found.to(declared_unit).magnitude == Decimal(factor)
 
 
 @pytest.mark.parametrize(

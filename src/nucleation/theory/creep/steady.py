@@ -72,7 +72,7 @@ def edge_slip(
 
     Where slip changes the normal stress, the front's singularity is no square root, and the edge is
     not regular. An error of alternating sign at neighbouring places remains, which
-    :attr:`~nucleation.theory.creep.modes.Modes.smoothing` removes from the result.
+    :attr:`~nucleation.theory.creep.response.Modes.smoothing` removes from the result.
 
     Returns: Coefficients of shape (N + 1,).
     """
