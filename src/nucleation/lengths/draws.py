@@ -19,8 +19,6 @@ WEAKENING_RATE = declared(
     "rate of linear slip weakening of the shear strength", "(0.0, 1e25) Pa/m", symbol="W"
 )
 DRAWS = declared("number of draws", "[20, 1e6]", kind="int")
-_FALL = "rate of linear slip weakening of the shear strength"
-WEAKENING_RATE = declared(_FALL, "(0.0, 1e25) Pa/m", symbol="W")
 SAMPLED = {name: entry for name, entry in QUANTITIES.items() if not entry.worded}
 SAMPLED["weakening_rate"] = WEAKENING_RATE
 SAMPLED["zeta_over_a"] = ZETA_OVER_A
