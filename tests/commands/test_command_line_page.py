@@ -28,7 +28,7 @@ def test_examples(nucleation, tmp_path, monkeypatch):
     (file,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
     Path("fault.yaml").write_text(file)
     found = list(examples())
-    assert len(found) == 8
+    assert len(found) == 7
     for command, output in found:
         ended = nucleation(*shlex.split(command))
         said = re.sub(r"^step \d.*\n", "", ended.out + ended.err, flags=re.MULTILINE)

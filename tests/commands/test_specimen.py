@@ -78,7 +78,7 @@ PLATES = [
         ("25cm", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the drop 0.198 m"),
         ("20cm", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
         ("15cm", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the specimen"),
-        ("12cm", "simulated blocks had events from 0.7 L_s on"),
+        ("12cm", "blocks of one simulated fault had events from 0.7 L_s on"),
     ],
 )
 def test_a_simulated_event_is_not_denied(nucleation, length, verdict, criterion):

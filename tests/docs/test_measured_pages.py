@@ -283,6 +283,28 @@ def test_outcomes_in_the_library_are_those_of_the_reference():
     assert dynamic == pytest.approx(DYNAMIC, rel=5e-3)
 
 
+def test_limits_of_the_simulated_patches_are_stated():
+    """Widths that one slip rate alone was simulated at, and peaks that no mesh resolves."""
+    table = reference("weakening_patches").round({"zeta_over_a": 3, "strengthening": 2})
+    one_rate = 0
+    for row in pd.DataFrame(simulated()).itertuples():
+        same = table[(table["varies"] == row.varies) & (table["outcome"] == "event")]
+        same = same[np.isclose(same["zeta_over_a"], row.zeta_over_a)]
+        same = same[np.isclose(same["strengthening"], row.strengthening, atol=6e-3)]
+        here = same[np.isclose(same["width_ratio"], row.events_from, rtol=2e-3)]
+        assert 5e-11 in set(here["velocity"])
+        one_rate += here["velocity"].nunique() == 1
+    events = table[table["outcome"] == "event"]
+    peaks = (events["fastest"] / events["dynamic_rate"]).sort_values(ascending=False)
+    assert peaks.iloc[0] > 3e4 and peaks.iloc[1] > 4e3
+    says(
+        "creeping_patch.md",
+        f"Of the {len(simulated())} second widths {one_rate} were simulated at one $V$ only",
+        f"{peaks.iloc[2]:.0f} $v_d$",
+        f"all others are {peaks.iloc[-1]:.1f} to {peaks.iloc[3]:.0f} $v_d$",
+    )
+
+
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
     page = (DOCS / "creeping_patch.md").read_text(encoding="utf-8")
     table = patch_theory_errors()

@@ -73,7 +73,7 @@ def test_weak_weakening_between_blocks_depends_on_their_height():
         "results.md",
         f"from {span(unstable, 1)} $L_c^M$ on",
         f"it comes at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}) "
-        f"and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}).",
+        f"and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f})",
     )
 
 

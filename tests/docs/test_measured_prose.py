@@ -3,13 +3,11 @@
 Each test writes the words of the page with the numbers of today's tables, and looks for them there.
 """
 
-import re
-
 import numpy as np
 import pandas as pd
 import pytest
 from asked import critical_length, stability_length
-from docs.prose import page, says, span, table
+from docs.prose import says, span, table
 
 from nucleation.api import Friction
 from nucleation.theory.creep.thin import thin_limit
@@ -89,7 +87,7 @@ def test_agreement_with_the_theory():
         f"$L/L_c$ is {span(paper)} on the paper's mesh and {span(declared)} declared, so the "
         f"dependence on height agrees within {100 * (apart['p'] - 1):.0f} and "
         f"{100 * (apart['d'] - 1):.0f} %.",
-        f"its own 0.15 m is {own:.2f} of its theory",
+        f"own 0.15 m is {own:.2f} of its theory",
         "Of nine heights 9, 7, 5 and 2 are within 40, 33, 30 and 25 % of the theory on the paper's "
         "mesh, and 9, 9, 2 and none declared.",
         rf"With the edge at $0.5\,V$ the lowest is {lowest:.2f}.",
@@ -174,7 +172,6 @@ def test_length_of_instability_over_the_weakening():
     says("README.md", r"$\zeta/a = 0.2$ to 0.45, the whole wavelength is right within 25 %")
     right = [(thin_limit(ratio).length_ratio, between_half_spaces(ratio)) for ratio in (0.2, 0.45)]
     assert np.abs(np.array(right) - 1.0).max() < 0.25
-    says("creeping_patch.md", rf"{thin[0.2]:.3f} for $\zeta/a = 0.2$, {thin[0.5]:.3f} for 0.5")
 
 
 def between_half_spaces(weakening, a=0.0068):
@@ -201,21 +198,6 @@ def test_the_theory_of_the_patch_against_all_simulations():
         f"{100 * errors.max():.1f} % at worst",
         rf"from {span(ratios, 3)} for $\zeta/a = 2.29$ and $H = 0.03$ m",
     )
-
-
-def test_slow_slip_before_the_drop():
-    """L_run as the table of drop.md has it, which tests/theory/creep/test_runaway.py computes."""
-    section = page("drop.md").partition("## Weak weakening")[2].partition("## ")[0]
-    weakenings, lengths = (
-        re.search(rf"\| {re.escape(name)} \|((?: [\d.]+ \|)+)", section)[1].split(" |")
-        for name in (r"$\zeta/a$", r"$L_{\mathrm{run}}/L_c$")
-    )
-    lengths_of = {
-        weakening.strip(): length.strip()
-        for weakening, length in zip(weakenings, lengths, strict=True)
-    }
-    stated = rf"{lengths_of['0.3']} $L_c$ for $\zeta/a = 0.3$, {lengths_of['0.5']} for 0.5"
-    says("results.md", stated)
 
 
 def test_the_map():

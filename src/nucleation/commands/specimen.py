@@ -104,7 +104,7 @@ def _verdict(length: float, found: Lengths) -> str:
         return f"it can nucleate: {known}"
     return (
         f"whether it nucleates is not known: {known}; these are lengths in long blocks, and "
-        f"simulated blocks had events from {_SHORTEST_EVENT:g} L_s on, where the end is free"
+        f"blocks of one simulated fault had events from {_SHORTEST_EVENT:g} L_s on (free ends)"
     )
 
 
