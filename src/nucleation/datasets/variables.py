@@ -34,6 +34,18 @@ def some(columns: Mapping[str, Variable], names: str) -> dict[str, Variable]:
     return {name: columns[name] for name in names.split()}
 
 
+def declared(text: str, known: Mapping[str, Variable] | None = None) -> dict[str, Variable]:
+    """Columns of a table by lines of name, unit, long name and symbol, which bars separate.
+
+    A line without a bar has names of columns that are known already.
+    """
+    found: dict[str, Variable] = {}
+    for line in text.strip().splitlines():
+        name, *entry = (cell.strip() for cell in line.split("|"))
+        found |= {name: Variable(*entry)} if entry else some(known or {}, name)
+    return found
+
+
 def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset:
     """A copy of a dataset with the declared metadata; other variables stay as they are."""
     annotated = dataset.copy()

@@ -7,29 +7,30 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, annotate, some
+from nucleation.datasets.variables import annotate, declared
 from nucleation.fault import Fault
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 
 from .rows import SHARED
 
-CURVES = {
-    "height": SHARED["height"],
-    "critical_length": Variable("m", "critical nucleation length", "L_c"),
-    "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),
-    "critical_frequency": Variable("1/s", "angular frequency at the critical wavenumber", "omega"),
-    "thin_limit_length": Variable("m", "critical nucleation length for Hk -> 0", "L_c"),
-    **some(SHARED, "zeta_over_a f_beta"),
-    "bimaterial_length_ratio": Variable(
-        "1", "critical length of a bimaterial interface over L_c^M", "L_c/L_c^M"
-    ),
-    "slip_rate": Variable("m/s", "slip rate", "v"),
-    "steady_friction": Variable("1", "steady-state friction, full law", "f"),
-    "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
-    "friction_reference": Variable("1", "friction coefficient at V", "f0"),
-    **some(SHARED, "a zeta velocity"),
-}
+CURVES = declared(
+    """
+    height
+    critical_length | m | critical nucleation length | L_c
+    critical_wavenumber | 1/m | critical wavenumber | k_c
+    critical_frequency | 1/s | angular frequency at the critical wavenumber | omega
+    thin_limit_length | m | critical nucleation length for Hk -> 0 | L_c
+    zeta_over_a f_beta
+    bimaterial_length_ratio | 1 | critical length of a bimaterial interface over L_c^M | L_c/L_c^M
+    slip_rate | m/s | slip rate | v
+    steady_friction | 1 | steady-state friction, full law | f
+    steady_friction_logarithmic | 1 | steady-state friction, logarithmic law | f
+    friction_reference | 1 | friction coefficient at V | f0
+    a zeta velocity
+    """,
+    SHARED,
+)
 
 
 def main_text(fault: Fault) -> Fault:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
+from nucleation.datasets.variables import annotate, declared, some, table, to_csv
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.model.settings import Perturbation
@@ -34,31 +34,34 @@ MEASURED = some(
     "block_length longest_step onset_time length critical_length",
 )
 
-LAW = {
-    "law_length": Variable("m", "length at the drop by the law, median", "L"),
-    "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
-    "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
-}
+LAW = declared("""
+    law_length | m | length at the drop by the law, median | L
+    law_low | m | length by which 16 % have dropped by the law | L
+    law_high | m | length by which 84 % have dropped by the law | L
+""")
 
-PREDICTED = {
-    "stability_length": LENGTHS["stability_length"],
-    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
-    **LAW,
-    "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
-    "floor_state": Variable("1", "strength of the state at which the law drops there"),
-}
+PREDICTED = declared(
+    """
+    stability_length
+    front_length | m | L_s by theory, with the advancing front | L_s
+    law_length law_low law_high
+    floor_normal_load | 1 | strength of the load at which the law drops there
+    floor_state | 1 | strength of the state at which the law drops there
+    """,
+    LENGTHS | LAW,
+)
 
 COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
 
-CURVES = {
-    "curve_fault": Variable("", "fault of a curve, as in the column fault"),
-    "curve_kind": Variable("", "kind of perturbation of a curve"),
-    "curve_strength": Variable("1", "relative strength", "eps"),
-    "curve_length": LAW["law_length"],
-    "curve_low": LAW["law_low"],
-    "curve_high": LAW["law_high"],
-    "curve_closed_form": Variable("m", "length at the drop by the law in one line", "L"),
-}
+CURVES = declared("""
+    curve_fault | | fault of a curve, as in the column fault
+    curve_kind | | kind of perturbation of a curve
+    curve_strength | 1 | relative strength | eps
+    curve_length | m | length at the drop by the law, median | L
+    curve_low | m | length by which 16 % have dropped by the law | L
+    curve_high | m | length by which 84 % have dropped by the law | L
+    curve_closed_form | m | length at the drop by the law in one line | L
+""")
 """The law over the strength, for each fault under each of :data:`KINDS`."""
 
 KINDS = ("normal_load", "state")
@@ -150,56 +153,55 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
 
 # -- the answer for a fault ---------------------------------------------------------------------
 
-EXPECTED = {
-    "stability_length": LENGTHS["stability_length"],
-    "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
-    "runaway_status": Variable("", "value, or why there is none: stable, beyond or unknown"),
-    "law_length": LAW["law_length"],
-    "expected_length": Variable("m", "expected length at the drop", "L"),
-    "expected_low": Variable("m", "least length at the drop that is expected", "L"),
-    "expected_high": Variable("m", "largest length at the drop that is expected", "L"),
-    "doubt": Variable("", "why the expected length should not be relied upon"),
-}
+EXPECTED = declared(
+    """
+    stability_length
+    runaway_length | m | runaway length by theory, NaN where zeta/a > 2 | L_run
+    runaway_status | | value, or why there is none: stable, beyond or unknown
+    law_length
+    expected_length | m | expected length at the drop | L
+    expected_low | m | least length at the drop that is expected | L
+    expected_high | m | largest length at the drop that is expected | L
+    doubt | | why the expected length should not be relied upon
+    """,
+    LENGTHS | LAW,
+)
 
-WEAKENING = {
-    **some(
-        LENGTHS,
-        "study id evolution height below kind strength seed n_x n_y block_length onset_time "
-        "length critical_length",
-    ),
-    "zeta_over_a": SHARED["zeta_over_a"],
-    **EXPECTED,
-    "fault": LENGTHS["fault"],
-}
+WEAKENING = declared(
+    """
+    study id evolution height below kind strength seed n_x n_y block_length onset_time length
+    critical_length zeta_over_a stability_length runaway_length runaway_status law_length
+    expected_length expected_low expected_high doubt fault
+    """,
+    LENGTHS | SHARED | EXPECTED,
+)
 
-WEAKENING_CURVES = {
-    "curve_study": LENGTHS["study"],
-    "curve_below": LENGTHS["below"],
-    "curve_height": LENGTHS["height"],
-    "curve_half_spaces": Variable("1", "whether the curves are those of half-spaces"),
-    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
-    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
-    "curve_runaway": Variable("1", "L_run over L_c, NaN where zeta/a > 2", "L_run/L_c"),
-    "curve_law": Variable("1", "length at the drop by the law over L_c, median", "L/L_c"),
-}
+WEAKENING_CURVES = declared("""
+    curve_study | | study of the configuration
+    curve_below | | what the block slides on
+    curve_height | m | block height | H
+    curve_half_spaces | 1 | whether the curves are those of half-spaces
+    curve_ratio | 1 | weakening over direct effect | zeta/a
+    curve_stability | 1 | L_s over L_c | L_s/L_c
+    curve_runaway | 1 | L_run over L_c, NaN where zeta/a > 2 | L_run/L_c
+    curve_law | 1 | length at the drop by the law over L_c, median | L/L_c
+""")
 """The theory over zeta/a for each pair of study, base and height."""
 
 WEAKENINGS = np.geomspace(0.2, 6.0, 22)  # zeta/a of the curves
 AS_HALF_SPACES = 100.0  # factor of a height that makes a block a half-space
 
-OTHER_FAULTS = {
-    "zeta_over_a": SHARED["zeta_over_a"],
-    **some(
-        LENGTHS,
-        "friction_law evolution height below far_side shear_modulus second_shear_modulus kind "
-        "strength critical_length",
-    ),
-    **EXPECTED,
-    "realisations": Variable("1", "number of realisations"),
-    "length": LENGTHS["length"],  # the mean of the realisations
-    "reached_length": LENGTHS["reached_length"],  # the largest of the realisations
-    "inside": Variable("1", "number of realisations in the expected range"),
-}
+OTHER_FAULTS = declared(
+    """
+    zeta_over_a friction_law evolution height below far_side shear_modulus
+    second_shear_modulus kind strength critical_length stability_length runaway_length
+    runaway_status law_length expected_length expected_low expected_high doubt
+    realisations | 1 | number of realisations
+    length reached_length
+    inside | 1 | number of realisations in the expected range
+    """,
+    LENGTHS | SHARED | EXPECTED,
+)
 
 
 def expected(parameters: Run) -> Row:

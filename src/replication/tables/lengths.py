@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, some, table
+from nucleation.datasets.variables import declared, some, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import follow_patch
@@ -32,53 +32,50 @@ _OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
 }
 """How each number that differs between the realisations of one fault is aggregated."""
 
-DIAGNOSTICS = {
-    "status": Variable("", "how the simulation ended"),
-    "steps": Variable("1", "number of time steps"),
-    "wall_seconds": Variable("s", "wall time of the simulation"),
-    "peak_megabytes": Variable("Mbyte", "largest memory of the simulation"),
-}
+DIAGNOSTICS = declared("""
+    status | | how the simulation ended
+    steps | 1 | number of time steps
+    wall_seconds | s | wall time of the simulation
+    peak_megabytes | Mbyte | largest memory of the simulation
+""")
 """Attributes of a simulation's dataset that go into the table."""
 
-COLUMNS = {
-    "id": SHARED["id"],
-    "study": Variable("", "study of the configuration"),
-    "role": Variable("", "what the study is for"),
-    "evolution": Variable("", "state evolution law"),
-    "height": SHARED["height"],
-    "initial_state": Variable("s", "initial state variable", "phi0"),
-    **some(SHARED, "n_x n_y"),
-    **MEASURED,
-    "critical_length": Variable("m", "critical nucleation length", "L_c"),
-    "stability_length": Variable("m", "patch length where growth begins", "L_s"),
-    "stability_status": Variable("", "value, or why there is none: stable, beyond or unknown"),
-    **DIAGNOSTICS,
-    "block_length": Variable("m", "length of the block", "L"),
-    "grading": Variable("1", "largest over smallest element along y"),
-    "tolerance": Variable("1", "tolerance of the local error per step"),
-    "longest_step": Variable("1", "longest time step over the memory time D/V"),
-    "density": Variable("kg/m^3", "mass density", "rho"),
-    **some(SHARED, "slip_distance velocity normal_stress shear_modulus poisson_ratio"),
-    **some(SHARED, "friction a zeta"),
-    "friction_law": Variable("", "law of the friction coefficient"),
-    "below": Variable("", "what the block slides on"),
-    "initial_stress": Variable("", "static field at the start"),
-    "initial_shear_stress": Variable("Pa", "shear stress at the start, if it is uniform", "tau0"),
-    "simulated_time": Variable("s", "time at the end of the run", "t"),
-    "reached_length": Variable(
-        "m", "patch length at the onset, or at the end of a run without an event", "L(t)"
-    ),
-    "kind": Variable("", "perturbed quantity"),
-    "strength": Variable("1", "relative strength of the declared perturbation", "eps"),
-    "seed": Variable("1", "seed of its realisation"),
-    "correlation_length": Variable("m", "its correlation length along x"),
-    "far_side": SHARED["far_side"],
-    **some(SHARED, "second_height second_shear_modulus second_poisson_ratio"),
-    "plane": SHARED["plane"],
-    "loading": Variable("", "what loads the fault: edge or remote"),
-    "fault": Variable("", "digest of all that the fault's physics depends on"),
-    "ensemble": Variable("", "digest of all that the run is given but its seed"),
-}
+COLUMNS = declared(
+    """
+    id
+    study | | study of the configuration
+    role | | what the study is for
+    evolution | | state evolution law
+    height
+    initial_state | s | initial state variable | phi0
+    n_x n_y onset_time onset_time_low onset_time_high length length_low length_high
+    critical_length | m | critical nucleation length | L_c
+    stability_length | m | patch length where growth begins | L_s
+    stability_status | | value, or why there is none: stable, beyond or unknown
+    status steps wall_seconds peak_megabytes
+    block_length | m | length of the block | L
+    grading | 1 | largest over smallest element along y
+    tolerance | 1 | tolerance of the local error per step
+    longest_step | 1 | longest time step over the memory time D/V
+    density | kg/m^3 | mass density | rho
+    slip_distance velocity normal_stress shear_modulus poisson_ratio friction a zeta
+    friction_law | | law of the friction coefficient
+    below | | what the block slides on
+    initial_stress | | static field at the start
+    initial_shear_stress | Pa | shear stress at the start, if it is uniform | tau0
+    simulated_time | s | time at the end of the run | t
+    reached_length | m | patch length at the onset, or at the end of a run without an event | L(t)
+    kind | | perturbed quantity
+    strength | 1 | relative strength of the declared perturbation | eps
+    seed | 1 | seed of its realisation
+    correlation_length | m | its correlation length along x
+    far_side second_height second_shear_modulus second_poisson_ratio plane
+    loading | | what loads the fault: edge or remote
+    fault | | digest of all that the fault's physics depends on
+    ensemble | | digest of all that the run is given but its seed
+    """,
+    SHARED | MEASURED | DIAGNOSTICS,
+)
 """Name of the simulation, its measured lengths, its cost, and its parameters."""
 
 _OF_SECOND_BODY = (

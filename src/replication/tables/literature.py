@@ -12,7 +12,7 @@ from typing import Any
 
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, some, table
+from nucleation.datasets.variables import declared, table
 from nucleation.extraction.measures import DEFINITIONS, far_ahead, zone_length
 from nucleation.fault import Fault
 from nucleation.lengths.expanding_zone import expanding_length
@@ -41,30 +41,31 @@ IN_THE_GAP = (
 OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 """Shares of the largest slip rate, for widths that show how much the definition matters."""
 
-COLUMNS = {
-    "id": SHARED["id"],
-    "name": Variable("", "name of the length, as in Fault.lengths"),
-    "evolution": Variable("", "state evolution law"),
-    "a": SHARED["a"],
-    "b": Variable("1", "coefficient of the logarithm of the state", "b"),
-    "a_over_b": Variable("1", "direct effect over b", "a/b"),
-    "definition": Variable("", "how the simulated length is read"),
-    "read_at": Variable("m/s", "largest slip rate at which the length is read"),
-    "formula_length": Variable("m", "length by the formula"),
-    "simulated_length": Variable("m", "length in the simulation"),
-    "difference": Variable("1", "simulated length over that of the formula, less 1"),
-    "width_at_half": Variable("m", "width of the zone at half the largest slip rate"),
-    "width_at_hundredth": Variable(
-        "m", "width of the zone at a hundredth of the largest slip rate"
-    ),
-    "far_slip_rate": Variable("m/s", "slip rate half a period from the fastest point"),
-    "far_state_ratio": Variable("1", "v phi/D there, 1 in steady sliding"),
-    "finite_speed_length": Variable("m", "Rubin and Ampuero's expanding length at that slip rate"),
-    **some(SHARED, "height n_x n_y"),
-    "stress_rate": Variable("Pa/s", "rate of the far shear stress"),
-    "change": Variable("1", "relative change of f where nucleation begins"),
-    "width": SHARED["width"],
-}
+COLUMNS = declared(
+    """
+    id
+    name | | name of the length, as in Fault.lengths
+    evolution | | state evolution law
+    a
+    b | 1 | coefficient of the logarithm of the state | b
+    a_over_b | 1 | direct effect over b | a/b
+    definition | | how the simulated length is read
+    read_at | m/s | largest slip rate at which the length is read
+    formula_length | m | length by the formula
+    simulated_length | m | length in the simulation
+    difference | 1 | simulated length over that of the formula, less 1
+    width_at_half | m | width of the zone at half the largest slip rate
+    width_at_hundredth | m | width of the zone at a hundredth of the largest slip rate
+    far_slip_rate | m/s | slip rate half a period from the fastest point
+    far_state_ratio | 1 | v phi/D there, 1 in steady sliding
+    finite_speed_length | m | Rubin and Ampuero's expanding length at that slip rate
+    height n_x n_y
+    stress_rate | Pa/s | rate of the far shear stress
+    change | 1 | relative change of f where nucleation begins
+    width
+    """,
+    SHARED,
+)
 
 
 def length_of(parameters: Run) -> str:

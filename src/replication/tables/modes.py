@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, annotate
+from nucleation.datasets.variables import annotate, declared
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.drive import Steady
@@ -120,19 +120,22 @@ def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexAr
 
 # -- tables of modes ----------------------------------------------------------------------------
 
-COLUMNS = {
-    **SHARED,
-    "mode_wavenumber": Variable("1/m", "wavenumber of the seeded mode", "k"),
-    "critical_wavenumber": CURVES["critical_wavenumber"],
-    "measured_growth": Variable("1/s", "growth rate in the time integration", "Re Lambda"),
-    "measured_frequency": Variable("1/s", "angular frequency in the time integration", "Im Lambda"),
-    "theory_growth": Variable("1/s", "growth rate of the seeded mode, Eq. (5)", "Re Lambda"),
-    "theory_frequency": Variable(
-        "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
-    ),
-    "wavenumber_over_critical": Variable("1", "wavenumber over the critical one", "k/k_c"),
-    "disagreement": Variable("1", "difference of the complex rates over the theory's"),
-}
+COLUMNS = declared(
+    """
+    id height n_x n_y slip_distance velocity normal_stress shear_modulus poisson_ratio plane a
+    zeta width zeta_over_a friction f_beta far_side second_height second_shear_modulus
+    second_poisson_ratio
+    mode_wavenumber | 1/m | wavenumber of the seeded mode | k
+    critical_wavenumber
+    measured_growth | 1/s | growth rate in the time integration | Re Lambda
+    measured_frequency | 1/s | angular frequency in the time integration | Im Lambda
+    theory_growth | 1/s | growth rate of the seeded mode, Eq. (5) | Re Lambda
+    theory_frequency | 1/s | angular frequency of the seeded mode, Eq. (5) | Im Lambda
+    wavenumber_over_critical | 1 | wavenumber over the critical one | k/k_c
+    disagreement | 1 | difference of the complex rates over the theory's
+    """,
+    SHARED | CURVES,
+)
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
 MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import DatasetError, Variable, annotate, some, table, to_csv
+from nucleation.datasets.variables import DatasetError, annotate, declared, table, to_csv
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.growth import FITTED
@@ -24,11 +24,17 @@ from .lengths import COLUMNS as LENGTHS
 from .lengths import description
 from .rows import SHARED, Row
 
-RATIOS = {
-    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
-    "stability_ratio": Variable("1", "patch length where growth begins over theory", "L_s/L_c"),
-    "zeta_over_a": SHARED["zeta_over_a"],
-}
+RATIOS = declared(
+    """
+    length_ratio | 1 | length at the drop over that of the theory | L/L_c
+    stability_ratio | 1 | patch length where growth begins over theory | L_s/L_c
+    zeta_over_a
+    """,
+    SHARED,
+)
+
+
+KNOWN = LENGTHS | SHARED | FITTED | MEASURED | RATIOS
 
 
 def ratios(columns: Any) -> Row:
@@ -48,21 +54,21 @@ REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 FIXED = ("grading", "block_length", "fault", "kind", "strength", "correlation_length", "seed")
 """Columns in which the runs of a sequence agree, beside the other refined parameters."""
 
-REFINEMENT = {
-    "refinement": Variable("", "quantity that is refined from level to level"),
-    **some(
-        LENGTHS,
-        "id evolution height initial_state kind strength seed n_x n_y grading "
-        "block_length longest_step tolerance onset_time",
-    ),
-    "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
-    "length": LENGTHS["length"],
-    "length_difference": Variable("1", "relative difference of L from the finest run"),
-    "elements_difference": Variable("1", "the same in elements of the run along x"),
-    "critical_length": LENGTHS["critical_length"],
-    "length_over_theory": RATIOS["length_ratio"],
-    **some(LENGTHS, "steps wall_seconds fault"),
-}
+REFINEMENT = declared(
+    """
+    refinement | | quantity that is refined from level to level
+    id evolution height initial_state kind strength seed n_x n_y grading block_length
+    longest_step tolerance onset_time
+    onset_difference | 1 | relative difference of the onset from the finest run
+    length
+    length_difference | 1 | relative difference of L from the finest run
+    elements_difference | 1 | the same in elements of the run along x
+    critical_length
+    length_over_theory | 1 | length at the drop over that of the theory | L/L_c
+    steps wall_seconds fault
+    """,
+    LENGTHS,
+)
 
 
 def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
@@ -97,17 +103,16 @@ def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 # -- the stability of patches -------------------------------------------------------------------
 
-STABILITY = {
-    **some(
-        LENGTHS,
-        "id study role evolution height initial_state n_x n_y grading tolerance longest_step",
-    ),
-    **FITTED,
-    "critical_length": LENGTHS["critical_length"],
-    "stability_ratio": RATIOS["stability_ratio"],
-    "stability_change": Variable("1", "L_s over that of the converged run, minus one"),
-    "fault": LENGTHS["fault"],
-}
+STABILITY = declared(
+    """
+    id study role evolution height initial_state n_x n_y grading tolerance longest_step
+    stability_length stability_length_low stability_length_high stability_length_error
+    stability_frequency critical_length stability_ratio
+    stability_change | 1 | L_s over that of the converged run, minus one
+    fault
+    """,
+    KNOWN,
+)
 
 
 def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -127,15 +132,14 @@ def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.D
 
 # -- the map ------------------------------------------------------------------------------------
 
-MAP = {
-    **some(LENGTHS, "id height"),
-    "zeta_over_a": RATIOS["zeta_over_a"],
-    **some(LENGTHS, "kind strength seed onset_time length length_low length_high critical_length"),
-    "length_ratio": RATIOS["length_ratio"],
-    "stability_length": FITTED["stability_length"],
-    "stability_ratio": RATIOS["stability_ratio"],
-    **some(LENGTHS, "n_x steps wall_seconds status"),
-}
+MAP = declared(
+    """
+    id height zeta_over_a kind strength seed onset_time length length_low length_high
+    critical_length length_ratio stability_length stability_ratio n_x steps wall_seconds
+    status
+    """,
+    KNOWN,
+)
 
 AXES = ("height", "zeta_over_a", "strength", "seed")
 """Dimensions of the map's grid."""
@@ -167,26 +171,19 @@ def map_files(lengths: xr.Dataset) -> dict[str, Any]:
 
 _OF_RUN = ("onset_time", "length", "length_low", "length_high")
 
-PAIRS = {
-    **some(LENGTHS, "id study role evolution"),
-    **some(
-        SHARED,
-        "far_side height second_height shear_modulus second_shear_modulus poisson_ratio "
-        "second_poisson_ratio friction f_beta zeta_over_a",
-    ),
-    **some(LENGTHS, "n_x n_y"),
-    "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
-    **some(LENGTHS, "kind strength seed"),
-    **{name: MEASURED[name] for name in _OF_RUN},
-    "critical_length": LENGTHS["critical_length"],
-    "length_ratio": RATIOS["length_ratio"],
-    **FITTED,
-    "stability_ratio": RATIOS["stability_ratio"],
-    "half_space_ratio": Variable(
-        "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
-    ),
-    **some(LENGTHS, "steps wall_seconds fault ensemble"),
-}
+PAIRS = declared(
+    """
+    id study role evolution far_side height second_height shear_modulus second_shear_modulus
+    poisson_ratio second_poisson_ratio friction f_beta zeta_over_a n_x n_y
+    second_n_y | 1 | number of elements along y of the second body | N_y2
+    kind strength seed onset_time length length_low length_high critical_length length_ratio
+    stability_length stability_length_low stability_length_high stability_length_error
+    stability_frequency stability_ratio
+    half_space_ratio | 1 | Eq. (9): half-spaces over those without contrast | L_c/L_c^M
+    steps wall_seconds fault ensemble
+    """,
+    KNOWN,
+)
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
 

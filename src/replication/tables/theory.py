@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from nucleation.datasets.variables import Variable, annotate, some, table, to_csv
+from nucleation.datasets.variables import annotate, declared, table, to_csv
 from nucleation.extraction.growth import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
@@ -26,25 +26,26 @@ from .lengths import COLUMNS as LENGTHS
 from .lengths import description
 from .rows import SHARED, Row
 
-COLUMNS = {
-    **some(LENGTHS, "id study role evolution friction_law height"),
-    **some(SHARED, "zeta_over_a f_beta"),
-    "critical_length": LENGTHS["critical_length"],
-    "stability_length": FITTED["stability_length"],
-    "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
-    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
-    "fault": LENGTHS["fault"],
-}
+COLUMNS = declared(
+    """
+    id study role evolution friction_law height zeta_over_a f_beta critical_length
+    stability_length
+    creep_length | m | L_s by theory with constant a and b | L_s
+    front_length | m | L_s by theory, with the advancing front | L_s
+    fault
+    """,
+    LENGTHS | SHARED | FITTED,
+)
 """``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
 
-DRAWN = {
-    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
-    "curve_stability": Variable("1", "L_s over L_c", "L_s/L_c"),
-    "shown_beta": Variable("1", "friction times bimaterial contrast", "f beta"),
-    "shown_x": Variable("1", "distance from the edge over L_s", "x/L_s"),
-    "shown_rate": Variable("1", "slip rate of the creep over V", "v/V"),
-    "shown_stress": Variable("1", "compression over the applied one", "sigma/sigma0"),
-}
+DRAWN = declared("""
+    curve_ratio | 1 | weakening over direct effect | zeta/a
+    curve_stability | 1 | L_s over L_c | L_s/L_c
+    shown_beta | 1 | friction times bimaterial contrast | f beta
+    shown_x | 1 | distance from the edge over L_s | x/L_s
+    shown_rate | 1 | slip rate of the creep over V | v/V
+    shown_stress | 1 | compression over the applied one | sigma/sigma0
+""")
 """The thin limit's curve, and the creep of some faults at their L_s."""
 
 CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve

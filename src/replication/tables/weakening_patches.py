@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import Variable, some, table
+from nucleation.datasets.variables import declared, table
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import Run
 from nucleation.simulation.event import Outcome
@@ -33,30 +33,35 @@ EVENT = "event"
 UNDECIDED = "undecided"  # the run ended by a fall of the force before the rate of an event
 
 
-COLUMNS = {
-    "id": SHARED["id"],
-    "outcome": Variable("", "creep, slow slip, event or undecided"),
-    **some(SHARED, "plane velocity height a zeta"),
-    "varies": Variable("", "how the surroundings differ: zeta by another b, or a at the same b"),
-    "outside_a": Variable("1", "direct effect of the surroundings", "a_out"),
-    "zeta_over_a": SHARED["zeta_over_a"],
-    "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
-    "width": SHARED["width"],
-    "critical_length": CURVES["critical_length"],  # of a fault with the patch's friction
-    "smallest_width": Variable("m", "smallest width with a growing mode, by theory", "W_c"),
-    "width_ratio": Variable("1", "width over the smallest one with a growing mode", "W/W_c"),
-    "fastest": Variable("1", "largest slip rate over V"),
-    "dynamic_rate": Variable("1", "least slip rate of an event over V", "2 a sigma0 c_s/(mu V)"),
-    "n_x": SHARED["n_x"],
-    "elements": Variable("1", "elements in half of L_b"),
-    "period": Variable("1", "period of the fault over the width of the patch"),
-}
+COLUMNS = declared(
+    """
+    id
+    outcome | | creep, slow slip, event or undecided
+    plane velocity height a zeta
+    varies | | how the surroundings differ: zeta by another b, or a at the same b
+    outside_a | 1 | direct effect of the surroundings | a_out
+    zeta_over_a
+    strengthening | 1 | -zeta of the surroundings over zeta of the patch | r
+    width critical_length
+    smallest_width | m | smallest width with a growing mode, by theory | W_c
+    width_ratio | 1 | width over the smallest one with a growing mode | W/W_c
+    fastest | 1 | largest slip rate over V
+    dynamic_rate | 1 | least slip rate of an event over V | 2 a sigma0 c_s/(mu V)
+    n_x
+    elements | 1 | elements in half of L_b
+    period | 1 | period of the fault over the width of the patch
+    """,
+    SHARED | CURVES,
+)
 
-BOUNDS = {
-    **some(COLUMNS, "varies zeta_over_a strengthening"),
-    "slow_slip_up_to": Variable("1", "W/W_c below which no patch had an event"),
-    "events_from": Variable("1", "W/W_c above which all patches had an event"),
-}
+BOUNDS = declared(
+    """
+    varies zeta_over_a strengthening
+    slow_slip_up_to | 1 | W/W_c below which no patch had an event
+    events_from | 1 | W/W_c above which all patches had an event
+    """,
+    COLUMNS,
+)
 
 
 def patch_of(run: Run) -> WeakeningPatch:
