@@ -53,7 +53,7 @@ class Twin:
     def advance(self, instant, length):
         """Take the step that the run has taken, whose patch is as long (m)."""
         steps = instant.state.last_step, self.state.last_step
-        beta = self.dynamics.scheme.coefficient(*steps)
+        beta = self.dynamics.scheme.leading_coefficient(*steps)
         rung = round(RUNGS_PER_OCTAVE * np.log2(beta))
         self.state, _ = self.dynamics.advance(self.state, rung)
         self.time.append(instant.state.time - self.start)

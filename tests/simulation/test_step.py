@@ -157,5 +157,5 @@ def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     np.testing.assert_allclose(guess.slip_rate, rates, rtol=1e-12)
     changed = rates * (1.0 + 1e-6)
     changed[0] = fastest
-    error = passes.changed(changed, guess.scaled, guess.scale)
+    error = passes.largest_change(changed, guess.scaled, guess.scale)
     assert error == pytest.approx(1e-6 / np.sqrt(2.0), rel=0.05)

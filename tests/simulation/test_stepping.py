@@ -38,7 +38,7 @@ def past_times(previous, *growths):
 
 @given(steps, ratios, coefficients)
 def test_bdf2_is_exact_for_quadratics(previous, ratio, c):
-    formula = Formula.bdf2(BDF().coefficient(ratio * previous, previous), previous)
+    formula = Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
     y, rate = polynomial(c, 2, previous)
     assert formula.step == pytest.approx(ratio * previous, rel=1e-9)
     found = formula.from_past(y(past_times(previous))) + formula.beta * rate(formula.step)
@@ -60,7 +60,7 @@ def test_extrapolation_is_exact_for_quadratics_and_the_error_is_that_of_a_cubic(
     previous, ratio, growth, c
 ):
     past = past_times(previous, growth)
-    formula = Formula.bdf2(BDF().coefficient(ratio * previous, previous), previous)
+    formula = Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
     weights = extrapolation_weights(formula.step, past)
     y, _ = polynomial(c, 2, previous)
     scale = 1e-9 * (np.abs(weights) @ np.abs(y(past)) + 1.0)
@@ -126,7 +126,7 @@ def test_the_largest_growth_of_steps_is_stable_and_twice_as_much_is_not():
     """Of steps that grow again and again by the same factor; shorter ones never grow."""
 
     def bdf2(growth):
-        return Formula.bdf2(BDF().coefficient(growth, 1.0), 1.0)
+        return Formula.bdf2(BDF().leading_coefficient(growth, 1.0), 1.0)
 
     def bdf3(growth):
         return Formula.bdf3(growth, -np.cumsum([0.0, 1.0, 1.0 / growth]))

@@ -145,7 +145,7 @@ class Accountant:
         before = zip(*(moment.relative for moment in past), strict=True)
         if len(past) == 1:
             return [(v - old) / step for v, (old,) in zip(relative, before, strict=True)]
-        f = Formula.bdf2(BDF().coefficient(step, past[0].step), past[0].step)
+        f = Formula.bdf2(BDF().leading_coefficient(step, past[0].step), past[0].step)
         pairs = zip(relative, before, strict=True)
         return [(v - f.from_past(np.array(old))) / f.beta for v, old in pairs]
 

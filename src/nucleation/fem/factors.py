@@ -71,12 +71,6 @@ class LayerFactors:
         self._transposed = np.array([transposed(matrix) for matrix in self._rows[:3]])
 
     @property
-    def megabytes(self) -> float:
-        """Memory that the factors hold once all of their parts are in use (MB)."""
-        levels = self.layer.levels
-        return 8e-6 * levels * (9 * self.layer.modes.n_x + 2 * levels)
-
-    @property
     def round_off(self) -> float:
         """Relative error of the edge values in any solve."""
         grid = self.layer.grid

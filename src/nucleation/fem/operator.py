@@ -26,7 +26,6 @@ from __future__ import annotations
 
 import dataclasses
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,20 +56,12 @@ class Response:
     start: Array | float = 0.0  # m, and the displacement of a pair's interface under it at w = 0
 
 
-class Balance(NamedTuple):
-    """A body in balance at the end of a step."""
-
-    displacement: Field  # m
-    velocity: Field  # m/s, by the step's formula; zero in statics
-    edge_error: float  # relative, of edge values that were foreseen
-
-
 class Operator:
     """``K + s M`` of a body for one ``s`` (1/s^2), with ``s = 0`` for statics.
 
-    `modal` has D and N per mode, a right edge held, times 2/n_x (N/m per m), (2, n_x). For a pair
-    `compliance` is T^-1 (xx, xy, yy), `forces` S1 T^-1 and S2 T^-1 (xx, xy, yx, yy of each), and
-    `by_slip` has (w1, u_y) per unit of w.
+    `modal` has D and N per mode, a right edge held, times 2/n_x (N/m per m), (2, n_x). `by_slip` is
+    (w1, u_y) per unit of w. In a pair `compliance` is T^-1 (xx, xy, yy), and `forces` are S1 T^-1
+    and S2 T^-1 (xx, xy, yx, yy of each).
     """
 
     def __init__(self, body: Body, s: float) -> None:
@@ -83,6 +74,7 @@ class Operator:
                 self._put_in_series()
         else:
             self.modal = self.factors[0].pivot[:2]  # the first row, as u_y is zero
+            self.by_slip = np.array([[1.0], [0.0]])
         self._no_load = np.zeros(self.modal.shape)
         self._last_key: tuple[bytes, type] | None = None
         self.edge: EdgeValues | None = None
@@ -116,10 +108,12 @@ class Operator:
     @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
-        own = sum(factors.megabytes for factors in self.factors)
-        levels = sum(layer.levels for layer in self.body.layers)
-        pairs = 13 * self.body.modes.n_x + 2 * levels**2 if len(self.factors) == 2 else 0
-        return own + 8e-6 * pairs
+        n = self.body.modes.n_x
+        levels = [layer.levels for layer in self.body.layers]
+        numbers = sum(each * (9 * n + 2 * each) for each in levels)
+        if len(levels) == 2:
+            numbers += 13 * n + 2 * sum(levels) ** 2
+        return 8e-6 * numbers
 
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
@@ -158,7 +152,7 @@ class Operator:
         Returns the rate (m/s), zero if no displacements before are known.
         """
         parts = self.body.split(swept)
-        self._move_interface(parts[0], amplitudes, start)
+        parts[0][0] = start + self.by_slip * amplitudes
         for below in parts[1:]:
             below[0, 0] = parts[0][0, 0] - amplitudes
             below[0, 1] = -parts[0][0, 1]
@@ -184,19 +178,6 @@ class Operator:
             )
         return rate
 
-    def _move_interface(
-        self,
-        above: Array,
-        amplitudes: Array,
-        start: Array | float,
-    ) -> None:
-        """Put the displacement of the upper body's interface (m) into its level 0."""
-        if len(self.factors) == 1:
-            above[0, 0] = amplitudes
-            above[0, 1] = 0.0
-        else:
-            above[0] = start + self.by_slip * amplitudes
-
     def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
         """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
 
@@ -212,7 +193,7 @@ class Operator:
         if edge is not None:
             # the normal force on the corner follows from the two lowest levels alone
             lowest = swept[:2].copy()
-            self._move_interface(lowest, amplitudes, start)
+            lowest[0] = start + self.by_slip * amplitudes
             self.factors[0].substitute(lowest)
             above = self.body.parts(load)[0]
             own = edge[: above.edge.size]
@@ -231,9 +212,11 @@ class Operator:
         w: Array,
         before: Before | None = None,
         foreseen: Array | None = None,
-    ) -> Balance:
+    ) -> tuple[Field, Field, float]:
         """The body for w (m) after a response, which must not be used again.
 
+        Its displacement (m), its velocity (m/s) by the step's formula, zero in statics, and the
+        relative error of edge values that were foreseen.
         If :meth:`tolerates` denies the error of the edge values (m) that were `foreseen`, a
         response with these was not accurate enough.
         """
@@ -258,7 +241,7 @@ class Operator:
         if before is not None:
             (c1, c2), beta, newest, oldest = before
             edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
-        return Balance(Field(modes, own), Field(rate, edge_rate), error)
+        return Field(modes, own), Field(rate, edge_rate), error
 
     def tolerates(self, error: float) -> bool:
         """Whether a relative error of the edge values is round-off."""

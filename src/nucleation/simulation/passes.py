@@ -186,7 +186,7 @@ def expected(
 
 
 @compiled
-def changed(rate, scaled, scale):
+def largest_change(rate, scaled, scale):
     """Largest distance of slip rates (m/s) from `scaled`, in asinh(v / scale)."""
     largest = 0.0
     for i in range(scaled.size):
@@ -203,7 +203,7 @@ def distance(
     scale,
 ):
     """Largest distance of slip rates, in asinh(v / scale), and log(phi) from expected ones."""
-    largest = changed(rate, scaled, scale)
+    largest = largest_change(rate, scaled, scale)
     for i in range(psi.size):
         largest = max(largest, abs(psi[i] - log_state[i]))
     return largest

@@ -137,7 +137,7 @@ class Recorder:
             return True
         if len(self._rows) - self._last_frame_step >= FRAME_STEPS:
             return True
-        change = passes.changed(slip_rate, self._last_scaled, self._velocity)
+        change = passes.largest_change(slip_rate, self._last_scaled, self._velocity)
         return bool(change >= FRAME_CHANGE)
 
     def _take_frame(self, state: State, report: StepReport) -> None:

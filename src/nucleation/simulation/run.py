@@ -101,7 +101,7 @@ def accepted_step(
             wanted = beta * min(factor, 0.9)
             continue
         step = new.last_step * min(factor, growth)
-        wanted = scheme.coefficient(step, new.last_step)
+        wanted = scheme.leading_coefficient(step, new.last_step)
         return Instant(new, report, Control(wanted, control.steps + 1, rejected))
 
 
@@ -134,7 +134,7 @@ def instants(
     """
     dynamics = composed(run) if dynamics is None else dynamics
     longest_step = run.longest_step
-    longest = dynamics.scheme.coefficient(longest_step, longest_step)
+    longest = dynamics.scheme.leading_coefficient(longest_step, longest_step)
     if start is None:
         state, report = at_rest(dynamics, run)
         control = Control(min(FIRST_STEP * run.memory_time, longest))

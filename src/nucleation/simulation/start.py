@@ -98,7 +98,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
         response = _in_uniform_shear(dynamics, run, operator, load, response)
     else:
         response = _relaxed(dynamics, run, operator, load, response)
-    displacement = operator.balance(response, response.w).displacement
+    displacement = operator.balance(response, response.w)[0]
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
     motion = body.at_rest(displacement, imposed.velocity)

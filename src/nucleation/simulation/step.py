@@ -150,12 +150,11 @@ class Dynamics:
         for edge in tries:
             response = operator.respond(load, w, edge)
             solution = self.interface.solve(operator, response, past, imposed, rates)
-            balance = operator.balance(response, solution.w, before, foreseen)
-            if operator.tolerates(balance.edge_error):
+            moved, velocity, error = operator.balance(response, solution.w, before, foreseen)
+            if operator.tolerates(error):
                 break
-        momentum = self.body.momentum_x(balance.velocity)
-        motion = Motion(balance.displacement, balance.velocity, momentum)
-        new = self._pushed(state, time, solution, motion, balance.edge_error)
+        motion = Motion(moved, velocity, self.body.momentum_x(velocity))
+        new = self._pushed(state, time, solution, motion, error)
         force = self._driving_force(state, step, imposed, solution, motion)
         distance = passes.distance(
             guess.scaled, guess.log_state, solution.slip_rate, solution.log_state, guess.scale

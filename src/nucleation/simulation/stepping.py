@@ -177,7 +177,7 @@ class BDF:
                 interface = Formula.bdf3(formula.step, past_times)
         return Step(formula, interface, weights, share, known == 1)
 
-    def coefficient(
+    def leading_coefficient(
         self,
         step: float,
         previous_step: float,
@@ -188,7 +188,7 @@ class BDF:
 
     def steady_rung(self, step: float) -> int:
         """The largest rung on which steps of one length are no longer than `step` (s)."""
-        return rung_below(self.coefficient(step, step))
+        return rung_below(self.leading_coefficient(step, step))
 
     def steady_step(self, rung: int) -> float:
         """Length (s) of the steps that stay on a rung: 3/2 of its beta."""

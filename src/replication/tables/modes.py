@@ -72,7 +72,7 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     load = dynamics.drive.load(0.0)
     operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(n))
-    displacement = operator.balance(response, response.w).displacement
+    displacement = operator.balance(response, response.w)[0]
     # the driving traction moves the block at V: seen from there it is at rest
     motion = body.at_rest(displacement, 0.0)
     rates = np.full(n + 1, velocity)
