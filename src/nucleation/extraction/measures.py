@@ -153,14 +153,9 @@ def _patch(record: Record) -> dict[str, float]:
         "regular_share": float(regular[inside[at]].mean()),
         "middle_stress": float(np.abs(stress[at, x.size // 2])),
         "largest_normal_stress": float(normal.max()),
-        "state_rate_share": _share(good, weight),
-        "state_rate_share_patch": _share(good, weight * inside),
+        "state_rate_share": float(np.average(good, weights=weight)),
+        "state_rate_share_patch": float(np.average(good, weights=weight * inside)),
     }
-
-
-def _share(good: NDArray[np.bool_], weight: Array) -> float:
-    """Weighted part of frames and nodes that are good."""
-    return float((weight * good).sum() / weight.sum())
 
 
 def _state_rate_well_approximated(
@@ -227,24 +222,18 @@ def zone_length(
     def width(rates: Array, states: Array) -> float:
         threshold = definition.share * float(rates.max())
         if definition.between_tips:
-            rates = _filled_between_tips(rates)
+            # each node has the smaller one of the largest slip rates on its left and right, so that
+            # they fall from the fastest one to both sides
+            first = _opposite(rates)
+            around = np.roll(rates[:-1], -first)
+            from_left = np.maximum.accumulate(around)
+            from_right = np.maximum.accumulate(around[::-1])[::-1]
+            filled = np.roll(np.minimum(from_left, from_right), first)
+            rates = np.append(filled, filled[0])
         begin, end = slipping_zone(x, rates, threshold, periodic=True)
         return (end - begin) / definition.part
 
     return _when_passing(simulation, slip_rate, width)
-
-
-def _filled_between_tips(rates: Array) -> Array:
-    """Raise the slip rates of a period, so that they fall from the fastest node to both sides.
-
-    At each node the result is the smaller one of the largest slip rates on its left and right.
-    """
-    first = _opposite(rates)
-    around = np.roll(rates[:-1], -first)
-    from_left = np.maximum.accumulate(around)
-    from_right = np.maximum.accumulate(around[::-1])[::-1]
-    filled = np.roll(np.minimum(from_left, from_right), first)
-    return np.append(filled, filled[0])
 
 
 def far_ahead(

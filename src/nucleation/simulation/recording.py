@@ -96,23 +96,19 @@ class Recorder:
         fast = self._bursts.at(state.time, fastest, position)
         dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
         if dropped and np.isinf(self._event_time):
-            self._take_in_drop(state.time)
+            # it is the event if the patch was long enough when the drop began
+            onset = self._watch.since
+            times = np.array(self._frame_times)
+            rates = np.array([fields[0] for fields in self._frames])
+            if onset > long_after(self.run, self.grid.x, times, rates):
+                self._event_time = state.time
+                self._onset_time = onset
+            else:
+                self._short_drop_time = min(self._short_drop_time, onset)
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
         if self._energy is not None:
             self._energy.take(state, report)
-
-    def _take_in_drop(self, time: float) -> None:
-        """A drop of the force is the event if the patch was long enough when it began."""
-        onset = self._watch.since
-        times = np.array(self._frame_times)
-        rates = np.array([fields[0] for fields in self._frames])
-        long_enough = long_after(self.run, self.grid.x, times, rates)
-        if onset > long_enough:
-            self._event_time = time
-            self._onset_time = onset
-        else:
-            self._short_drop_time = min(self._short_drop_time, onset)
 
     def remarks(self) -> list[str]:
         """Reasons to doubt the event, or that there is none."""
