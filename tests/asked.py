@@ -5,12 +5,14 @@ from nucleation.lengths.in_use import values_of
 from nucleation.run.derived import drop_of_run
 
 
-def critical_length(**fault):
-    return Fault(**fault).critical_length()
+def _method(name):
+    return lambda **fault: getattr(Fault(**fault), name)()
 
 
-def critical_mode(**fault):
-    return Fault(**fault).critical_mode()
+critical_length = _method("critical_length")
+critical_mode = _method("critical_mode")
+stability_length = _method("stability_length")
+runaway_length = _method("runaway_length")
 
 
 def spectrum(wavenumber, **fault):
@@ -22,14 +24,6 @@ def transfer_functions(wavenumber, **fault):
     if not {"zeta", "b"} & fault.keys():
         neutral["zeta"] = 0.01
     return Fault(**neutral | fault).transfer_functions(wavenumber)
-
-
-def stability_length(**fault):
-    return Fault(**fault).stability_length()
-
-
-def runaway_length(**fault):
-    return Fault(**fault).runaway_length()
 
 
 def weakening_patch_length(outside_zeta, outside_a=None, **fault):

@@ -12,15 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src"
 MODULES = sorted(SOURCE.rglob("*.py"))
-WITHOUT_MEANING = {
-    tokenize.COMMENT,
-    tokenize.NL,
-    tokenize.NEWLINE,
-    tokenize.INDENT,
-    tokenize.DEDENT,
-    tokenize.ENCODING,
-    tokenize.ENDMARKER,
-}
+NAMES = ("COMMENT", "NL", "NEWLINE", "INDENT", "DEDENT", "ENCODING", "ENDMARKER")
+WITHOUT_MEANING = {getattr(tokenize, name) for name in NAMES}
 
 WORDS = {
     ("what", "whatever"): 1.5,
@@ -89,18 +82,15 @@ def test_no_line_is_kept_from_the_formatter():
     assert marked == []
 
 
-def _with_whole_texts(tokens):
+def whole_texts(tokens):
     """Tokens, of which a formatted text is one, as in Python 3.11."""
     depth = 0
     for token in tokens:
         kind = tokenize.tok_name[token.type]
-        if kind == "FSTRING_END":
-            depth -= 1
-            continue
-        if depth == 0:
+        depth -= kind == "FSTRING_END"
+        if depth == 0 and kind != "FSTRING_END":
             yield token
-        if kind == "FSTRING_START":
-            depth += 1
+        depth += kind == "FSTRING_START"
 
 
 def tokens_and_lines():
@@ -114,7 +104,7 @@ def tokens_and_lines():
         text = path.read_text(encoding="utf-8")
         own = [
             token.start[0]
-            for token in _with_whole_texts(tokenize.generate_tokens(io.StringIO(text).readline))
+            for token in whole_texts(tokenize.generate_tokens(io.StringIO(text).readline))
             if token.type not in WITHOUT_MEANING and token.start[0] not in texts
         ]
         tokens += len(own)

@@ -7,6 +7,8 @@ import xarray as xr
 from asked import lengths_in_use
 from docs.prose import says, span, table
 
+from nucleation.lengths.finite_patch import loaded_patch_factor
+from nucleation.lengths.formulas import FINITE_PATCH
 from replication.tables.ratios import pairs_over_realisations
 
 
@@ -88,4 +90,61 @@ def test_scales_of_different_half_spaces():
         "results.md",
         f"over $M$, is within {modulus:.0f} % of that of identical bodies, and their difference "
         rf"grows as $f\beta$, within {contrast:.0f} %.",
+    )
+
+
+def test_identical_blocks():
+    """The range of their lengths over the theory's."""
+    own = pairs().query("study == 'pairs_identical'").sort_values("height")
+    lower, high = own["length_ratio"].iloc[:-1], own["length_ratio"].iloc[-1]
+    assert own["height"].iloc[-2:].tolist() == [0.2, 0.5]
+    says(
+        "results.md",
+        f"$L_s/L_c$ is {span(own['stability_ratio'])} for all heights. $L/L_c$ is {span(lower)} up "
+        f"to $H = 0.2$ m, and {high:.2f} for 0.5 m.",
+    )
+
+
+def contrasts(weakening):
+    """The pairs of Figure 2 with one zeta/a, by f beta."""
+    own = pairs().query("study == 'figure_2_simulated'")
+    own = own[np.isclose(own["zeta_over_a"], weakening)]
+    return own.assign(f_beta=own["f_beta"].round(2)).set_index("f_beta").sort_index()
+
+
+def over_half_spaces(weakening):
+    """Their lengths over L_c^M."""
+    own = contrasts(weakening)
+    return own.filter(like="_ratio").mul(own["half_space_ratio"], axis=0)
+
+
+def test_lengths_of_both_senses_of_a_contrast():
+    own = over_half_spaces(10)[["length_ratio", "stability_ratio"]]
+    below, same, above = (own.loc[contrast].map("{:.2f}".format) for contrast in (0.38, 0.0, -0.38))
+    says(
+        "results.md",
+        rf"For $\zeta/a = 10$, $L$ and $L_s$ are {same.iloc[0]} and {same.iloc[1]} between "
+        f"identical bodies, grow to {below.iloc[0]} and {below.iloc[1]} with the stiffer body "
+        rf"below ($f\beta = 0.38$), and fall to {above.iloc[0]} and {above.iloc[1]} with it above "
+        r"($f\beta = -0.38$)",
+    )
+
+
+def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
+    same = pairs()[np.isclose(pairs()["f_beta"], 0.0)]
+    high = {2.288: same[same["height"] == 0.5].iloc[0]}
+    high |= {weakening: contrasts(weakening).loc[0.0] for weakening in (3.0, 10.0)}
+    asperity, pinned = (
+        [row["stability_ratio"] * np.pi / factor(weakening) for weakening, row in high.items()]
+        for factor in (
+            lambda weakening: FINITE_PATCH,
+            lambda weakening: loaded_patch_factor(1.0 / (1.0 + weakening)),
+        )
+    )
+    assert asperity == sorted(asperity, reverse=True) and pinned == sorted(pinned, reverse=True)
+    says(
+        "results.md",
+        rf"$L_s$ is {asperity[-1]:.2f} ($\zeta/a = 10$) to {asperity[0]:.2f} ($\zeta/a = 2.3$) "
+        f"times an asperity's length, and {pinned[-1]:.2f} to {pinned[0]:.2f} times a pinned "
+        "patch's.",
     )

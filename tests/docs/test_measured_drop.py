@@ -1,5 +1,6 @@
-"""The numbers of docs/drop.md on twenty other faults are those of the table of the reference."""
+"""Numbers of docs/drop.md on other faults and on weak weakening are those of the reference."""
 
+import numpy as np
 from docs.prose import page, table
 
 TEXT = " ".join(page("drop.md").split())
@@ -37,3 +38,21 @@ def test_faults_without_a_drop_are_warned_of():
     assert f"$\\zeta/a$ of {' and '.join(weak)} the force does not drop" in TEXT
     assert f"up to {' and '.join(reached)} $L_c$ (expected: {' and '.join(expected)})" in TEXT
     assert (OTHERS["evolution"] == "slip").all() and OTHERS["doubt"].notna().all()
+
+
+def drops():
+    """The simulated drops after slow slip, with their length over the expected one."""
+    found = table("weakening")
+    found = found[(found["study"] == "weakening") & np.isfinite(found["runaway_length"])]
+    return found.assign(over_expected=found["length"] / found["expected_length"])
+
+
+def test_the_range_about_the_runaway_length():
+    """Thin blocks, and high ones; and the law of the drop alone."""
+    thin = drops()["height"] < 0.1
+    low, high = (drops()[thin]["over_expected"].agg(way) for way in ("min", "max"))
+    assert f"from {1 - low:.0%} below to {high - 1:.0%} above".replace("%", " %") in TEXT
+    low, high = (drops()[~thin]["over_expected"].agg(way) for way in ("min", "max"))
+    assert f"from {1 - low:.0%} below to {high - 1:.0%} above".replace("%", " %") in TEXT
+    short = 1.0 - (drops()["law_length"] / drops()["length"]).min()
+    assert f"up to {short:.0%} short".replace("%", " %") in TEXT
