@@ -189,21 +189,7 @@ def test_everything_announced_is_there_and_documented():
         api.simulations  # noqa: B018
 
 
-TAKE_A_WHILE = (
-    "expected_drop",
-    "length_quantiles",
-    "runaway_length",
-    "specimen_quantiles",
-)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.slow if name in TAKE_A_WHILE else ())
-        for name in api.__all__
-    ],
-)
+@pytest.mark.parametrize("name", api.__all__)
 def test_each_name_has_an_example(name):
     announced = getattr(api, name)
     names = vars(sys.modules[announced.__module__]) | {name: announced}

@@ -1,6 +1,5 @@
 """One fault: one class, one conversion, and one answer about it, whatever form it has."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -114,22 +113,3 @@ def test_lengths_of_arrays_are_those_of_each_fault():
         for key, answer in alone.items():
             own = np.broadcast_to(found[key].value, 2)[i]
             assert own == pytest.approx(answer.value, nan_ok=True), key
-
-
-@pytest.mark.parametrize(
-    ("changes", "match"),
-    [
-        ({"Dc": 1e-6}, "did you mean slip_distance"),
-        ({"f": 0.6}, "did you mean friction"),
-        ({"a": None}, "a is missing: every fault needs it"),
-        ({"friction_law": Friction()}, "velocity is missing: a friction law is expanded"),
-    ],
-)
-def test_what_is_refused(changes, match):
-    with pytest.raises(ParameterError, match=match):
-        Fault(**ROCK | changes)
-
-
-def test_it_is_frozen():
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        Fault(**ROCK).a = 0.1

@@ -12,12 +12,7 @@ FAULT = (
     ("command", "unknown", "answer"),
     [
         (["length"], "--Dc", "did you mean --slip-distance?"),
-        (["specimen", "--length", "1m"], "--D-RS", "did you mean --slip-distance?"),
-        (["length"], "--sigma-n", "did you mean --normal-stress?"),
         (["simulate", "run.nc"], "--Vpl", "did you mean --velocity?"),
-        (["length"], "--G", "did you mean --shear-modulus?"),
-        (["length"], "--nu", "did you mean --poisson-ratio?"),
-        (["length"], "--youngs-modulus", "give --shear-modulus: mu = E/(2 (1 + nu))"),
         (["length"], "-E", "give --shear-modulus: mu = E/(2 (1 + nu))"),
         (["length"], "--a-b", "give --zeta: zeta = b - a"),
         (["show", "run.nc"], "--plott", "did you mean --plot?"),

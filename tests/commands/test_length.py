@@ -184,17 +184,8 @@ def test_the_length_at_the_drop(nucleation, found):
     assert "no L" not in nucleation(*WORDS, "--perturbation", "none").out
 
 
-def test_patches_that_never_nucleate(nucleation):
-    ended = nucleation(*WORDS, "--outside-zeta", "0.001", "--width", "1m")
-    assert "no W_c: the patch is stable, or its surroundings are not" in ended.out
-
-
 def test_a_closed_output_is_no_error(nucleation, monkeypatch):
     """A shell's `>&-` leaves no stream; it was an AttributeError."""
     monkeypatch.setattr(sys, "stdout", None)
     monkeypatch.setattr(sys, "stderr", None)
     assert commands.run(WORDS) == 0
-
-
-def test_thin_plates_are_said_to_be_thin(nucleation):
-    assert "plates much thinner than these lengths" in nucleation(*WORDS, "--plane", "stress").out

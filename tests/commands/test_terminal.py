@@ -48,27 +48,6 @@ def test_lines_fit_and_words_are_those_of_a_file(nucleation, monkeypatch, comman
     assert max(map(len, wide)) > 80
 
 
-@pytest.mark.parametrize("command", COMMANDS_WITH_HELP)
-def test_the_help_fits(nucleation, monkeypatch, command):
-    monkeypatch.setenv("COLUMNS", "80")
-    lines = said(nucleation(command, "--help"))
-    long = [line for line in lines if len(line) > 80]
-    assert all(line.startswith("  --") for line in long), "names of options are never broken"
-
-
-@pytest.mark.slow
-def test_lines_of_the_lengths_and_a_dataset_fit(nucleation, monkeypatch, tmp_path):
-    monkeypatch.setenv("COLUMNS", "80")
-    lengths = nucleation("length", *GRANITE, *STRESS)
-    size = ("--height", "5mm", "--block-length", "90cm", "--n-x", "16", "--n-y", "2")
-    run = ("simulate", tmp_path / "x.nc", "--second-body", "rigid", *size, "--end-time", "20ms")
-    assert nucleation(*run).code == 0
-    dataset = nucleation("show", tmp_path / "x.nc")
-    for ended in (lengths, dataset):
-        lines = [line for line in said(ended) if str(tmp_path) not in line]
-        assert ended.code == 0 and 70 < max(map(len, lines)) <= 80, ended
-
-
 @pytest.mark.system
 def test_a_terminal_of_eighty_columns(program):
     """A terminal wraps, and the same command into a pipe does not."""
@@ -121,12 +100,3 @@ def test_values_are_printed_as_engineers_write_them(nucleation, command):
 def test_an_engineering_unit_keeps_the_value(value, unit):
     again = parse("value", in_unit(value, unit, digits=6), Quantity("value", unit=unit))
     assert again == pytest.approx(value, rel=1e-5)
-
-
-def test_one_rule_for_the_system(nucleation):
-    """The commands echo bodies, friction and assumptions of one fault in the same words."""
-    length, specimen, simulate = (nucleation(*COMMANDS[name]).out for name in SYSTEM)
-    assert length.splitlines()[0] == specimen.splitlines()[0]
-    assert length.splitlines()[0] in simulate and length.splitlines()[2] in simulate
-    starts = [line.partition(":")[0] for line in length.splitlines()[:3]]
-    assert starts == ["System", "Friction", "Assumed"]

@@ -81,21 +81,6 @@ def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
     assert theory(dry, "stability_length") == pytest.approx(length, rel=1e-8)
 
 
-def test_one_fault_in_antiplane_shear(nucleation, tmp_path):
-    """BP1: 3221 m of half-spaces; friction and Poisson's ratio do not matter."""
-    fault = words({
-        "--shear-modulus": "32.04GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
-        "--a": "0.010", "--b": "0.015", "--slip-distance": "8mm", "--velocity": "1nm/s",
-        "--friction": "0.6", "--plane": "antiplane", "--height": "30km",
-    })  # fmt: skip
-    for command in (("length",), ("simulate", tmp_path / "run.nc", "--dry-run")):
-        ended = nucleation(*command, *fault, "--json")
-        assert theory(ended) == pytest.approx(3221, abs=1), ended.err
-    assert "antiplane shear, with mu* = mu" in nucleation("length", *fault).out
-    rollers = nucleation("length", *fault, "--far-side", "roller")
-    assert rollers.code == 2 and "one of velocity, traction, free, clamped" in rollers.err
-
-
 def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
     """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
     fault = {**FAULT, "--velocity": "1mm/yr", "--friction": "0.65", "--height": "5m"}
@@ -158,15 +143,6 @@ def test_one_file_for_all_commands(nucleation, tmp_path):
         assert theory(ended) == pytest.approx(expected(), rel=1e-3), ended.err
     doubled = nucleation("length", "--parameters", file, "--normal-stress", "100MPa", "--json")
     assert theory(doubled) < 0.9 * expected()  # an option is stronger
-
-
-def test_two_bodies_are_the_usual_system_everywhere(nucleation):
-    given = {k: v for k, v in alone(FAULT).items() if k != "--height"}
-    told = " ".join(nucleation("length", *words(given)).out.split())
-    assert "two identical bodies, each a half-space" in told
-    other = nucleation("length", *words(alone(FAULT) | {"--second-height": "inf"})).out
-    assert "a layer 2 m high" in other and "on a half-space (mu" in other
-    assert "Assumed: the second body is like the first, half-spaces, plane strain." in told
 
 
 def test_lengths_of_half_spaces_are_not_called_valid_of_layers(nucleation):
