@@ -10,6 +10,7 @@ from scipy.special import expit
 
 from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
+from replication.tables.curves import logarithmic_friction
 
 ONSET = 13.0  # s
 PEAK = 2e-3  # s after the onset
@@ -26,7 +27,7 @@ def theory() -> xr.Dataset:
     root = (fb * (1 + ratio) + np.sqrt((fb * (1 + ratio)) ** 2 + 4 * ratio)) / 2
     rate = np.geomspace(1e-9, 1.0, 200)
     friction = Friction()
-    logarithmic = friction.logarithmic(rate, friction.steady_state(rate), VELOCITY)
+    logarithmic = logarithmic_friction(friction, rate, friction.steady_state(rate), VELOCITY)
     return xr.Dataset(
         {
             "bimaterial_length_ratio": (1 - fb / root).transpose("zeta_over_a", "f_beta"),

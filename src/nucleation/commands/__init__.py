@@ -77,22 +77,6 @@ def main() -> None:
     """
 
 
-def _with_suggestion(error: click.NoSuchOption) -> click.NoSuchOption:
-    """The error for an unknown option, with a suggestion among those of the same command."""
-    from ..model.hints import hint
-
-    if error.ctx is None:
-        return error
-    known = []
-    for parameter in error.ctx.command.get_params(error.ctx):
-        known += [word for word in parameter.opts if word.startswith("--")]
-    suggestion = hint(error.option_name, known)
-    if not suggestion:
-        return error
-    message = f"No such option {error.option_name!r}; {suggestion}"
-    return click.NoSuchOption(error.option_name, message, ctx=error.ctx)
-
-
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command line, without its name, and return the exit code."""
     from ..datasets import DatasetError
@@ -103,8 +87,15 @@ def run(arguments: Sequence[str] | None = None) -> int:
         moment()  # a wrong SOURCE_DATE_EPOCH would stop the import of NumPy
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
-        if isinstance(error, click.NoSuchOption):
-            error = _with_suggestion(error)
+        if isinstance(error, click.NoSuchOption) and error.ctx:
+            from ..model.hints import hint
+
+            parameters = error.ctx.command.get_params(error.ctx)
+            known = [word for parameter in parameters for word in parameter.opts]
+            suggestion = hint(error.option_name, [word for word in known if word[:2] == "--"])
+            if suggestion:
+                message = f"No such option {error.option_name!r}; {suggestion}"
+                error = click.NoSuchOption(error.option_name, message, ctx=error.ctx)
         elif "unexpected extra argument" in error.message:
             text = f"{error.message}; write a value and its unit as one word, 10cm, or in quotes"
             error = click.UsageError(text, getattr(error, "ctx", None))

@@ -44,18 +44,12 @@ def in_unit(value: float, unit: str, digits: int = 4) -> str:
     >>> in_unit(3.1e9, "Pa"), in_unit(5e-7, "m"), in_unit(0.2, "1")
     ('3.1 GPa', '500 nm', '0.2')
     """
-    shown_unit, size = engineering_unit(float(value), unit)
-    text = f"{float(value) / size:.{digits}g}"
+    number, shown_unit, size = float(value), unit, 1.0
+    for name, own in _ENGINEERING_UNITS.get(unit, {}).items():
+        if abs(number) >= own * (1.0 - 1e-9) and not math.isinf(number):
+            shown_unit, size = name, own
+    text = f"{number / size:.{digits}g}"
     return text if unit == "1" else f"{text} {shown_unit}"
-
-
-def engineering_unit(value: float, unit: str) -> tuple[str, float]:
-    """The engineering unit for a number of an SI unit, and its size in that."""
-    found = (unit, 1.0)
-    for name, size in _ENGINEERING_UNITS.get(unit, {}).items():
-        if abs(value) >= size * (1.0 - 1e-9) and not math.isinf(value):
-            found = (name, size)
-    return found
 
 
 def with_unit(value: Any, entry: Quantity) -> str:

@@ -19,6 +19,7 @@ from nucleation.theory.marginal import marginal_stiffness
 from nucleation.theory.stiffness import Layers
 from nucleation.types import Array, ComplexArray
 
+from ..tables.curves import logarithmic_friction
 from . import printed
 from .evidence import Evidence
 from .verdicts import Computation, Estimate, Missing, Result, between, formula
@@ -74,7 +75,7 @@ def _logarithmic(evidence: Evidence) -> Array:
     law, velocity = evidence.friction, evidence.velocity
     factors = np.geomspace(0.1, 10.0, 41)
     v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
-    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
+    return logarithmic_friction(law, v, phi, velocity) / law.coefficient(v, phi)
 
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -95,7 +96,7 @@ def _decades_of_agreement(evidence: Evidence) -> float:
     law, velocity = evidence.friction, evidence.velocity
     first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
     v = _SLIP_RATES[first:after]
-    logarithmic = law.logarithmic(v, law.slip_distance / v, velocity)
+    logarithmic = logarithmic_friction(law, v, law.slip_distance / v, velocity)
     off = np.flatnonzero(np.abs(logarithmic / law.steady_coefficient(v) - 1.0) >= 0.02)
     middle = int(np.abs(np.log(v / velocity)).argmin())
     lowest = off[off < middle].max(initial=-1) + 1

@@ -9,6 +9,7 @@ import xarray as xr
 
 from nucleation.datasets.variables import annotate, declared
 from nucleation.fault import Fault
+from nucleation.model.friction import Friction
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 
@@ -31,6 +32,17 @@ CURVES = declared(
     """,
     SHARED,
 )
+
+
+def logarithmic_friction(law: Friction, slip_rate: Any, state: Any, velocity: float) -> Any:
+    """The conventional logarithmic law with a law's expansion at V (m/s) (Eq. S-log).
+
+    It has the coefficients for slip rates (m/s) and states (s), which broadcast.
+    """
+    f0, a, zeta = law.expansion(velocity)
+    age = np.asarray(state) * velocity / law.slip_distance
+    speed = np.asarray(slip_rate) / velocity
+    return f0 + a * np.log(speed) + (zeta + a) * np.log(age)
 
 
 def main_text(fault: Fault) -> Fault:
@@ -70,7 +82,7 @@ def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Datas
     )
     law, velocity = base.law, base.fault.velocity
     state = law.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
-    logarithmic = law.logarithmic(slip_rate, state, velocity)
+    logarithmic = logarithmic_friction(law, slip_rate, state, velocity)
     expansion = law.expansion(velocity)
     ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
     found = length_curve(main_text(base.fault), np.array(curves["heights"])).assign(

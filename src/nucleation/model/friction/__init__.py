@@ -331,25 +331,3 @@ class Friction(Checked):
             a=float(v * by_rate),
             zeta=float(-v * steady_slope),
         )
-
-    def logarithmic(self, slip_rate: ArrayLike, state: ArrayLike, reference_rate: float) -> Array:
-        """The conventional logarithmic law with the same expansion (Eq. S-log).
-
-        Parameters
-        ----------
-        slip_rate : array_like
-            v (m/s), positive.
-        state : array_like
-            phi (s); broadcasts with `slip_rate`.
-        reference_rate : float
-            Slip rate of the expansion (m/s).
-
-        Returns
-        -------
-        ndarray
-            Friction coefficients, of the broadcast shape.
-        """
-        f0, a, zeta = self.expansion(reference_rate)
-        age = np.asarray(state) * reference_rate / self.slip_distance
-        speed = np.asarray(slip_rate) / reference_rate
-        return f0 + a * np.log(speed) + (zeta + a) * np.log(age)
