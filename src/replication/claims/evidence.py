@@ -22,6 +22,7 @@ from .verdicts import Computation, Found, Missing, Result
 
 PAPERS_MESH = "the paper's mesh"
 _ELEMENTS = (400, 150)  # of the paper, along x and y
+_LESS = 1.0 - 1e-9  # of a number that is equal but for round-off
 
 
 @dataclasses.dataclass(frozen=True)
@@ -77,11 +78,10 @@ class Evidence:
         ``members`` of a row. Only faults with the configuration's material and loads are there.
         """
         wanted = {"role": role, **labels}
-        found = [
-            row
-            for row in self._own
-            if all(_same(row[column], value) for column, value in wanted.items())
-        ]
+        found = self._own
+        for name, value in wanted.items():
+            low, high = (value, value) if isinstance(value, str) else (value * _LESS, value / _LESS)
+            found = [row for row in found if low <= row[name] <= high]
         if not found:
             which = ", ".join(f"{name} {value}" for name, value in wanted.items())
             raise Missing(f"The configuration has no such run: {which}")
@@ -134,12 +134,6 @@ class _LengthsRow(Row):
 
     def __missing__(self, column: str) -> Any:
         raise Missing(f"The table of the runs' lengths has no {column}")
-
-
-def _same(one: Any, other: str | float) -> bool:
-    if isinstance(other, str):
-        return bool(one == other)
-    return math.isclose(one, other, rel_tol=1e-9)
 
 
 def on_both(numbers: Callable[[Evidence, str], Found]) -> Computation:

@@ -12,24 +12,13 @@ import numpy as np
 from nucleation.types import Array, ComplexArray
 
 
-def bimaterial_contrast(psi: float, nu1: float, nu2: float) -> float:
-    """beta (Eq. 8)."""
-    difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
-    compliance = psi * (1.0 - nu1) + (1.0 - nu2)
-    return difference / (2.0 * compliance)
-
-
-def bimaterial_modulus(psi: float, nu1: float, nu2: float) -> float:
-    """M over the upper body's shear modulus (Eq. 8)."""
-    beta = bimaterial_contrast(psi, nu1, nu2)
-    compliance = psi * (1.0 - nu1) + (1.0 - nu2)
-    return 2.0 * psi / (1.0 - beta**2) / compliance
-
-
 def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, float]:
-    """G1 and G2 of two half-spaces (Eq. 7)."""
-    g1 = 0.5 * bimaterial_modulus(psi, nu1, nu2)
-    return g1, bimaterial_contrast(psi, nu1, nu2) * g1
+    """G1 and G2 of two half-spaces (Eq. 7), with beta and M over the upper modulus (Eq. 8)."""
+    compliance = psi * (1.0 - nu1) + (1.0 - nu2)
+    beta = (psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)) / (2.0 * compliance)
+    modulus = 2.0 * psi / (1.0 - beta**2) / compliance
+    g1 = 0.5 * modulus
+    return g1, beta * g1
 
 
 def bimaterial_ratio(f_beta: float, z: float) -> float:

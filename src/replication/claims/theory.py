@@ -63,13 +63,6 @@ def _coupling(evidence: Evidence, q: float) -> float:
 # -- the friction law (Text S2.1, Fig. S1) ------------------------------------------------------
 
 
-def _vanishing(evidence: Evidence) -> float:
-    """Friction at a slip rate far below v0, over f0."""
-    law = evidence.friction
-    slow = 1e-5 * law.regularisation_slip_rate
-    return float(law.coefficient(slow, 1.0)) / evidence.at_v.f0
-
-
 def _logarithmic(evidence: Evidence) -> Array:
     """Logarithmic over full law around V and D/V."""
     law, velocity = evidence.friction, evidence.velocity
@@ -227,11 +220,6 @@ def _thin_length(evidence: Evidence) -> Estimate:
     return between(limit, quarter, 2.0 * limit - quarter)
 
 
-def _thin_over_curve(evidence: Evidence) -> xr.DataArray:
-    """Eq. (11) over L_c at the heights of Fig. 3's curve."""
-    return evidence.theory["thin_limit_length"] / evidence.theory["critical_length"]
-
-
 def _response_error(q: float, nu: float, expected: ComplexArray) -> float:
     """Difference of the matrix M of a layer from `expected`, over its largest entry."""
     layer = Layers(np.array(1.0), np.array(nu), np.array(q), "velocity")
@@ -266,7 +254,9 @@ NUMBERS: dict[str, Computation] = {
     "zeta-main": lambda e: e.at_v.zeta,
     "weakening-at-v": lambda e: e.at_v.zeta,
     "slip-rate-over-v0": lambda e: math.log10(e.velocity / e.friction.regularisation_slip_rate),
-    "friction-vanishes": _vanishing,
+    "friction-vanishes": lambda e: (
+        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / e.at_v.f0
+    ),
     "logarithmic-law": _logarithmic,
     "steady-agreement": _decades_of_agreement,
     "strengthening-branch": lambda e: steady_extremes(e)[1] / e.velocity,
@@ -324,8 +314,10 @@ NUMBERS: dict[str, Computation] = {
     ),
     "block-thin-g2": lambda e: _coupling(e, 1e-3),
     "thin-length": _thin_length,
-    "thin-agreement": lambda e: _thin_over_curve(e)[0],
-    "thin-deviation": lambda e: _thin_over_curve(e).interp(height=0.1) - 1.0,
+    "thin-agreement": lambda e: (e.theory["thin_limit_length"] / e.theory["critical_length"])[0],
+    "thin-deviation": lambda e: (
+        (e.theory["thin_limit_length"] / e.theory["critical_length"]).interp(height=0.1) - 1.0
+    ),
     "response-matrix": lambda e: [
         _response_error(q, e.nu, printed.response_matrix(q, e.nu)) for q in LAYER_NUMBERS[1:]
     ],

@@ -23,35 +23,29 @@ WIDEST_ALLOWANCE = 0.10
 READINGS = (40, 33, 30, 25, 10)
 """Differences from one (%) for which numbers are counted, where words are left to the reader."""
 
+_WORDS = """
+perfect           |  0.98  | 1.02 | within 2 % of one
+extremely well    |  0.98  | 1.02 | within 2 % of one
+computed          |  0.99  | 1.01 | within 1 % of one
+expected          |  0.75  | 1.25 | within 25 % of one
+small variation   | -0.10  | 0.10 | less than 10 %
+significant       |  0.10  | inf  | more than 10 %
+negligible        | -0.01  | 0.01 | less than 1 %
+typical           |  0.31622776601683794 | 3.1622776601683795 | within half an order of magnitude
+about             |  0.1   | 10   | within an order of magnitude
+most              |  0.5   | inf  | more than half
+almost everywhere |  0.9   | inf  | more than 90 %
+much              |  10    | inf  | at least ten times
+dramatically      |  100   | inf  | at least a hundred times
+huge range        |  3     | inf  | at least three orders of magnitude
+"""
 WORDS: dict[str, tuple[float, float, str]] = {
-    "perfect": (0.98, 1.02, "within 2 % of one"),
-    "extremely well": (0.98, 1.02, "within 2 % of one"),
-    "computed": (0.99, 1.01, "within 1 % of one"),
-    "expected": (0.75, 1.25, "within 25 % of one"),
-    "small variation": (-0.10, 0.10, "less than 10 %"),
-    "significant": (0.10, math.inf, "more than 10 %"),
-    "negligible": (-0.01, 0.01, "less than 1 %"),
-    "typical": (
-        1.0 / math.sqrt(10.0),
-        math.sqrt(10.0),
-        "within half an order of magnitude",
-    ),
-    "about": (0.1, 10.0, "within an order of magnitude"),
-    "most": (0.5, math.inf, "more than half"),
-    "almost everywhere": (0.9, math.inf, "more than 90 %"),
-    "much": (10.0, math.inf, "at least ten times"),
-    "dramatically": (100.0, math.inf, "at least a hundred times"),
-    "huge range": (3.0, math.inf, "at least three orders of magnitude"),
+    words.strip(): (float(low), float(high), reading.strip())
+    for words, low, high, reading in (line.split("|") for line in _WORDS.strip().splitlines())
 }
 """How words are read: lower and upper end of the range that they allow, and the range in words."""
 
-REASONED = (
-    "perfect",
-    "extremely well",
-    "computed",
-    "small variation",
-    "significant",
-)
+REASONED = ("perfect", "extremely well", "computed", "small variation", "significant")
 """Words whose reading follows from the paper or from the accuracy of a number. The readings of the
 other words are our choice."""
 
