@@ -92,15 +92,6 @@ def test_steepness_of_the_laws_of_the_house(omega):
     assert slip == pytest.approx(max(0.5 * math.log(omega), 1.0), rel=1e-12)
 
 
-def test_process_zone_of_a_law_of_ones_own(square):
-    """It is older by half the time at rest, and E = pi^2/4 for a large drop."""
-    tall = PAPER_RUN.replaced(height=10.0, initial_state=1.0)
-    thick = 3.1e9 * 5e-7 / (2.0 / 3.0 * (0.00682 + 0.0156) * 1e6)
-    drop = math.log((1.0 + 0.5 * 1e6) * 1e-5 / 5e-7)
-    zone = thick / (2.0 * drop**2 / math.pi**2)
-    assert tall.process_zone(rest=1e6) == pytest.approx(zone, rel=2e-3)
-
-
 def test_growth_time_by_force_balance():
     """The edge's displacement that lets a thin bar slip over a length against f sigma0."""
     parameters = PAPER_RUN.replaced(height=1e-6)
@@ -205,12 +196,6 @@ def test_a_warning_names_every_run_the_worst_first():
     ids = [f"s-aging-H{height}-phi1-n_x{n_x}" for n_x in (60, 80) for height in (0.005, 0.006)]
     assert all(identifier in text for identifier in ids)
     assert "(4 runs, the worst s-aging-H0.00" in text and "n_x60" in text.partition(")")[0]
-
-
-def test_a_warning_about_very_many_runs_stays_readable():
-    heights = {"start": 0.005, "stop": 0.01, "num": 150}
-    text = next(t for t in advice({"height": heights, "n_x": 40}) if "150 runs" in t)
-    assert text.endswith(" and 49 more]") and text.count("s-aging-H") == 101
 
 
 def test_the_summary_counts_runs_and_has_the_worst_mesh():

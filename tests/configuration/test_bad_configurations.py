@@ -1,10 +1,9 @@
 """What is said about a bad configuration: every problem, with key, value, unit and range."""
 
-import math
 import os
 
 import pytest
-from configurations import PAPER, assert_one_problem, changed, messages, study, with_run
+from configurations import assert_one_problem, changed, messages, study, with_run
 
 from nucleation.fault.files import read_yaml
 from nucleation.model.quantities import ParameterError
@@ -20,15 +19,10 @@ BAD = {
     "incompressible": (
         changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"],
     ),
-    "infinite stress": (changed("loading.normal_stress", math.inf), ["inf Pa", "[1e-06, 1e+13)"]),
-    "not a number": (changed("loading.velocity", math.nan), ["loading.velocity = nan m/s"]),
     "zero height in list": (with_run(height=[0.01, 0]), [f"{LAST}.height[1] = 0 m"]),
     "zero mesh": (changed("studies.paper.defaults.n_x", 0), ["n_x = 0", "integer in [8, 100000]"]),
-    "zero curve height": (changed("curves.heights", [0.0, 0.1]), ["curves.heights[0] = 0.0 m"]),
     # wrong type
     "truth for number": (changed("material.density", True), ["material.density = True"]),
-    "empty results": (changed("results", ""), ["results = ''", "non-empty text"]),
-    "section is empty": (changed("curves", None), ["curves = None must be a mapping"]),
     "runs are a mapping": (
         changed("studies.paper.runs", {"height": 0.1}), ["studies.paper.runs", "must be a list"],
     ),
@@ -37,24 +31,11 @@ BAD = {
     "unknown state evolution": (
         with_run(height=0.01, evolution="ageing"), [f"{LAST}.evolution = 'ageing'", "aging, slip"],
     ),
-    "unknown section": (changed("materials", {}), ["materials = {}", "did you mean material?"]),
     "unknown key": (changed("material.densty", 1.0), ["densty", "mean density?"]),
-    "Young's modulus": (
-        changed("material.youngs_modulus", 3e9),
-        ["youngs_modulus", "unknown key; give shear_modulus: mu = E/(2 (1 + nu))"],
-    ),
-    "symbol of another text": (
-        with_run(height=0.01, Dc=1e-6),
-        [f"{LAST}.Dc = 1e-06 is not allowed: unknown key; did you mean slip_distance?"],
-    ),
     "far from any key": (changed("loading.zzz", 1), ["loading.zzz = 1", "known keys: normal_st"]),
     "study's name": (changed("studies.a/b", {"runs": [{"height": 1}]}), ["'a/b'", "as a name"]),
-    "name of a number": ({**PAPER, 3: 1}, ["[3] = 1 is not allowed: unknown key"]),
     # missing, empty, repeated, contradictory
-    "studies of nothing": ({"studies": None}, ["studies = None must be a mapping"]),
     "empty studies": (changed("studies", {}), ["studies = {} is empty"]),
-    "no runs": (changed("studies.x", {}), ["studies.x lacks the key runs"]),
-    "empty list": (with_run(height=[]), [f"{LAST}.height = [] is empty"]),
     "no height": (with_run(evolution="slip"), [f"{LAST}: the run has no height"]),
     "value twice": (with_run(height=[0.2, 0.2]), [f"{LAST}.height = [0.2, 0.2] has a value twice"]),
     "run twice": (
@@ -68,10 +49,6 @@ BAD = {
     "range without end": (
         with_run(height={"start": 0.1, "num": 3}), [f"{LAST}.height lacks the key stop"],
     ),
-    "range of one": (
-        changed("curves.f_beta", {"start": 0.0, "stop": 1.0, "num": 1}),
-        ["curves.f_beta.num = 1", "integer in [2, 10000]"],
-    ),
     "range backwards": (
         with_run(height={"start": 0.1, "stop": 0.01, "num": 3}),
         [f"{LAST}.height: start 0.1 must be less than stop 0.01"],
@@ -79,6 +56,13 @@ BAD = {
     "log range from zero": (
         changed("curves.f_beta", {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}),
         ["curves.f_beta: start 0.0 must be positive on a log scale"],
+    ),
+    "a strength of nothing": (
+        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"],
+    ),
+    "roughness finer than elements": (
+        study({**TALL, "perturbation": "strength", "strength": 1e-3, "correlation_length": 1e-4}),
+        [f"{RUN}: correlation_length = 0.0001 m is not allowed", "at least an element"],
     ),
     "mesh beyond the memory": (
         with_run(height=0.1, n_x=100000, n_y=10000),
@@ -96,36 +80,17 @@ BAD = {
     "integer beyond any float": (
         changed("material.density", 10**400), ["density = 1000", "[0, 1e+06) kg/m^3"],
     ),
-    "integer beyond any mesh": (study({**TALL, "n_x": 10**400}), ["integer in [8, 100000]"]),
     "list in a list": (
         study({**TALL, "velocity": [[1e-5]]}),
         [f"{RUN}.velocity[0] = [1e-05] m/s", "[1e-30, 1000) m/s"],
-    ),
-    "range of integers": (
-        study({**TALL, "n_x": {"start": 100, "stop": 200, "num": 3}}), [f"{RUN}.n_x", "integer"],
     ),
     "range that stands still": (
         changed("curves.heights", {"start": 0.1, "stop": 0.1 + 1e-9, "num": 50}),
         ["curves.heights: its 50 values from 0.1 on are not all different"],
     ),
-    "numbers equal in identifiers": (
-        study({"height": [0.3, 0.1 + 0.2]}), ["gives the simulation s-aging-H0.3-phi1 again"],
-    ),
     "a run is nothing": (study(None), [f"{RUN} = None must be a mapping"]),
-    "a strength of nothing": (
-        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"],
-    ),
-    "roughness finer than elements": (
-        study({**TALL, "perturbation": "strength", "strength": 1e-3, "correlation_length": 1e-4}),
-        [f"{RUN}: correlation_length = 0.0001 m is not allowed", "at least an element"],
-    ),
-    "noise faster than the shortest step": (
-        study({**TALL, "perturbation": "state", "strength": 1e-3, "correlation_time": 1e-12}),
-        [f"{RUN}: shortest_step = 1e-12 s is not allowed", "longest one, 1e-13 D/V = 5e-15 s"],
-    ),
     # names and places
     "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
-    "endless name": ({"studies": {"s" * 61: {"runs": [TALL]}}}, ["at most 60", "as a name"]),
     "endless identifier": (
         study(
             TALL | {"slip_distance": 5e-7, "regularisation_slip_rate": 1e-9,
@@ -140,10 +105,7 @@ BAD = {
         changed("results", "results/../src"), ["results = 'src'", "code that makes results"],
     ),
     "the directory itself": (changed("results", "a/.."), ["results = '.'", "of its own"]),
-    "root": (changed("results", "/"), ["results = '/'", "of its own"]),
-    "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
-    "blank": (changed("results", " "), ["results = ' '", "spaces at its ends"]),
     "of git": (changed("results", ".git/hooks"), ["results = '.git/hooks'", "neither hidden"]),
     "home": (changed("results", "~/out"), ["results = '~/out'", "wildcards, ~"]),
     # contradictions
@@ -155,21 +117,10 @@ BAD = {
         study(TALL, defaults={"shortest_step": 0.5}),
         [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"],
     ),
-    "stress without the start that has it": (
-        study({**TALL, "initial_shear_stress": 5e4}),
-        [f"{RUN}: initial_shear_stress = 50000 Pa", "no_slip", "must be 0 Pa"],
-    ),
-    "block longer than any": (
-        study({**TALL, "shear_modulus": 9e12, "slip_distance": 900.0}),
-        [f"{RUN}: block_length = ", "(0, 1e+07) m"],
-    ),
     "a theory without instability": (
         {"friction": {"aging_coefficient": 0.0},
          **study({"height": [0.005, 0.1], "block_length": 3.0}, role="paper")},
         ["zeta = -0.005 with a = 0.005 is not allowed", "an instability at H = "],
-    ),
-    "constants without a law": (
-        study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],
     ),
 }  # fmt: skip
 
@@ -191,13 +142,10 @@ def test_all_problems_are_reported_together():
 
 YAML = {
     "key twice": (b"a: 1\nb: 2\na: 3\n", "the key a is given twice, in lines 1 and 3"),
-    "key twice in a mapping": (b"m: {density: 1, density: 2}\n", "key density is given twice"),
     "code": (b"x: !!python/object/apply:os.getcwd []\n", "is not valid YAML"),
     "a list as a key": (b"? [a, b]\n: 1\n", "is not valid YAML"),
     "no such date": (b"a: 2001-99-99\n", "is not valid YAML"),
     "integer without end": (b"a: " + b"9" * 5000, "is not valid YAML"),
-    "binary": (b"\x00\x01\xff\xfe", "is not valid YAML"),
-    "latin 1": (b"a: caf\xe9\n", "is not valid YAML"),
     "endless nesting": (b"[" * 100_000, "is not valid YAML"),
 }
 

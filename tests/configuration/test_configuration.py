@@ -4,14 +4,13 @@ import math
 from collections import Counter
 
 import pytest
-import yaml
 from configurations import CONFIG, PAPER, papers, study
 
 from nucleation.fault import Fault
 from nucleation.model.friction import Friction
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations
-from nucleation.run.run import PAPER_RUN, Run
+from nucleation.run.run import PAPER_RUN
 from replication.configuration.load import configure, load
 from replication.configuration.runs import first_realisations
 from replication.configuration.settings import GROUPS, SECTIONS, entries_of
@@ -98,16 +97,6 @@ def test_entries_have_defaults_of_their_own_that_are_in_no_name():
         configure(values)
 
 
-def test_quick_configuration_has_what_the_figures_show():
-    quick = load(CONFIG / "quick.yaml")
-    assert quick.results != "results"
-    for height in (quick.figures.inset_height, quick.figures.space_time_height):
-        own = {"evolution": "aging", "initial_state": 1.0, "height": height}
-        assert quick.shown(height).labels.items() >= own.items()
-    laws = {(run.labels["evolution"], run.labels["initial_state"]) for run in quick.runs}
-    assert laws >= {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
-
-
 def test_grid_and_identifiers():
     heights = {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"}
     entry = {
@@ -188,19 +177,6 @@ def test_curve_goes_through_the_runs(interface):
         at = curve["x"].index(run.labels["height"])
         assert curve["length"][at] == pytest.approx(run.critical_length, rel=1e-7)
     assert len(curve["x"]) > 50
-
-
-def test_constants_of_friction_may_vary():
-    runs, found = curves({"height": 0.01, "zeta_over_a": [1.0, 4.0]})
-    assert found[""]["length"][0] == pytest.approx(runs[0].critical_length, rel=1e-6)
-    assert found[""]["length"][0] > 1.5 * found[""]["length"][-1]
-
-
-@pytest.mark.slow
-def test_parameters_survive_the_way_through_a_rule():
-    for run in papers().runs:
-        as_text = yaml.safe_dump(run.run.to_dict())
-        assert Run.from_dict(yaml.safe_load(as_text)) == run.run
 
 
 def test_figures_show_the_nearest_height():

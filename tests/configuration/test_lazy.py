@@ -1,7 +1,5 @@
 """A study is expanded into runs only when one of them is asked for."""
 
-import json
-
 import pytest
 from configurations import PAPER, messages, papers, study
 
@@ -68,8 +66,6 @@ def test_without_lazy_everything_is_checked():
 
 
 DECLARED = {
-    "an unknown key": ({**GOOD, "rnus": []}, "unknown key"),
-    "a value": ({**GOOD, "length_over_critical": 0.5}, "length_over_critical = 0.5"),
     "a range": ({"runs": [{"height": {"start": 2.0, "stop": 1.0, "num": 3}}]}, "less than stop"),
     "a role's key": ({**GOOD, "role": "paper", "table": "own"}, "it must be lengths"),
 }
@@ -108,9 +104,3 @@ def test_an_unknown_batch_is_told_with_those_like_it():
     settings = configure({"studies": {"good": GOOD}})
     with pytest.raises(ParameterError, match="no batch good-0; the study good has none"):
         settings.batch("good-0")
-
-
-def test_runs_that_are_given_out_can_be_changed():
-    settings = configure(json.loads(json.dumps({"studies": {"good": GOOD}})), lazy=True)
-    settings.runs_of("good").clear()
-    assert len(settings.runs_of("good")) == 2

@@ -38,10 +38,6 @@ BAD = {
     "the name of an earlier version": (
         with_run(height=0.1, length=2.0), [f"{RUN}.length = 2.0", "did you mean block_length?"],
     ),
-    "a full name": (
-        with_run(height=0.1, **{"mesh.n_x": 100}), [f"{RUN}.mesh.n_x = 100", "unknown key"],
-    ),
-    "unknown": (with_run(zzz=0.1), [f"{RUN}.zzz = 0.1", "known keys: shear_modulus, poisson_r"]),
     "a law of friction as evolution": (
         with_run(height=0.1, friction_law="aging"),
         [f"{RUN}.friction_law = 'aging'", "one of dieterich_ruina, product", "called evolution"],

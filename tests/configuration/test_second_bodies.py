@@ -1,7 +1,7 @@
 """A second body in configurations: what it is, its own theory, what is refused and warned of."""
 
 import pytest
-from configurations import changed, messages, study
+from configurations import messages, study
 
 from nucleation.fault import Fault
 from nucleation.run.complete import stiffness_of
@@ -17,21 +17,9 @@ REFUSED = {
         study({"height": 0.1, "second_density": 2000.0}),
         f"{RUN}: second_density = 2000.0 {RIGID}",
     ),
-    "a rigid base on rollers": (
-        study({"height": 0.1, "second_far_side": "roller"}),
-        f"{RUN}: second_far_side = 'roller' {RIGID}",
-    ),
-    "in a section": (
-        changed("second_body.second_far_side", "clamped"),
-        f"second_far_side = 'clamped' {RIGID}",
-    ),
     "under a study that fixes the rigid base": (
         study({"height": 0.1, "second_height": [0.1, 0.2]}, defaults={"second_body": "rigid"}),
         f"{RUN}: second_height = 0.1 {RIGID}",
-    ),
-    "too large": (
-        study({**PAIR, "n_x": 3000, "n_y": 20, "second_n_y": 2000}),
-        "n_x = 3000, n_y = 20, second_n_y = 2000 is not allowed: the simulation would need about",
     ),
 }
 

@@ -6,7 +6,6 @@ from configurations import messages, study
 
 from nucleation.fault import Fault
 from nucleation.fault.files import read_yaml
-from nucleation.model.quantities import ParameterError
 from replication.configuration.load import configure
 
 SI = {
@@ -61,10 +60,3 @@ def test_the_same_names_in_configuration_and_api():
     fault = Fault(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
                   second_shear_modulus=np.inf, **own)  # fmt: skip
     assert fault.critical_length() == pytest.approx(run.critical_length, rel=1e-6)
-
-
-def test_a_tag_that_does_not_fit_is_no_yaml(tmp_path):
-    path = tmp_path / "f.yaml"
-    path.write_text("height: !!timestamp x\n")
-    with pytest.raises(ParameterError, match="is not valid YAML"):
-        read_yaml(path)

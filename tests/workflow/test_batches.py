@@ -4,7 +4,6 @@ import contextlib
 import json
 import shutil
 import time
-from collections import Counter
 
 import pandas as pd
 import psutil
@@ -62,12 +61,6 @@ def datasets(workflow):
     notes = (workflow.directory / "results/store").glob("[!.]*/entry.json")
     names = {json.loads(note.read_text())["name"]: note.with_name("result.nc") for note in notes}
     return {name: path for name, path in names.items() if "-aging-" in name}
-
-
-def test_runs_are_put_into_batches():
-    batches = Counter(run.batch for run in configure(configuration(2)).runs)
-    assert batches == {"many-0": 2, "many-1": 1}
-    assert [run.batch for run in configure(configuration(1)).runs] == [""] * 3
 
 
 def test_batches_are_mixed_whatever_the_grid():

@@ -74,16 +74,6 @@ def test_parameters_and_inputs_of_the_host_count(host):
     assert (host.directory / "copy.txt").read_text() == "b\n"
 
 
-def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
-    every = "\nrule every:\n    default_target: True\n    input: rules.fault_lengths.output\n"
-    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{MODULE}{every}')
-    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
-    configure(tmp_path, 1)
-    other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
-    expected = {"fault_simulate": 2, "fault_extract": 1, "fault_lengths": 1}
-    assert other.planned("every") == expected
-
-
 @pytest.mark.parametrize("prefix", ["", "fault/"])
 def test_a_file_of_the_module_is_an_input_of_the_host(workflow, tmp_path, prefix):
     file = f"{prefix.rstrip('/')}/results/lengths.csv".lstrip("/")

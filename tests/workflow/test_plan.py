@@ -79,13 +79,6 @@ def test_bad_configuration_stops_before_any_job(workflow, config, fragments):
     assert not (workflow.directory / "results").exists()
 
 
-def test_results_in_the_place_of_a_file_stop_before_any_job(workflow):
-    (workflow.directory / "taken").write_text("kept")
-    done = workflow.configured({**QUICK, "results": "taken/below"})("table_s1")
-    assert done.returncode != 0 and "taken is no directory" in done.stdout
-    assert (workflow.directory / "taken").read_text() == "kept"
-
-
 @pytest.mark.parametrize(
     ("arguments", "fragment"),
     [
@@ -139,15 +132,6 @@ def test_coarse_meshes_are_one_line_and_a_list(workflow):
     assert len(ids) == int(number) > 20
 
 
-def test_other_warnings_are_printed_in_full(workflow):
-    runs = [{"height": 0.01, "n_x": 400, "block_length": 0.4, "end_time": 100.0}]
-    study = {"interface": "main_text", "runs": runs}
-    done = workflow.configured({"studies": {"short": study}})("lengths", "--dry-run")
-    (warning,) = re.findall("Warning: .*", done.stdout)
-    assert "studies.short: block short (" in warning and "recommended are 4 to 6" in warning
-    assert not (workflow.directory / "results" / "logs" / "meshes.txt").exists()
-
-
 @pytest.mark.parametrize(
     ("target", "table", "missing"),
     [
@@ -197,15 +181,6 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
     planned = workflow.configured({"studies": studies}).planned()
     once = {"extract": 2, "lengths": 1, "draw_study": 2}
     assert planned == {"simulate": 3, **once}
-
-
-def test_studies_that_all_have_their_own_table_can_be_built(workflow):
-    run = {"height": 0.1, "n_x": 40, "n_y": 4}
-    own = workflow.configured({"studies": {"s": {"table": "own", "runs": [run]}}})
-    for target in ((), ("studies",)):
-        planned = own.planned(*target)
-        assert planned.items() >= {"simulate": 1, "extract": 1, "draw_study": 1}.items()
-        assert "lengths" not in planned
 
 
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
