@@ -293,10 +293,13 @@ class Plan:
                     Path(path).unlink(missing_ok=True)
                     self._refresh(path)
         newest = max(map(_time, recipe.files))
-        if shown and _time(file) != 0.0:
+        written = _time(file)
+        # what is missing is made anyway: a dry run need not write its recipe again
+        kept = written > newest and (self._beside_a_run or (newest < 0.0 and not self.runs))
+        if shown and written != 0.0:
             write(Path(file), as_json({"planned": "", **vars(recipe)}))
             os.utime(file, (0, 0))
-        elif not shown and (_time(file) <= newest or not self._beside_a_run):
+        elif not shown and not kept:
             write(Path(file), as_json({"planned": str(time.time_ns()), **vars(recipe)}))
             if newest >= _time(file):  # a clock was wrong
                 os.utime(file, (newest + 1.0, newest + 1.0))
