@@ -49,7 +49,7 @@ READ_ONE_BY_ONE = "patch_convergence"
 def begun(workflow):
     """How many simulations were begun, by the logs."""
     logs = (workflow.directory / "results/logs").glob("*/*.log")
-    return sum(path.read_text().count("begun") for path in logs)
+    return sum(path.read_text().count("step 0:") for path in logs)
 
 
 def lengths_of(workflow):
@@ -151,7 +151,7 @@ def test_runs_that_fail_do_not_take_the_others_with_them(workflow, study_name):
         assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
         assert len(datasets(failing)) == 2
     (log,) = (failing.directory / "results/logs/batches").glob("*.log")
-    assert log.read_text().count("begun") == 1, "the one that failed"
+    assert log.read_text().count("step 0:") == 1, "the one that failed"
 
 
 def test_a_killed_batch_keeps_what_is_finished(workflow, batched):

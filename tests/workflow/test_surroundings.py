@@ -99,7 +99,7 @@ def test_a_storage_is_refused_in_one_sentence():
 def test_ctrl_c_ends_with_one_line_and_check_too(workflow):
     build = workflow.start("simulations", "--cores", "1")
     logs = workflow.directory / "results/quick/logs/batches"
-    wait_for(lambda: any("begun" in log.read_text() for log in logs.glob("*.log")), build)
+    wait_for(lambda: any("step 0:" in log.read_text() for log in logs.glob("*.log")), build)
     os.killpg(build.pid, signal.SIGINT)
     printed, _ = build.communicate(timeout=300)
     assert build.returncode != 0 and printed.count("Stopped by Ctrl-C") == 1
