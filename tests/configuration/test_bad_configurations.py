@@ -1,5 +1,6 @@
 """What is said about a bad configuration: every problem, with key, value, unit and range."""
 
+import math
 import os
 
 import pytest
