@@ -212,9 +212,6 @@ def test_the_map():
     ]
     corners = [rows.query("height == 0.3 and zeta_over_a == 1.5") for rows in (quiet, noisy)]
     unstable = corners[0]["stability_ratio"].mean()
-    crossed = noisy["stability_length"].isna().sum()
-    assert found["stability_length"].isna().sum() == crossed
-    scatter = [100.0 * pooled(rows) for rows in (quiet, noisy)]
     assert {len(rows) for rows in corners} == {3}
     says(
         "results.md",
@@ -225,15 +222,7 @@ def test_the_map():
         f"where $L_s$ is {unstable:.2f} $L_c$: $L/L_c$ is {corners[0]['length_ratio'].mean():.2f} "
         f"({span(corners[0]['length_ratio'])}) at 1e-4 and "
         f"{corners[1]['length_ratio'].mean():.2f} ({span(corners[1]['length_ratio'])}) at 1e-3.",
-        f"Realisations differ by {scatter[0]:.1f} % (1e-4) and {scatter[1]:.1f} % (1e-3) of $L_c$ "
-        f"(standard deviation). Under 1e-3 {crossed} runs have no $L_s$",
     )
-
-
-def pooled(rows):
-    """Standard deviation of L/L_c over the realisations of a fault, pooled over the faults."""
-    deviations = rows.groupby(["height", "zeta_over_a"])["length_ratio"].std(ddof=1)
-    return np.sqrt(np.mean(deviations**2))
 
 
 def test_the_laws_spread_is_that_of_sixteen_seeds():
