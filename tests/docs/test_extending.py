@@ -1,5 +1,6 @@
 """docs/extending.md carried out in a copy of the project: law, test, study and figure."""
 
+import importlib.util
 import os
 import re
 import shutil
@@ -9,6 +10,7 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from docs.samples import ROOT, commands, samples
 
 pytestmark = pytest.mark.system
@@ -57,22 +59,20 @@ def test_additions_are_in_style(checkout):
     run(["ruff", "format", "--check", *ADDED], checkout)
 
 
-@pytest.fixture(scope="module")
-def drawn(checkout):
-    """The page's last commands carried out, a figure and a table; the options of the latter."""
-    *_, (_, figure), (_, table) = commands(samples(PAGE))
-    for command in (figure, table):
-        program, *arguments = command.split()
-        assert program == ".venv/bin/snakemake"
-        run(["snakemake", *arguments], checkout)
-    return arguments
-
-
-def test_study_and_figure(checkout, drawn):
+def test_study_figure_and_table(checkout):
+    """The page's last command carried out; the table is made from its lengths."""
+    *_, (_, command) = commands(samples(PAGE))
+    program, *arguments = command.split()
+    assert program == ".venv/bin/snakemake"
+    run(["snakemake", *arguments], checkout)
     results = checkout / "results" / "laws"
     assert (results / "figures" / "figure_laws.png").stat().st_size > 10_000
     table = pd.read_csv(results / "lengths.csv")
-    means = pd.read_csv(results / "by_law.csv").set_index("evolution")
+    spec = importlib.util.spec_from_file_location("replication.tables.by_law", checkout / ADDED[2])
+    by_law = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(by_law)
+    with xr.open_dataset(results / "lengths.nc") as lengths:
+        means = by_law.by_law(lengths.load()).to_dataframe().set_index("evolution")
     assert means["runs"].to_dict() == {"aging": 2, "halfway": 3, "slip": 1}
     ratio = (table["length"] / table["critical_length"]).groupby(table["evolution"]).mean()
     assert np.allclose(means["mean_ratio"], ratio)

@@ -3,11 +3,8 @@
 import math
 
 import pytest
-from asked import critical_length, expected_drop
+from asked import critical_length
 from docs.prose import says
-
-from nucleation.api import extract, simulate
-from nucleation.run.run import PAPER_RUN
 
 PMMA = {
     "shear_modulus": 3.1e9,
@@ -31,20 +28,3 @@ def test_thin_limit_of_blocks_that_are_not_thin(height, percent):
     above = thin / float(critical_length(**block, height=height)) - 1.0
     assert round(100.0 * above) == percent
     says("theory.md", f"{percent} %")
-
-
-@pytest.mark.slow
-def test_drop_in_antiplane_shear():
-    """One realisation on the mesh of the study ``converged``, and the law's median."""
-    usual = PAPER_RUN.replaced(height=0.02)
-    fault = usual.replaced(plane="antiplane", perturbation="normal_load", strength=1e-4)
-    critical = fault.critical_length
-    length = 3.0 * critical
-    fault = fault.replaced(block_length=length, n_x=400, n_y=16, end_time=40.0)
-    simulated = extract(simulate(fault))["length"]
-    says(
-        "theory.md",
-        f"the force drops at {float(simulated) / critical:.2f} $L_c$ (one realisation); [the law "
-        f"of the drop](drop.md#the-law-of-the-drop) gives "
-        f"{expected_drop(fault).length / critical:.2f}.",
-    )
