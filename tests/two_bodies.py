@@ -9,8 +9,7 @@ from nucleation.fault import Fault
 from nucleation.model.material import ANTIPLANE, Material
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory import critical, crossings, spectrum
-from nucleation.theory.pair import LayerPair
-from nucleation.theory.stiffness import Layers
+from nucleation.theory.pair import LayerPair, Layers
 
 
 @dataclasses.dataclass(frozen=True)

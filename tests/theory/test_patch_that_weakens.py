@@ -14,9 +14,8 @@ from hypothesis import strategies as st
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import patch_basis, weakening_patch
-from nucleation.theory.pair import LayerPair
+from nucleation.theory.pair import LayerPair, Layers
 from nucleation.theory.spectrum import Systems
-from nucleation.theory.stiffness import Layers
 
 A = 0.01
 FAULT = {

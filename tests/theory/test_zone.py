@@ -11,8 +11,7 @@ from scipy.linalg import expm
 
 from nucleation.api import Fault
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.stiffness import Layers
-from nucleation.theory.zone import Zone
+from nucleation.theory.pair import Layers
 
 ROCK = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
@@ -48,7 +47,8 @@ def integrated(layer, body, k):
 def zone_of(layer, body, antiplane=False):
     (mu, nu, thickness), (own_mu, own_nu, height, far_side) = layer, body
     arrays = [np.array([float(x)]) for x in (mu, nu, thickness, own_mu, own_nu, height)]
-    return Zone(Layers(*arrays[:3], "free", antiplane), Layers(*arrays[3:], far_side, antiplane))
+    zone = Layers(*arrays[:3], "free", antiplane)
+    return Layers(*arrays[3:], far_side, antiplane, zone)
 
 
 ratios = st.floats(-0.4, 0.49)

@@ -17,7 +17,7 @@ from ..installed import require
 from ..model.quantities import ParameterError, Quantity
 from ..model.settings import KINDS
 from ..model.units import parse
-from ..theory.reading import required
+from ..theory.evaluation import required
 
 if TYPE_CHECKING:
     from ..lengths.draws import Draws

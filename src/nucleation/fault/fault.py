@@ -18,8 +18,7 @@ from ..model.quantities import ParameterError, declared
 from ..model.settings import ALONG_X, Perturbation
 from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
-from ..theory.evaluation import evaluate, require_broadcast
-from ..theory.reading import bodies_differ, completed
+from ..theory.evaluation import bodies_differ, completed, evaluate, require_broadcast
 from ..theory.spectrum import Systems, as_wavenumber
 from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_of
 from .flat import flat, keywords, read_parameters

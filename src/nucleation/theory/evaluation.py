@@ -1,28 +1,26 @@
-"""Functions of :class:`~nucleation.theory.spectrum.Systems` over the arrays of a fault."""
+"""Parameters of a fault, read, checked and completed; functions of :class:`.Systems` over them."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model.material import ANTIPLANE, in_plane_ratio
-from ..model.quantities import ParameterError
+from ..model.quantities import ParameterError, refusal
+from ..model.units import is_quantity
 from ..types import Array
-from .pair import LayerPair
+from .pair import LayerPair, Layers
 from .spectrum import Systems
-from .stiffness import Layers
-from .values import ZONE, FaultLike, Values, labelled
-from .zone import Zone
+from .stiffness import FAR_SIDES, OF_ANTIPLANE
+from .values import QUANTITIES, WORDS, ZONE, FaultLike, Values, checked, labelled
 
-_USUAL = np.errstate(
-    divide="warn",
-    over="warn",
-    under="ignore",
-    invalid="warn",
-)
+_USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 """NumPy's own settings, whatever the caller's are."""
 
+_OF_BODY = ("shear_modulus", "poisson_ratio")
 _OF_SYSTEMS = (
     "shear_modulus",
     "poisson_ratio",
@@ -52,8 +50,14 @@ def evaluate(
     The function returns `rows` arrays of length n; the result has the shape ``(rows,) + broadcast
     shape``, and the first dimension of a DataArray is ``row``.
     """
-    parameters = _parameters_of_systems(fault)
-    names = list(parameters)
+    names = (*_OF_SYSTEMS, *ZONE) if fault.has_zone else _OF_SYSTEMS
+    parameters = {name: getattr(fault, name) for name in names}
+    for name in names:
+        if name.endswith("poisson_ratio"):
+            parameters[name] = in_plane_ratio(parameters[name], fault.plane)
+    for name, neutral in (("friction", 0.0), ("velocity", 1.0)):
+        if parameters[name] is None:
+            parameters[name] = neutral
 
     def core(*inputs: Values) -> NDArray:
         shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
@@ -75,12 +79,7 @@ def evaluate(
         return np.moveaxis(core(*values, *arrays), -1, 0)
     import xarray as xr
 
-    result = xr.apply_ufunc(
-        core,
-        *values,
-        *arrays,
-        output_core_dims=[["row"]],
-    )
+    result = xr.apply_ufunc(core, *values, *arrays, output_core_dims=[["row"]])
     return result.transpose("row", ...)
 
 
@@ -111,53 +110,150 @@ def single_system(fault: FaultLike) -> Systems:
     return found[0]
 
 
-def _parameters_of_systems(fault: FaultLike) -> dict[str, Values]:
-    """The parameters that Systems have, with neutral values where they do not matter."""
-    names = (*_OF_SYSTEMS, *ZONE) if fault.has_zone else _OF_SYSTEMS
-    found = {name: getattr(fault, name) for name in names}
-    for name in names:
-        if name.endswith("poisson_ratio"):
-            found[name] = in_plane_ratio(found[name], fault.plane)
-    for name, neutral in (("friction", 0.0), ("velocity", 1.0)):
-        if found[name] is None:
-            found[name] = neutral
-    return found
-
-
 def _systems(fault: FaultLike, own: dict[str, Array]) -> Systems:
     """Faults as systems, all or none of them with a rigid second body."""
-    modulus = own["shear_modulus"]
-    upper = _body(fault, own, "", fault.far_side)
-    lower = None
-    if np.all(np.isfinite(own["second_shear_modulus"])):
-        lower = _body(fault, own, "second_", fault.second_far_side)
+    antiplane = fault.plane == ANTIPLANE
+    zone = None
+    if fault.has_zone:
+        modulus, ratio, thickness = (own[f"zone_{name}"] for name in (*_OF_BODY, "thickness"))
+        zone = Layers(modulus, ratio, thickness, "free", antiplane)
+    bodies: list[Layers | None] = []
+    for prefix in ("", "second_"):
+        modulus, ratio, height = (own[f"{prefix}{name}"] for name in (*_OF_BODY, "height"))
+        far_side = getattr(fault, f"{prefix}far_side")
+        deformable = np.all(np.isfinite(modulus))
+        body = Layers(modulus, ratio, height, far_side, antiplane, zone)
+        bodies.append(body if deformable else None)
     return Systems(
-        pair=LayerPair(upper, lower),
+        pair=LayerPair(*bodies),
         friction=own["friction"],
         a=own["a"],
         zeta=own["zeta"],
-        softness=modulus * own["slip_distance"] / own["normal_stress"],
+        softness=own["shear_modulus"] * own["slip_distance"] / own["normal_stress"],
         rate=own["velocity"] / own["slip_distance"],
     )
 
 
-def _body(
-    fault: FaultLike,
-    own: dict[str, Array],
-    prefix: str,
-    far_side: str,
-) -> Layers | Zone:
-    """The first or the second body, with its zone."""
-    antiplane = fault.plane == ANTIPLANE
-    body = Layers(
-        own[f"{prefix}shear_modulus"],
-        own[f"{prefix}poisson_ratio"],
-        own[f"{prefix}height"],
-        far_side,
-        antiplane,
-    )
-    if not fault.has_zone:
-        return body
-    modulus, ratio = own["zone_shear_modulus"], own["zone_poisson_ratio"]
-    layer = Layers(modulus, ratio, own["zone_thickness"], "free", antiplane)
-    return Zone(layer, body)
+def completed(given: Mapping[str, Any]) -> dict[str, Any]:
+    """All parameters of a fault from those that are given (None: not given), and the registry.
+
+    Raises a ParameterError if one is missing, given twice or out of its range.
+    """
+    found = dict(given)
+    _expand(found)
+    missing = [name for name in required(found["plane"]) if found[name] is None]
+    if missing:
+        raise ParameterError(f"{', '.join(missing)} is missing: every fault needs it")
+    if (found["zeta"] is None) == (found["b"] is None):
+        raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
+    given_of_zone = [name for name in ZONE if found[name] is not None]
+    for name in ("zone_thickness", "zone_shear_modulus"):
+        if given_of_zone and name not in given_of_zone:
+            raise ParameterError(
+                f"{name} is missing: a zone has a thickness (m) and a shear modulus (Pa), and "
+                f"{given_of_zone[0]} is given"
+            )
+    _read_numbers(found)
+    _read_words(found)
+    _complete(found)
+    coupled = found["plane"] != ANTIPLANE and np.any(bodies_differ(found))
+    if found["friction"] is None and coupled:
+        raise ParameterError(
+            "friction is missing: where the bodies differ, slip changes the normal stress, and "
+            "the friction coefficient matters"
+        )
+    return found
+
+
+def required(plane: str) -> list[str]:
+    """Names of the parameters without a default; Poisson's ratio has none but in antiplane."""
+    names = ["shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance"]
+    if plane == ANTIPLANE:
+        names.remove("poisson_ratio")
+    return names
+
+
+def bodies_differ(fault: Mapping[str, Any]) -> Any:
+    """Whether the second body is no mirror image of the first one (bool or array)."""
+    differ = FAR_SIDES[fault["far_side"]] is not FAR_SIDES[fault["second_far_side"]]
+    for name in ("shear_modulus", "poisson_ratio", "height"):
+        differ = differ | (fault[f"second_{name}"] != fault[name])
+    return differ
+
+
+def _read_numbers(found: dict[str, Any]) -> None:
+    """Check the numbers and arrays; the registry is that of the last pint quantity, or None."""
+    found["registry"] = None
+    numbers = {}
+    for name in found:
+        value = found[name]
+        if name not in QUANTITIES or name in WORDS or value is None:
+            continue
+        if is_quantity(value):
+            found["registry"] = value._REGISTRY
+        array = checked(name, value, QUANTITIES[name])
+        numbers[name] = array if np.ndim(array) or labelled(array) else float(array)
+    found.update(numbers)
+    with_names = any(map(labelled, numbers.values()))
+    without_names = any(np.ndim(x) and not labelled(x) for x in numbers.values())
+    if with_names and without_names:
+        raise ParameterError("arrays with and without named dimensions can't be combined")
+    require_broadcast(numbers)
+
+
+def _expand(found: dict[str, Any]) -> None:
+    """Take constants that are not given from the friction law, expanded about V."""
+    law = found["friction_law"]
+    if law is None:
+        return
+    if found["velocity"] is None:
+        raise ParameterError("velocity is missing: a friction law is expanded about it")
+    if found["evolution"] is None:
+        found["evolution"] = law.evolution
+    known = {"slip_distance": law.slip_distance}
+    if found["a"] is None or found["friction"] is None:
+        speed = checked("velocity", found["velocity"], QUANTITIES["velocity"])
+        if speed.ndim:
+            raise ParameterError(
+                "a, zeta, friction and slip_distance are missing: a friction law is expanded about "
+                "one velocity, not an array of them"
+            )
+        expansion = law.expansion(float(speed))
+        known |= {"friction": expansion.f0, "a": expansion.a}
+        if found["zeta"] is None and found["b"] is None:
+            found["zeta"] = expansion.zeta
+    for name, value in known.items():
+        if found[name] is None:
+            found[name] = value
+
+
+def _read_words(found: dict[str, Any]) -> None:
+    """Check the words; a second far side that is not given is the first one."""
+    found["evolution"] = found["evolution"] or "aging"
+    if found["second_far_side"] is None:
+        found["second_far_side"] = found["far_side"]
+    for name in WORDS:
+        value, entry = found[name], QUANTITIES[name]
+        if not (isinstance(value, str) and value in entry.choices):
+            raise ParameterError(refusal(name, value, entry))
+    for name in ("far_side", "second_far_side"):
+        if found["plane"] == ANTIPLANE and found[name] not in OF_ANTIPLANE:
+            raise ParameterError(
+                f"{name} = {found[name]!r} is not allowed with plane = {ANTIPLANE}: "
+                f"it must be one of {', '.join(OF_ANTIPLANE)}"
+            )
+
+
+def _complete(found: dict[str, Any]) -> None:
+    """Set the parameters that follow from others."""
+    if found["zeta"] is None:
+        found["zeta"] = found["b"] - found["a"]
+    else:
+        found["b"] = found["a"] + found["zeta"]
+    if found["poisson_ratio"] is None:
+        found["poisson_ratio"] = 0.0  # of antiplane shear, without effect
+    if found["zone_thickness"] is not None and found["zone_poisson_ratio"] is None:
+        found["zone_poisson_ratio"] = found["poisson_ratio"]
+    for name in ("shear_modulus", "poisson_ratio", "height", "density"):
+        if found[f"second_{name}"] is None:
+            found[f"second_{name}"] = found[name]

@@ -17,27 +17,91 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .stiffness import Array, Layers, Stiffness
-from .zone import Zone
+from ..types import Array
+from .stiffness import SATURATION, Stiffness, Waves, layer_stiffness, stiffness_with_zone
 
 BOTH_RIGID = "at least one of the two bodies must be deformable"
+
+
+class Layers(NamedTuple):
+    """One elastic body or many with the same boundary condition; fields broadcast with k.
+
+    A zone is a layer of another material between the interface and the body.
+    """
+
+    shear_modulus: Array  # mu (Pa)
+    poisson_ratio: Array
+    height: Array  # H (m), inf for a half-space, without the zone
+    far_side: str  # one of FAR_SIDES
+    antiplane: bool = False  # slip is along z, and Poisson's ratio does not matter
+    zone: Layers | None = None
+
+    @property
+    def zone_ratio(self) -> Array:
+        """Shear modulus of the body over that of its zone, or 1."""
+        own = self.shear_modulus
+        return own / (own if self.zone is None else self.zone.shear_modulus)
+
+    def at(self, index: NDArray) -> Layers:
+        """The bodies of an index or a mask."""
+        return self._replace(
+            shear_modulus=self.shear_modulus[index],
+            poisson_ratio=self.poisson_ratio[index],
+            height=self.height[index],
+            zone=self.zone and self.zone.at(index),
+        )
+
+    def with_heights(self, heights: Callable[[Array], Array]) -> Layers:
+        """The bodies with other heights and thicknesses (m), a function of the present ones."""
+        zone = self.zone and self.zone.with_heights(heights)
+        return self._replace(height=heights(self.height), zone=zone)
+
+    def with_zone_at_least(self, thickness: float) -> Layers:
+        """The body with its zone, or with one of a thickness (m) that resists long waves alike.
+
+        A soft zone adds ``h (1/mu_zone - 1/mu)`` to the compliance, a stiff one ``h (mu_zone -
+        mu)`` to the resistance against stretching. The thicker zone adds as much, and the body
+        becomes lower by as much as the zone becomes thicker.
+        """
+        if self.zone is None:
+            return self
+        ratio, height = self.zone_ratio, self.zone.height
+        thick = np.maximum(height, thickness)
+        share = height / thick
+        soft = 1.0 / (1.0 + share * (ratio - 1.0))
+        stiff = 1.0 + share * (1.0 / ratio - 1.0)
+        changed = self.shear_modulus * np.where(ratio > 1.0, soft, stiff)
+        modulus = np.where(share < 1.0, changed, self.zone.shear_modulus)
+        added = np.minimum(thick - height, 0.5 * self.height)
+        return self._replace(
+            height=self.height - added,
+            zone=self.zone._replace(height=thick, shear_modulus=modulus),
+        )
+
+    def _waves(self, wavenumber: ArrayLike) -> Waves:
+        """Functions of ``q = |k| H``, cut at SATURATION, above which none of them changes."""
+        k = np.abs(np.asarray(wavenumber, dtype=float))
+        return Waves(np.minimum(k * self.height, SATURATION))
+
+    def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
+        """Dimensionless stiffness A at a wavenumber (1/m), over the body's modulus."""
+        waves, nu = self._waves(wavenumber), self.poisson_ratio
+        own = layer_stiffness(waves, nu, self.far_side, self.antiplane)
+        if self.zone is None:
+            return own
+        waves, nu = self.zone._waves(wavenumber), self.zone.poisson_ratio
+        return stiffness_with_zone(waves, nu, self.antiplane, own, self.zone_ratio)
 
 
 class LayerPair(NamedTuple):
     """The bodies above and below the interface, one pair or many; None is a rigid body."""
 
-    upper: Layers | Zone | None
-    lower: Layers | Zone | None
+    upper: Layers | None
+    lower: Layers | None
 
     @property
-    def deformable(self) -> list[Layers | Zone]:
-        """The bodies that are not rigid.
-
-        Raises
-        ------
-        ValueError
-            If both are rigid.
-        """
+    def deformable(self) -> list[Layers]:
+        """The bodies that are not rigid; a ValueError if both are."""
         bodies = [body for body in self if body is not None]
         if not bodies:
             raise ValueError(BOTH_RIGID)
@@ -51,20 +115,14 @@ class LayerPair(NamedTuple):
     @property
     def thicknesses(self) -> list[Array]:
         """Heights (m) of the bodies that are not rigid, and thicknesses of their zones."""
-        return [thickness for body in self.deformable for thickness in body.thicknesses]
+        layers = [layer for body in self.deformable for layer in (body.zone, body)]
+        return [layer.height for layer in layers if layer is not None]
 
     @property
-    def contrast(self) -> Array | float:
+    def contrast(self) -> Array:
         """The greatest contrast of a zone with its body, the softer over the stiffer modulus."""
-        first, *second = [body.contrast for body in self.deformable]
-        return np.minimum(first, second[0]) if second else first
-
-    @property
-    def ratio(self) -> Array | float:
-        """``mu2/mu1``; 1 if a body is rigid."""
-        if self.upper is None or self.lower is None:
-            return 1.0
-        return self.lower.shear_modulus / self.upper.shear_modulus
+        ratios = [body.zone_ratio for body in self.deformable]
+        return np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
 
     def at(self, index: NDArray) -> LayerPair:
         """The pairs of an index or a mask."""
@@ -79,40 +137,29 @@ class LayerPair(NamedTuple):
         return LayerPair(*(body and body.with_zone_at_least(thickness) for body in self))
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
-        """Stiffness of the pair in series, over :attr:`modulus`, at a wavenumber (1/m)."""
-        upper, lower = (body and body.stiffness(wavenumber) for body in self)
-        return _series_stiffness(upper, lower, self.ratio)
+        """``(A^-1 + B^-1)^-1`` over :attr:`modulus` at a wavenumber (1/m).
+
+        B is that of the lower body, mirrored. The result's ``xy`` has the sign of the upper body's;
+        its subtraction vanishes exactly for mirror-symmetric pairs.
+        """
+        if self.upper is None or self.lower is None:
+            (body,) = self.deformable
+            own = body.stiffness(wavenumber)
+            return own._replace(xy=-own.xy) if self.upper is None else own
+        a, b = self.upper.stiffness(wavenumber), self.lower.stiffness(wavenumber)
+        r = self.lower.shear_modulus / self.upper.shear_modulus
+        mixed = a.xx * b.yy + a.yy * b.xx + 2.0 * a.xy * b.xy
+        joint = a.det + r * mixed + r**2 * b.det
+        share_a = r**2 * b.det / joint
+        share_b = r * a.det / joint
+        return Stiffness(
+            xx=share_a * a.xx + share_b * b.xx,
+            xy=share_a * a.xy - share_b * b.xy,
+            yy=share_a * a.yy + share_b * b.yy,
+            det=a.det * r**2 * b.det / joint,
+        )
 
     def transfer_functions(self, wavenumber: Array) -> tuple[Array, Array]:
         """G1 and G2 at wavenumbers (1/m) of either sign."""
         found = self.stiffness(wavenumber)
         return np.sign(wavenumber) * found.xx, found.xy
-
-
-def _series_stiffness(
-    upper: Stiffness | None,
-    lower: Stiffness | None,
-    ratio: Array | float,
-) -> Stiffness:
-    """``(A^-1 + B^-1)^-1`` of the upper stiffness A and ``ratio`` times the lower one, mirrored.
-
-    None is a rigid body. The result's ``xy`` has the sign of the upper body's; its subtraction
-    vanishes exactly for mirror-symmetric pairs.
-    """
-    if lower is None:
-        if upper is None:
-            raise ValueError(BOTH_RIGID)
-        return upper
-    if upper is None:
-        return lower._replace(xy=-lower.xy)
-    a, b, r = upper, lower, ratio
-    mixed = a.xx * b.yy + a.yy * b.xx + 2.0 * a.xy * b.xy
-    joint = a.det + r * mixed + r**2 * b.det
-    share_a = r**2 * b.det / joint
-    share_b = r * a.det / joint
-    return Stiffness(
-        xx=share_a * a.xx + share_b * b.xx,
-        xy=share_a * a.xy - share_b * b.xy,
-        yy=share_a * a.yy + share_b * b.yy,
-        det=a.det * r**2 * b.det / joint,
-    )

@@ -30,24 +30,100 @@ far side is free of traction, ``coth q`` if it is held. The normal stress does n
 Every entry is a quotient of sums of terms that increase with ``q = |k| H``. So it is accurate for
 ``q -> 0``, for incompressible layers and where ``cosh(2q)`` overflows (a factor ``exp(-2q)`` is
 taken out). Only ``A_xy`` of clamped and roller layers is a difference, and changes sign: in a thin
-layer that cannot expand sideways, compression by slip exceeds the half-space's uplift. A body with
-a layer of another material beside the interface is in :mod:`.zone`.
+layer that cannot expand sideways, compression by slip exceeds the half-space's uplift.
+
+A zone of gouge or of damaged rock, a layer ``0 < y < h``, may be bonded to the body behind it. Let
+B be the body's stiffness over the layer's modulus, and let P and Q be the layer's own for
+displacements of its near and its far face. Then the stiffness of both together is
+
+    C = P - Q (P + B)^-1 Q .
+
+As a quotient of determinants each entry of C is linear in ``B_xx``, ``B_yy``, ``B_xy`` and det B:
+numerators and the denominator of C are the sum of those of a free layer, of layers with the far
+sides ``velocity``, ``roller`` and ``clamped`` times ``(1 - nu) B_xx``, ``(1 - nu) B_yy`` and
+``det B/2``, and of a mixed term times ``B_xy``. Every other term is positive. So C is
+accurate from ``kh -> 0``, where it is that of the body, to thick layers, which hide the body. In
+antiplane shear it is the sum of a free layer and a held one times ``B_xx``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..model.material import ANTIPLANE
-from ..model.quantities import ParameterError
-from .waves import Array, Waves
+from ..types import Array
 
 SATURATION = 25.0
 """A layer with ``q = |k| H`` above this is a half-space: ``q^2 exp(-2q) < 2e-19``."""
+
+_ORDERS = np.arange(17.0, 3.0, -2.0)
+_COEFFICIENTS = (1.0 / ((_ORDERS - 1.0) * _ORDERS)).tolist()
+
+
+def _scaled_sinh_excess(x: Array) -> Array:
+    """``(sinh(x) - x) exp(-x)`` for ``x >= 0`` without cancellation (power series below 1)."""
+    decay = np.exp(-x)
+    direct = -0.5 * np.expm1(-2.0 * x) - x * decay
+    if np.all(x >= 1.0):
+        return direct
+    small = np.minimum(x, 1.0)
+    square = small**2
+    series = 1.0
+    for coefficient in _COEFFICIENTS:
+        series = 1.0 + series * square * coefficient
+    return np.where(x < 1.0, small**3 / 6.0 * series * decay, direct)
+
+
+class Waves:
+    """The functions of ``q = |k| H`` in a layer's stiffness, times ``exp(-2q)``.
+
+    Each is computed when first used. All are positive.
+    """
+
+    def __init__(self, q: Array) -> None:
+        self.q = q
+
+    @cached_property
+    def decay(self) -> Array:
+        """1."""
+        return np.exp(-2.0 * self.q)
+
+    @cached_property
+    def linear(self) -> Array:
+        """``2 q``."""
+        return 2.0 * self.q * self.decay
+
+    @cached_property
+    def square(self) -> Array:
+        """``q^2``."""
+        return self.q**2 * self.decay
+
+    @cached_property
+    def sinh_2q(self) -> Array:
+        """``sinh 2q``."""
+        return -0.5 * np.expm1(-4.0 * self.q)
+
+    @cached_property
+    def sinh_squared(self) -> Array:
+        """``sinh^2 q``."""
+        return 0.25 * np.expm1(-2.0 * self.q) ** 2
+
+    @cached_property
+    def cosh_squared(self) -> Array:
+        """``cosh^2 q``."""
+        return 0.25 * (1.0 + self.decay) ** 2
+
+    @cached_property
+    def excess(self) -> Array:
+        """``sinh 2q - 2q``."""
+        return _scaled_sinh_excess(2.0 * self.q)
+
+    @cached_property
+    def square_excess(self) -> Array:
+        """``sinh^2 q - q^2``."""
+        sinh_plus = -0.5 * np.expm1(-2.0 * self.q) + self.q * np.exp(-self.q)
+        return _scaled_sinh_excess(self.q) * sinh_plus
 
 
 class StiffnessTerms(NamedTuple):
@@ -72,10 +148,7 @@ class Stiffness(NamedTuple):
     det: Array
 
 
-def _velocity_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
+def _velocity_terms(w: Waves, nu: Array) -> StiffnessTerms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
     return StiffnessTerms(
         denominator=(3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
@@ -86,10 +159,7 @@ def _velocity_terms(
     )
 
 
-def _roller_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
+def _roller_terms(w: Waves, nu: Array) -> StiffnessTerms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
 
     ``A_xy D = 2 [(1 - 2 nu) sinh 2q - 2q]`` with ``D = (3 - 4 nu) sinh 2q - 2q``.
@@ -103,10 +173,7 @@ def _roller_terms(
     )
 
 
-def _traction_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
+def _traction_terms(w: Waves, nu: Array) -> StiffnessTerms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
     compression = 4.0 * (1.0 - nu)
     constant = compression**2 / 2.0 * w.decay
@@ -119,10 +186,7 @@ def _traction_terms(
     )
 
 
-def _clamped_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
+def _clamped_terms(w: Waves, nu: Array) -> StiffnessTerms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
 
     ``A_xx, A_yy = 2 (1 - nu) (kappa sinh 2q -+ 2q) / D``,
@@ -142,9 +206,22 @@ def _clamped_terms(
     )
 
 
-_Terms: TypeAlias = Callable[[Waves, Array], StiffnessTerms]
+def _mixed_terms(w: Waves, nu: Array) -> StiffnessTerms:
+    """The factor of ``B_xy``; its entries may be negative."""
+    compression = 1.0 - nu
+    expansion = 1.0 - 2.0 * nu
+    kappa = 3.0 - 4.0 * nu
+    constant = 8.0 * compression**2 * w.decay
+    return StiffnessTerms(
+        denominator=2.0 * (expansion * kappa * w.sinh_squared - w.square),
+        xx=4.0 * compression * (expansion * w.sinh_2q - w.linear),
+        xy=constant + 4.0 * (expansion**2 * w.sinh_squared - w.square),
+        yy=4.0 * compression * (expansion * w.sinh_2q + w.linear),
+        det=8.0 * (expansion * w.sinh_squared + w.square),
+    )
 
-FAR_SIDES: dict[str, _Terms] = {
+
+FAR_SIDES: dict[str, Callable[[Waves, Array], StiffnessTerms]] = {
     "velocity": _velocity_terms,
     "traction": _traction_terms,
     "free": _traction_terms,
@@ -153,27 +230,11 @@ FAR_SIDES: dict[str, _Terms] = {
 }
 """Boundary conditions on the far side, by name; ``free`` is an alias of ``traction``."""
 
-
-def _antiplane_free_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
-    """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
-    return antiplane_terms(w.sinh_2q, 2.0 * w.cosh_squared)
+OF_ANTIPLANE = {"velocity": True, "traction": False, "free": False, "clamped": True}
+"""Whether they hold the far side in antiplane shear. Rollers let a layer slide along x alone."""
 
 
-def _antiplane_held_terms(
-    w: Waves,
-    nu: Array,
-) -> StiffnessTerms:
-    """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
-    return antiplane_terms(w.sinh_2q, 2.0 * w.sinh_squared)
-
-
-def antiplane_terms(
-    numerator: Array,
-    denominator: Array,
-) -> StiffnessTerms:
+def _antiplane_terms(numerator: Array, denominator: Array) -> StiffnessTerms:
     """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
     return StiffnessTerms(
         denominator=denominator,
@@ -184,72 +245,41 @@ def antiplane_terms(
     )
 
 
-OF_ANTIPLANE: dict[str, _Terms] = {
-    "velocity": _antiplane_held_terms,
-    "traction": _antiplane_free_terms,
-    "free": _antiplane_free_terms,
-    "clamped": _antiplane_held_terms,
-}
-"""The same in antiplane shear, without rollers: they let a layer slide along x alone."""
+def layer_stiffness(w: Waves, nu: Array, far_side: str, antiplane: bool) -> Stiffness:
+    """Dimensionless stiffness A of a layer; in antiplane shear ``tanh q`` or ``coth q``."""
+    if antiplane:
+        squared = w.sinh_squared if OF_ANTIPLANE[far_side] else w.cosh_squared
+        terms = _antiplane_terms(w.sinh_2q, 2.0 * squared)
+    else:
+        terms = FAR_SIDES[far_side](w, nu)
+    below, *above = terms
+    return Stiffness(*(numerator / below for numerator in above))
 
 
-def require_far_side(
-    name: str,
-    far_side: str,
-    plane: str,
-) -> None:
-    """Raise a ParameterError if a plane of deformation does not have the boundary condition."""
-    if plane == ANTIPLANE and far_side not in OF_ANTIPLANE:
-        allowed = ", ".join(OF_ANTIPLANE)
-        raise ParameterError(
-            f"{name} = {far_side!r} is not allowed with plane = {plane}: "
-            f"it must be one of {allowed}"
-        )
-
-
-class Layers(NamedTuple):
-    """One elastic layer or many with the same boundary condition; fields broadcast with k."""
-
-    shear_modulus: Array  # mu (Pa)
-    poisson_ratio: Array
-    height: Array  # H (m), inf for a half-space
-    far_side: str  # one of FAR_SIDES
-    antiplane: bool = False  # slip is along z, and Poisson's ratio does not matter
-
-    def at(self, index: NDArray) -> Layers:
-        """The layers of an index or a mask."""
-        return self._replace(
-            shear_modulus=self.shear_modulus[index],
-            poisson_ratio=self.poisson_ratio[index],
-            height=self.height[index],
-        )
-
-    @property
-    def thicknesses(self) -> list[Array]:
-        """The height (m) alone, as there is no zone beside the interface."""
-        return [self.height]
-
-    def with_zone_at_least(self, thickness: float) -> Layers:
-        """The same layers: they have no zone."""
-        return self
-
-    @property
-    def contrast(self) -> float:
-        """1, as there is no other material."""
-        return 1.0
-
-    def with_heights(self, heights: Callable[[Array], Array]) -> Layers:
-        """The layers with other heights (m), a function of the present ones."""
-        return self._replace(height=heights(self.height))
-
-    def layer_number(self, wavenumber: ArrayLike) -> Array:
-        """``q = |k| H``, cut at :data:`SATURATION`, above which no function of q changes."""
-        k = np.abs(np.asarray(wavenumber, dtype=float))
-        return np.minimum(k * self.height, SATURATION)
-
-    def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
-        """Dimensionless stiffness A at a wavenumber (1/m)."""
-        known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
-        waves = Waves(self.layer_number(wavenumber))
-        below, *above = known[self.far_side](waves, self.poisson_ratio)
-        return Stiffness(*(numerator / below for numerator in above))
+def stiffness_with_zone(
+    w: Waves,
+    nu: Array,
+    antiplane: bool,
+    behind: Stiffness,
+    ratio: Array,
+) -> Stiffness:
+    """The stiffness of a zone with its body behind, over the body's modulus, `ratio` times its."""
+    xx = ratio * behind.xx
+    one = np.ones_like(xx)
+    if antiplane:
+        held, free = 2.0 * w.cosh_squared, w.sinh_2q
+        found = [(one, _antiplane_terms(free, held)), (xx, _antiplane_terms(held, free))]
+    else:
+        shares = {
+            "free": one,
+            "velocity": (1.0 - nu) * xx,
+            "roller": (1.0 - nu) * ratio * behind.yy,
+            "clamped": 0.5 * ratio**2 * behind.det,
+        }
+        found = [(share, FAR_SIDES[name](w, nu)) for name, share in shares.items()]
+        found.append((ratio * behind.xy, _mixed_terms(w, nu)))
+    terms = [share * np.stack(of_layer) for share, of_layer in found]
+    below, *above = np.add.reduce(terms)
+    xx, xy, yy, det = (numerator / below for numerator in above)
+    scale = 1.0 / ratio  # from over the zone's modulus
+    return Stiffness(scale * xx, scale * xy, scale * yy, scale**2 * det)

@@ -16,7 +16,7 @@ from nucleation.fault.fault import Fault
 from nucleation.model.friction.evolutions import aging, slip
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 from nucleation.theory.marginal import marginal_stiffness
-from nucleation.theory.stiffness import Layers
+from nucleation.theory.pair import Layers
 from nucleation.types import Array, ComplexArray
 
 from ..tables.curves import logarithmic_friction
