@@ -10,7 +10,7 @@ from asked import critical_length, stability_length
 from docs.prose import says, span, table
 
 from nucleation.api import Friction
-from nucleation.theory.creep.thin import thin_limit
+from nucleation.theory.closed_forms import thin_limit
 
 SHOWN = 0.005  # m
 

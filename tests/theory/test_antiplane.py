@@ -26,8 +26,8 @@ from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.start import body_of
+from nucleation.theory.closed_forms import thin_limit
 from nucleation.theory.creep.lengths import stability_length_of
-from nucleation.theory.creep.thin import thin_limit
 
 BP1 = {
     "shear_modulus": 32.04e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,

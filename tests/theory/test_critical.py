@@ -17,8 +17,8 @@ from two_bodies import (
 
 from nucleation.model.material import Material
 from nucleation.theory import crossings as crossings_module
-from nucleation.theory.crossings import largest_crossings
-from nucleation.theory.marginal import marginal_stiffness
+from nucleation.theory.critical import largest_crossings
+from nucleation.theory.spectrum import marginal_stiffness
 from nucleation.theory.status import NoLength
 from nucleation.theory.stiffness import FAR_SIDES
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.model.quantities import ParameterError
-from nucleation.theory import patch_basis, weakening_patch
+from nucleation.theory import weakening_patch
 from nucleation.theory.pair import LayerPair, Layers
 from nucleation.theory.spectrum import Systems
 
@@ -156,17 +156,17 @@ def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
         (weakening_patch, "TURN", 0.3),
         (weakening_patch, "FACTOR", 1.1),
         (weakening_patch, "PRECISION", 1e-7),
-        (patch_basis, "POINTS", 14),
-        (patch_basis, "OCTAVES", (-28, 13)),
+        (weakening_patch, "OCTAVE_POINTS", 14),
+        (weakening_patch, "OCTAVES", (-28, 13)),
     ],
 )
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
-    patch_basis.patch_basis.cache_clear()
+    weakening_patch.patch_basis.cache_clear()
     before = over_critical(0.5, 0.7, **OTHER, height=0.8)
-    patch_basis.patch_basis.cache_clear()
+    weakening_patch.patch_basis.cache_clear()
     monkeypatch.setattr(module, name, value)
     after = over_critical(0.5, 0.7, **OTHER, height=0.8)
-    patch_basis.patch_basis.cache_clear()
+    weakening_patch.patch_basis.cache_clear()
     assert after == pytest.approx(before, rel=1.5e-5)
 
 

@@ -13,7 +13,7 @@ from ..model.friction.constants import AGE, law_of
 from ..model.quantities import ParameterError
 from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
-from ..theory.crossings import largest_crossings
+from ..theory.critical import largest_crossings
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
 from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength

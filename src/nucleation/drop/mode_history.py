@@ -23,11 +23,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..theory.creep.front import Advance, advance, oscillating
-from ..theory.creep.front_onset import first_growing
-from ..theory.creep.linearised import local_coefficients
+from ..theory.creep.front import Advance, advance, first_growing, oscillating
+from ..theory.creep.linearised import edge_slip, local_coefficients
 from ..theory.creep.patches import Patches
-from ..theory.creep.steady import edge_slip
 from ..theory.status import STABLE, NoLength
 from ..types import Array, ComplexArray
 

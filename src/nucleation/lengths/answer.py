@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from ..model.hints import warn_of_implausible
 from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
-from ..theory.critical import stability_reason
-from ..theory.crossings import largest_crossings
+from ..theory.critical import largest_crossings, stability_reason
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
 from ..theory.status import STABLE, UNKNOWN, VALUE

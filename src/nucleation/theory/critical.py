@@ -1,18 +1,37 @@
 """The critical wavenumber and the critical nucleation length (Secs. 3-5, Text S1.4).
 
-The critical wavenumber k_c is the largest one with ``Re Lambda = 0``. The module :mod:`.crossings`
-finds it, for one system or for thousands.
+The critical wavenumber k_c is the largest one with ``Re Lambda = 0``, for one system or for
+thousands.
+
+``g >= b`` is stable for any rho. Above ``k = SATURATION/H`` every layer is a half-space, G1 and G2
+are constant and g is proportional to k; the larger of that k and of the one where the half-spaces
+have ``g = b`` bounds k_c from above. Where all ``Hk < 1e-3``, times the contrast of a zone with its
+body, G1 and G2 are powers of k. Between these the margin of stability is computed at POINTS
+wavenumbers. Every dip of it above the last unstable point is searched for its minimum, so that no
+unstable band between two points is overlooked.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .crossings import largest_crossings
-from .marginal import marginal_frequencies
-from .spectrum import Systems
+from ..types import Array
+from .evaluation import evaluate
+from .roots import roots
+from .spectrum import Systems, marginal_frequencies, marginal_stiffness, stability_margin
 from .status import STABLE, NoLength
-from .stiffness import Array
+from .stiffness import SATURATION
+from .values import FaultLike, Values
+
+POINTS = 200  # of log k, at first
+PARTS = 16  # of the interval around a dip, in each of the ZOOMS
+ZOOMS = 4
+LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
+HALVINGS = 60  # of k, in the search among long waves
+TOGETHER = 50  # systems that are searched at once, so that their arrays stay in the cache
+ROUND_OFF = 1e-16  # change of log k at which a search ends
 
 
 class CriticalMode(NamedTuple):
@@ -35,18 +54,7 @@ class CriticalMode(NamedTuple):
 
 
 def critical_modes(systems: Systems) -> CriticalMode:
-    """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5), of many systems.
-
-    Parameters
-    ----------
-    systems : Systems
-        Fields of shape (n,).
-
-    Returns
-    -------
-    CriticalMode
-        Fields of shape (n,); NaN where sliding is stable at every wavenumber.
-    """
+    """The critical modes of systems (n,); NaN where sliding is stable at every wavenumber."""
     k = largest_crossings(systems)
     return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
 
@@ -67,8 +75,7 @@ def critical_length_of(one: Systems) -> float:
 
 def stability_reason(one: Systems) -> str:
     """Why homogeneous sliding of one stable system is stable at every wavelength."""
-    fields = one.friction, one.a, one.zeta, one.b
-    friction, a, zeta, b = (_number(field) for field in fields)
+    friction, a, zeta, b = (x.item() for x in (one.friction, one.a, one.zeta, one.b))
     if b <= 0.0:
         return f"a + zeta = {b:g} is not positive: friction grows with slip rate at every frequency"
     facts = f"sliding is stable at every wavenumber for zeta = {zeta:g}, a = {a:g}"
@@ -78,7 +85,7 @@ def stability_reason(one: Systems) -> str:
             reason += f", and with f = {friction:g} slip changes the normal stress too little"
         return reason
     bodies = one.pair.deformable
-    held = " and ".join(f"{body.far_side} (H = {_number(body.height):g} m)" for body in bodies)
+    held = " and ".join(f"{body.far_side} (H = {body.height.item():g} m)" for body in bodies)
     return (
         f"{facts}, although friction weakens: with the far side {held} the layer is stiffer than "
         "friction's critical stiffness at every wavelength; a higher or softer layer, a larger "
@@ -86,6 +93,108 @@ def stability_reason(one: Systems) -> str:
     )
 
 
-def _number(value: Array) -> float:
-    """The number in an array of one entry."""
-    return float(np.ravel(value)[0])
+def at_each(
+    fault: FaultLike,
+    answer: Callable[..., tuple[Any, ...]],
+    *arrays: Values,
+    rows: int,
+) -> Any:
+    """Rows of objects: the answer to each fault's single system, L_c (m) and entries of arrays.
+
+    Where it raises NoLength there are NaN, and status and reason in the last two rows.
+    """
+
+    def points(systems: Systems, *values: Array) -> NDArray:
+        found = np.full((rows, systems.a.size), np.nan, dtype=object)
+        for i, length in enumerate(2.0 * np.pi / largest_crossings(systems)):
+            try:
+                own = (float(array[i]) for array in values)
+                found[:, i] = answer(systems.at(np.array([i])), float(length), *own)
+            except NoLength as none:
+                found[-2:, i] = none.status, str(none)
+        return found
+
+    return evaluate(fault, points, *arrays, rows=rows, dtype=object)
+
+
+def largest_crossings(systems: Systems) -> Array:
+    """The largest ``k > 0`` (1/m) with ``Re Lambda = 0``, (n,), of systems with fields (n,).
+
+    NaN where sliding is stable at every k.
+    """
+    one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
+    pair = systems.pair.with_heights(lambda height: np.inf * one)
+    g, rho = systems._replace(pair=pair).load_and_coupling(one)
+    k = marginal_stiffness(rho, systems.a, systems.zeta)[1] / g
+    k = np.where(k > 0.0, k, np.nan)
+    has_layers = np.isfinite(np.minimum.reduce(systems.pair.thicknesses))
+    layered = np.flatnonzero(has_layers & (systems.b > 0.0))
+    for start in range(0, layered.size, TOGETHER):
+        chosen = layered[start : start + TOGETHER]
+        k[chosen] = _refined(systems.at(chosen))
+    return k
+
+
+def _refined(systems: Systems) -> Array:
+    """The crossings, to round-off."""
+    low, high = _brackets(systems)
+
+    def margins(log_ratio: Array, index: NDArray) -> Array:
+        return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
+
+    return low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
+
+
+def _brackets(systems: Systems) -> Array:
+    """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
+    heights = systems.pair.thicknesses
+    finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
+    bottom = LONG_WAVES * systems.pair.contrast / np.fmax.reduce(finite)  # all layers are thin
+    high = SATURATION / np.fmin.reduce(finite)
+    top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])  # stable beyond
+    rows = np.arange(bottom.size)
+    k = _spaced(bottom, top, POINTS)
+    margin = _margins(systems, k)
+    unstable = margin < 0.0
+    has_any = unstable.any(axis=1)
+    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
+    bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
+
+    before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
+    dips = (middle > 0.0) & (middle < before) & (middle < after)
+    owner, place = np.nonzero(dips & (np.arange(POINTS - 2) >= last[:, None]))
+    above = k[owner, place + 2]
+    lowest = _minima(systems.at(owner), k[owner, place], above)
+    found = stability_margin(systems.at(owner), lowest) < 0.0
+    bracket[:, owner[found]] = lowest[found], above[found]  # of several the last, the largest k
+
+    missing = np.flatnonzero(np.isnan(bracket[0]))
+    if missing.size:  # all Hk may be small
+        k = bottom[missing, None] * 0.5 ** np.arange(HALVINGS)  # sliding is stable at the first
+        growing = _margins(systems.at(missing), k) < 0.0
+        rows, first = np.arange(missing.size), np.argmax(growing, axis=1)
+        found = np.stack([k[rows, first], k[rows, first - 1]])
+        bracket[:, missing] = np.where(growing.any(axis=1), found, np.nan)
+    return bracket
+
+
+def _minima(systems: Systems, low: Array, high: Array) -> Array:
+    """Wavenumbers (1/m) of the least margins between others, (n,)."""
+    rows = np.arange(low.size)
+    for _ in range(ZOOMS if low.size else 0):
+        k = _spaced(low, high, PARTS + 1)
+        least = np.argmin(_margins(systems, k), axis=1).clip(1, PARTS - 1)
+        low, high = k[rows, least - 1], k[rows, least + 1]
+    return np.sqrt(low * high)
+
+
+def _spaced(low: Array, high: Array, number: int) -> Array:
+    """Wavenumbers (1/m) with equal ratios between two others, (n, number)."""
+    share = np.linspace(0.0, 1.0, number)
+    return low[:, None] * (high / low)[:, None] ** share
+
+
+def _margins(systems: Systems, k: Array) -> Array:
+    """The margins of stability at wavenumbers of shape (n, m)."""
+    owner = np.broadcast_to(np.arange(k.shape[0])[:, None], k.shape)
+    return stability_margin(systems.at(owner), k)

@@ -2,7 +2,7 @@
 
 A fault creeps at a uniform V. On a patch of width W friction weakens, ``zeta > 0``; outside it
 strengthens, ``zeta < 0``. The linearisation about this creep is exact. With ``s = Lambda ell/V``
-and the elastic load ``m(k) = g (1 - i rho)`` of a Fourier mode over sigma0/ell (:mod:`.marginal`),
+and the elastic load ``m(k) = g (1 - i rho)`` of a Fourier mode over sigma0/ell (:mod:`.spectrum`),
 
     m u + c(x, s) u = 0 ,      c = s (a s - zeta)/(1 + s) ,
 
@@ -11,27 +11,46 @@ from that on the patch, and an equation for the slip on the patch alone is left,
 
     [1 - (c_out - c_in) G] u = 0 ,     G multiplies Fourier modes by 1/(m + c_out) .
 
-In Legendre polynomials (:mod:`.patch_basis`) it is a small matrix, whose determinant is 1 for very
+In Legendre polynomials it is a small matrix, whose determinant is 1 for very
 slow and positive for very fast modes. Where the surroundings alone are stable, the determinant has
 no poles with ``Re s > 0``, and its phase along the imaginary axis counts the growing modes: all of
 them, oscillating or not. The smallest W with a growing mode is found by bisection of that count.
+
+Slip on ``|x| < h`` is ``sum_n u_n p_n(x/h)`` with orthonormal Legendre polynomials p_n, and zero
+elsewhere. The Fourier transform of p_n is ``2 sqrt(n + 1/2) i^n j_n(q)``, ``q = k h``, with the
+spherical Bessel functions j_n. So an operator that multiplies each Fourier mode by F(k) is, on the
+patch, the matrix
+
+    F_mn = (2/pi) N_mn i^(n - m) integral_0^inf [F(q) + (-1)^(m + n) F(-q)] j_m(q) j_n(q) dq ,
+
+with ``N_mn = sqrt((m + 1/2)(n + 1/2))``. The line beyond the patch is infinite: there is no period.
+
+F is smooth in log q, the Bessel functions oscillate. In each octave of q the polynomial through F
+at OCTAVE_POINTS is integrated with the Bessel functions exactly; its weights don't depend on F.
+Beyond the last octave, at Q, the products of Bessel functions are replaced by their mean over an
+oscillation, which falls as ``1/q^2``. Its size is that which makes F = 1 the identity.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..types import Array, ComplexArray
-from .crossings import largest_crossings
+from .critical import largest_crossings
 from .evaluation import evaluate, require_broadcast
-from .patch_basis import patch_basis
 from .roots import bisected
 from .spectrum import Systems
 from .values import QUANTITIES, FaultLike, Values, checked, numbers_of
+
+OCTAVES = -24, 12  # of q, as powers of 2
+OCTAVE_POINTS = 10  # in an octave, at which F is evaluated
+SPACING = 2.0  # of q, in which Bessel functions are integrated by GAUSS points
+GAUSS = 12
 
 WIDEST = 10.0  # patches up to this multiple of L_c are tried
 NARROWEST = 0.05  # multiple of L_c at which the search begins
@@ -45,6 +64,96 @@ TURN = 0.7  # rad, by which the phase changes between neighbouring frequencies a
 HALVINGS = 40  # of the steps between frequencies
 
 
+class _PatchBasis(NamedTuple):
+    """Legendre polynomials on a patch and the weights of the integral over q."""
+
+    wavenumber: Array  # q, (points,)
+    even: Array  # weights of F(q) + F(-q), (points, number^2)
+    odd: Array  # weights of i [F(q) - F(-q)], (points, number^2)
+    number: int
+
+    def matrices(self, forward: ComplexArray, backward: ComplexArray) -> ComplexArray:
+        """Matrices of operators on the patch.
+
+        Returns: (operators, number, number).
+        """
+        found = (forward + backward) @ self.even
+        difference = forward - backward
+        if np.any(difference):
+            found = found + 1j * difference @ self.odd
+        return found.reshape(-1, self.number, self.number)
+
+
+@lru_cache(maxsize=8)
+def patch_basis(number: int) -> _PatchBasis:
+    """The basis of a number of polynomials."""
+    octaves = [_octave(number, power) for power in range(*OCTAVES)]
+    wavenumber = np.concatenate([points for points, _ in octaves])
+    weights = np.concatenate([own for _, own in octaves])
+    beyond, share = _beyond()
+    n = np.arange(number)
+    power = np.subtract.outer(n, n).T  # n - m
+    missing = 0.5 * np.eye(number).ravel() - weights.sum(axis=0)
+    missing[power.ravel() % 2 == 1] = 0.0  # the mean of a sine times a cosine
+    wavenumber = np.concatenate([wavenumber, beyond])
+    weights = np.concatenate([weights, share[:, None] * missing])
+    # i^(n - m) is real where n - m is even, and i times a real number where it is odd
+    even = np.where(
+        power % 2 == 0,
+        (-1.0) ** (power // 2),
+        0.0,
+    )
+    odd = np.where(
+        power % 2 == 1,
+        (-1.0) ** (power // 2),
+        0.0,
+    )
+    return _PatchBasis(
+        wavenumber,
+        weights * even.ravel(),
+        weights * odd.ravel(),
+        number,
+    )
+
+
+def _octave(number: int, power: int) -> tuple[Array, Array]:
+    """The points of an octave of q and their weights, (points,) and (points, number^2)."""
+    from scipy.special import spherical_jn
+
+    begin, end = 2.0**power, 2.0 ** (power + 1)
+    nodes, _ = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
+    q, weight = _gauss(begin, end)
+    polynomials = np.polynomial.legendre.legvander
+    position = 2.0 * (np.log2(q) - power) - 1.0
+    interpolation = polynomials(position, OCTAVE_POINTS - 1) @ np.linalg.inv(
+        polynomials(nodes, OCTAVE_POINTS - 1)
+    )
+    n = np.arange(number)[:, None]
+    bessel = np.sqrt(n + 0.5) * spherical_jn(n, q)
+    products = bessel[:, None] * bessel[None]
+    weights = products.reshape(-1, q.size) @ (weight[:, None] * interpolation)
+    return 2.0 ** (power + 0.5 * (nodes + 1.0)), 2.0 / np.pi * weights.T
+
+
+def _beyond() -> tuple[Array, Array]:
+    """Points beyond the last octave, at Q, and their weights in ``Q integral_Q^inf F dq/q^2``."""
+    nodes, weights = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
+    return 2.0 ** OCTAVES[1] / (0.5 * (nodes + 1.0)), 0.5 * weights
+
+
+def _gauss(begin: float, end: float) -> tuple[Array, Array]:
+    """Points and weights of an integral over an interval, dense enough for Bessel functions."""
+    edges = np.linspace(
+        begin,
+        end,
+        1 + max(1, round((end - begin) / SPACING)),
+    )
+    half = 0.5 * np.diff(edges)[:, None]
+    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+    return (middle + half * nodes).ravel(), (half * weights).ravel()
+
+
 @dataclasses.dataclass(frozen=True)
 class WeakeningPatch:
     """A patch in creep, of any width; both systems have fields of shape (1,) and one pair."""
@@ -53,19 +162,9 @@ class WeakeningPatch:
     outside: Systems
 
     def growing_modes(self, width: float, number: int) -> int:
-        """The number of growing modes of a patch of one width.
+        """The number of growing modes of a patch of a width (m), by a number of polynomials.
 
-        Parameters
-        ----------
-        width : float
-            Width of the patch (m).
-        number : int
-            Number of polynomials of the slip within it.
-
-        Returns
-        -------
-        int
-            A mode that oscillates counts twice, as its frequency has either sign.
+        A mode that oscillates counts twice, as its frequency has either sign.
         """
         turned = self._turn(width, number, 1.0)
         mirrored = not np.any(self.inside.friction)
@@ -78,24 +177,10 @@ class WeakeningPatch:
         number: int,
         frequency: Array,
     ) -> ComplexArray:
-        """Factors of the determinant for a patch of one width.
+        """Factors of the determinant, (frequencies, number + 1), at frequencies over V/D.
 
         They are its diagonal entries, and the determinant of the matrix with rows divided by these:
         none of them turns much between neighbouring frequencies, while the product of many does.
-
-        Parameters
-        ----------
-        width : float
-            Width of the patch (m).
-        number : int
-            Number of polynomials of the slip within it.
-        frequency : ndarray
-            Angular frequencies over V/D, of either sign, shape (frequencies,).
-
-        Returns
-        -------
-        ndarray
-            Shape (frequencies, number + 1).
         """
         basis = patch_basis(number)
         load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
@@ -144,19 +229,9 @@ def _turns(factors: ComplexArray) -> Array:
 
 
 def smallest_width(patch: WeakeningPatch, critical: float) -> float:
-    """The smallest width of a patch with a growing mode.
+    """W_c (m), the smallest width of a patch with a growing mode; NaN above ``WIDEST L_c``.
 
-    Parameters
-    ----------
-    patch : WeakeningPatch
-        The friction within and around it.
-    critical : float
-        L_c (m) of the friction within.
-
-    Returns
-    -------
-    float
-        W_c (m); NaN if no patch up to ``WIDEST L_c`` has a growing mode.
+    L_c (m) is that of the friction within.
     """
 
     def grows(width: float) -> bool:

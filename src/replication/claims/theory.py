@@ -15,8 +15,8 @@ import xarray as xr
 from nucleation.fault.fault import Fault
 from nucleation.model.friction.evolutions import aging, slip
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
-from nucleation.theory.marginal import marginal_stiffness
 from nucleation.theory.pair import Layers
+from nucleation.theory.spectrum import marginal_stiffness
 from nucleation.types import Array, ComplexArray
 
 from ..tables.curves import logarithmic_friction

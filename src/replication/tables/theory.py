@@ -15,11 +15,9 @@ from nucleation.datasets.variables import annotate, declared, table, to_csv
 from nucleation.extraction.growth import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
-from nucleation.theory.closed_forms import bimaterial_contrast
-from nucleation.theory.creep.front import advance
-from nucleation.theory.creep.front_onset import first_growing
+from nucleation.theory.closed_forms import bimaterial_contrast, thin_limit
+from nucleation.theory.creep.front import advance, first_growing
 from nucleation.theory.creep.lengths import stability_point
-from nucleation.theory.creep.thin import thin_limit
 from nucleation.theory.status import NoLength
 
 from .lengths import COLUMNS as LENGTHS

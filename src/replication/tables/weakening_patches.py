@@ -16,7 +16,7 @@ from nucleation.datasets.variables import declared, table
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import Run
 from nucleation.simulation.event import Outcome
-from nucleation.theory.crossings import largest_crossings
+from nucleation.theory.critical import largest_crossings
 from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 

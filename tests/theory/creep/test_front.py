@@ -6,8 +6,7 @@ import pytest
 from configurations import CONFIG, papers
 
 from nucleation.theory.creep import front
-from nucleation.theory.creep.front import advance
-from nucleation.theory.creep.front_onset import first_growing
+from nucleation.theory.creep.front import advance, first_growing
 from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"

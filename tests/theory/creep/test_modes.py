@@ -6,8 +6,8 @@ from two_bodies import RIGID, Body, Interface, system, transfer_functions
 
 from nucleation.model.material import Material
 from nucleation.theory.creep import response as module
+from nucleation.theory.creep.linearised import creep
 from nucleation.theory.creep.response import response
-from nucleation.theory.creep.steady import creep
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=1 / 3)
 FAULT = Interface()

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from nucleation.api import Fault
 from nucleation.run.run import PAPER_RUN
-from nucleation.theory.creep import front, front_onset, lengths
-from nucleation.theory.creep.front_onset import first_growing
+from nucleation.theory.creep import front, lengths
+from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.crossings import largest_crossings
+from nucleation.theory.critical import largest_crossings
 from nucleation.theory.evaluation import evaluate
 from nucleation.theory.status import NoLength
 
@@ -148,7 +148,7 @@ def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
     run, critical = narrow_run(zeta)
     usual = first_growing(run.patches, critical, 1.0)
     for tried in (9, 40):
-        monkeypatch.setattr(front_onset, "TRIED", tried)
+        monkeypatch.setattr(front, "TRIED", tried)
         assert first_growing(run.patches, critical, 1.0) == pytest.approx(usual, rel=2e-3)
     rates = [
         front.fastest(front.advance(run.patches, [part * usual], 1.0))[0] for part in (0.99, 1.01)

@@ -8,9 +8,9 @@ from scipy.optimize import root
 from scipy.special import sici
 
 from nucleation.api import Fault
+from nucleation.theory.closed_forms import thin_limit
 from nucleation.theory.creep.lengths import stability_answers
 from nucleation.theory.creep.response import SLIMMEST, response
-from nucleation.theory.creep.thin import thin_limit
 from nucleation.theory.evaluation import evaluate
 
 THIN_BLOCK = {

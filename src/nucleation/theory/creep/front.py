@@ -11,21 +11,30 @@ the speed dL/dt and the slip rate along the patch,
   displacement for which the front has no singularity: U(L), and ``t = U/V``;
 - the slip rate is ``(du/dL)/(dU/dL) V`` at fixed x.
 
-The three are repeated until they agree. Nothing is fitted and there is no time step.
+The three are repeated until they agree. Nothing is fitted and there is no time step. L_s is the
+length of the shortest patch that has a growing mode.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...model.friction import Friction
-from ...types import Array
-from ..status import NoLength
-from .linearised import FrozenPatch, creeping_patch, local_coefficients
+from ...types import Array, ComplexArray
+from ..roots import bisected
+from ..status import BEYOND, NoLength
+from .linearised import (
+    Creep,
+    EdgeSlip,
+    FrozenPatch,
+    creeping_patch,
+    edge_slip,
+    local_coefficients,
+)
 from .patches import Patches, require_contact
 from .response import MORE_MODES, mirror_modes
-from .steady import Creep, EdgeSlip, edge_slip
 
 ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
 FINE = 400  # angles at which the state behind the front is followed
@@ -37,6 +46,13 @@ FLOOR = 1e-3
 vanishes below it, and contacts there are as if at rest."""
 
 OSCILLATING = 0.01  # angular frequency over V/D below which a mode counts as not oscillating
+
+SHORTEST = 0.3  # where the search for L_s starts, over L_c
+TRIED = 14  # number of patches that are tried
+NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches to which a parabola is fitted
+CLOSE = 2e-3  # relative, within which the parabola's L_s must have decay and growth
+NARROW = 1e-4  # relative width of a bracket at which bisection ends
+REAL = 1e-9  # imaginary part below which a parabola's root is real
 
 
 class Advance(NamedTuple):
@@ -123,16 +139,8 @@ class _Front:
             speed = 0.5 * (speeds[:, j] + speeds[:, j + 1])
             log_state = _stepped(law, log_state, steps[:, j], speed)
             along.append(log_state)
-        self.log_states = np.array(
-            [
-                np.interp(
-                    own.theta,
-                    theta,
-                    of_length,
-                )
-                for of_length in np.transpose(along)
-            ]
-        )
+        rows = [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
+        self.log_states = np.array(rows)
         slip_rate = self._slip_rate(own.values)
         self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)
 
@@ -190,10 +198,7 @@ def advance(
     initial_stress: float = 0.0,
     number: int = MORE_MODES,
 ) -> Advance:
-    """The patch of one fault at some lengths, with its advancing front.
-
-    Takes lengths (m), initial_state (s). Returns: Time, speed and linearised patch at each length.
-    """
+    """The patch of one fault at some lengths (m), with its advancing front; initial state in s."""
     if patches.loading != "edge":
         raise NoLength(
             "only a patch that is pushed at its edge has a theory of the advancing front"
@@ -219,7 +224,7 @@ def advance(
     )
 
 
-def oscillating(found: Advance) -> NDArray[np.complex128]:
+def oscillating(found: Advance) -> ComplexArray:
     """Lambda over V/D of each patch's fastest growing oscillating mode, NaN without one."""
     return np.array([patch.oscillating(OSCILLATING) for patch in found.patches])
 
@@ -227,3 +232,78 @@ def oscillating(found: Advance) -> NDArray[np.complex128]:
 def fastest(found: Advance) -> Array:
     """Re Lambda over V/D of each patch's fastest growing mode, oscillating or not."""
     return np.array([patch.eigenvalues[0].real for patch in found.patches])
+
+
+def first_growing(
+    patches: Patches,
+    critical: float,
+    initial_state: float,
+    initial_stress: float = 0.0,
+) -> float:
+    """L_s of a patch with its advancing front.
+
+    Growth begins between two of the lengths tried, with a pair of modes that oscillates
+    (:mod:`.lengths`). L_s is the root of a parabola through the pair's
+    growth. Where the pair oscillates in a narrow window only, the parabola's root is not where
+    growth begins, and L_s is bisected. Lengths are in m, the initial state in s.
+    """
+
+    def advanced(lengths: ArrayLike) -> Advance:
+        return advance(patches, lengths, initial_state, initial_stress)
+
+    low, high, pair = _bracket(advanced, critical)
+    if np.isfinite(pair).all():
+        log_at = np.interp(0.0, pair, np.log([low, high]))
+        onset = _vanishing(advanced, float(np.exp(log_at)))
+        around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
+        before, after = fastest(advanced(around))
+        if before < 0.0 < after:
+            return onset
+    return bisected(
+        lambda length: bool(fastest(advanced([length]))[0] > 0.0),
+        low,
+        high,
+        NARROW,
+    )
+
+
+def _bracket(
+    advanced: Callable[[ArrayLike], Advance],
+    critical: float,
+) -> tuple[float, float, Array]:
+    """Neighbouring lengths (m) without and with growth, and the oscillating modes' growth there."""
+    tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
+    longer = tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)
+    for lengths in (tried, longer):
+        found = advanced(lengths)
+        growing = fastest(found) > 0.0
+        if growing.any():
+            break
+    else:
+        longest = lengths[-1]
+        raise NoLength(
+            f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
+            BEYOND,
+        )
+    i = int(np.argmax(growing))
+    if i == 0:
+        first = lengths[0] / critical
+        raise NoLength(f"a mode of the patch grows at {first:.2g} L_c already, or before")
+    low, high = lengths[i - 1 : i + 1]
+    return low, high, oscillating(found)[i - 1 : i + 1].real
+
+
+def _vanishing(
+    advanced: Callable[[ArrayLike], Advance],
+    at: float,
+) -> float:
+    """Root of a parabola through the pair's growth around a length (m); `at` without a root."""
+    growth = oscillating(advanced(at * np.exp(NEAR))).real
+    if not np.isfinite(growth).all():
+        return at
+    roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
+    real = roots[np.abs(roots.imag) < REAL].real
+    if real.size == 0:
+        return at
+    nearest = real[np.abs(real).argmin()]
+    return float(at * np.exp(nearest))

@@ -19,12 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.friction import Friction
 from ...model.friction.constants import full_law
 from ...model.quantities import ParameterError
 from ...types import Array
-from ..crossings import largest_crossings
-from ..evaluation import evaluate
+from ..critical import at_each
 from ..roots import roots
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE, NoLength
@@ -50,10 +48,7 @@ class _StabilityPoint(NamedTuple):
     error: float  # relative, of the length: by three quarters of the modes, and of slim layers
 
 
-def stability_point(
-    patches: Patches,
-    critical: float,
-) -> _StabilityPoint:
+def stability_point(patches: Patches, critical: float) -> _StabilityPoint:
     """L_s of one fault, with L_c (m) or NaN.
 
     Raises NoLength if homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing
@@ -61,22 +56,20 @@ def stability_point(
     """
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
-    point = _point_beyond(patches, SHORTEST * _guess(patches) * critical, critical)
+    _, a, zeta = patches.constants
+    guess = min(0.5 * (1.0 + 0.25 * a / max(zeta, 1e-6)), 1.0)  # L_s/L_c of a thin layer, or 1
+    point = _point_beyond(patches, SHORTEST * guess * critical, critical)
     if point.error < LARGEST_ERROR or patches.refinement > 1:
         return point
     finer = dataclasses.replace(patches, refinement=2)
     return _point_beyond(finer, NEAR * point.length, critical)
 
 
-def _point_beyond(
-    patches: Patches,
-    start: float,
-    critical: float,
-) -> _StabilityPoint:
-    """Where a mode begins to grow, by a search from a length (m)."""
+def _point_beyond(patches: Patches, start: float, critical: float) -> _StabilityPoint:
+    """Where a pair of modes begins to grow, by a search from a length (m)."""
 
     def growth(log_length: float) -> float:
-        return patches.growth(math.exp(log_length))
+        return float(patches.at(math.exp(log_length)).eigenvalues[0].real)
 
     def growths(log_lengths: Array, _: NDArray) -> Array:
         return np.array([growth(at) for at in log_lengths])
@@ -96,14 +89,7 @@ def _point_beyond(
                 BEYOND,
             )
     (log_length,) = roots(growths, np.array([low]), np.array([high]), PRECISION)
-    return _point(patches, math.exp(log_length))
-
-
-def _point(
-    patches: Patches,
-    length: float,
-) -> _StabilityPoint:
-    """The pair of modes that begins to grow at a length (m)."""
+    length = math.exp(log_length)
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]
     rate = complex(pairs[0] if pairs.size else rates[0])
@@ -116,90 +102,34 @@ def _point(
     return _StabilityPoint(length, rate.imag, slope, error)
 
 
-def _guess(patches: Patches) -> float:
-    """About L_s over L_c: that of a thin layer (:mod:`.thin`), or 1 where friction weakens less."""
-    _, a, zeta = patches.constants
-    weakening = max(zeta, 1e-6)
-    return min(0.5 * (1.0 + 0.25 * a / weakening), 1.0)
-
-
 def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any, Any]:
-    """L_s, its mode's frequency, its error, its status and the reason for it.
+    """L_s (m), its mode's frequency over V/D, its relative error, its status and the reason for it.
 
-    Parameters
-    ----------
-    fault : Fault
-        One or many faults.
-
-    Returns
-    -------
-    length, frequency, error, status, reason : ndarray or DataArray
-        L_s (m), angular frequency over V/D, relative error of L_s, and two texts; broadcast shape.
-        The reason is empty where there is L_s.
-
-    Raises
-    ------
-    ParameterError
-        If the friction law is not allowed with the loading, or lacks a constant.
+    A ParameterError if the friction law is not allowed with the loading, or lacks a constant.
     """
     law = fault.friction_law
-    _require_edge(fault)
-    velocity = 1.0 if fault.velocity is None else fault.velocity
-
-    def points(
-        systems: Systems,
-        velocity: Array,
-    ) -> NDArray:
-        critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full(
-            (5, critical.size),
-            np.nan,
-            dtype=object,
-        )
-        for i, length in enumerate(critical):
-            one = systems.at(np.array([i]))
-            patches = Patches(
-                one,
-                velocity=float(velocity[i]),
-                loading=fault.loading,
-            )
-            if law is not None:
-                patches = _with_law(patches, law)
-            try:
-                point = stability_point(patches, float(length))
-            except NoLength as none:
-                found[3:, i] = none.status, str(none)
-                continue
-            found[:, i] = point.length, point.frequency, point.error, VALUE, ""
-        return found
-
-    rows = evaluate(fault, points, velocity, rows=5, dtype=object)
-    length, frequency, error = rows[:3].astype(float)
-    return length, frequency, error, rows[3], rows[4]
-
-
-def _require_edge(fault: FaultLike) -> None:
-    """Refuse a friction law where V, f or an edge is missing."""
-    if fault.friction_law is None:
-        return
-    if fault.loading != "edge":
+    if law is not None and fault.loading != "edge":
         raise ParameterError(
             f"friction_law is not allowed with loading = {fault.loading}: there the slip rate is "
             "not V, and a and b are constant"
         )
-    if fault.velocity is None or fault.friction is None:
+    if law is not None and (fault.velocity is None or fault.friction is None):
         raise ParameterError("a friction law needs the fault's velocity and friction")
+    velocity = 1.0 if fault.velocity is None else fault.velocity
 
+    def answer(one: Systems, critical: float, velocity: float) -> tuple[Any, ...]:
+        patches = Patches(one, velocity=velocity, loading=fault.loading)
+        if law is not None:  # with the constants of the fault at V
+            distance = velocity / float(one.rate[0])
+            scaled = law.changed({"slip_distance": distance})
+            own = full_law(scaled, velocity, *patches.constants)
+            patches = dataclasses.replace(patches, law=own)
+        point = stability_point(patches, critical)
+        return point.length, point.frequency, point.error, VALUE, ""
 
-def _with_law(
-    patches: Patches,
-    law: Friction,
-) -> Patches:
-    """The patches with a friction law that has the constants of their fault at V."""
-    distance = patches.velocity / float(patches.one.rate[0])
-    scaled = law.changed({"slip_distance": distance})
-    own = full_law(scaled, patches.velocity, *patches.constants)
-    return dataclasses.replace(patches, law=own)
+    rows = at_each(fault, answer, velocity, rows=5)
+    length, frequency, error = rows[:3].astype(float)
+    return length, frequency, error, rows[3], rows[4]
 
 
 def stability_length_of(patches: Patches, critical: float, constant: bool = False) -> float:

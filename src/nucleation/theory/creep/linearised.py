@@ -1,4 +1,4 @@
-"""Linear algebra of a patch with linearised friction and elasticity: modes and amplitudes.
+"""Steady creep of a patch under its loading, and its linearisation: modes and amplitudes.
 
 For perturbations of slip w and of psi = log(phi) at some places, force balance and the evolution of
 the state read ``dv = A dw + b dpsi``, b diagonal, and ``d(dpsi)/dt = g_v dv + g_psi dpsi``. This is
@@ -18,11 +18,94 @@ from numpy.typing import NDArray
 
 from ...model.friction import Friction
 from ...types import Array, ComplexArray
-from .steady import Creep
+from .response import PatchResponse
 
+SLOWEST = 1e-6  # least slip rate over V: friction's logarithm diverges at rest
+NEAR = 2  # places next to the front that determine the share of the singularity
 OSCILLATING = 0.1  # modes of a smaller angular frequency, over V/D, count as not oscillating
 INVERSE_ITERATIONS = 3  # towards the null vector of a matrix that is singular to round-off
 OFFSET = 1e-9  # relative, from the eigenvalue, so that T can be factorised
+
+
+class Creep(NamedTuple):
+    """A creeping patch, at the angles of its modes.
+
+    Slip rates are relative to `fastest`: V at an edge that is pushed, else the largest one.
+    """
+
+    response: PatchResponse  # of the bodies, and L
+    slip_rate: Array  # over `fastest`, (N,)
+    normal_stress: Array  # compression over sigma0, (N,)
+    loaded: float  # imposed at L: displacement of the edge over D, or shear stress over sigma0
+    fastest: float = 1.0  # over V
+
+
+def creep(
+    response: PatchResponse,
+    friction: float,
+    load_rate: float | None = None,
+) -> Creep:
+    """The creep of a patch under the loading of a response.
+
+    Slip rate: the strength is constant. So ``(K1 + f S2) v = 0`` with ``v(0) = V``, or ``(K1 + f
+    S2) v`` is the rate of the stress. Slip: the patch is loaded to its strength, ``-(K1 + f S2) u =
+    f sigma0``, and the edge has the displacement for which the front has no singularity. That slip
+    has changed the normal stress by ``S2 u``. A stress that loads a uniform interface evenly
+    reaches the strength everywhere at once, and u = 0.
+    """
+    slip = edge_slip(response, friction, friction)
+    rates = response.modes.values @ slip.rates
+    fastest = 1.0
+    if load_rate is not None:
+        scale = float(rates.max())
+        rates = rates / scale
+        fastest = scale * load_rate
+    return Creep(
+        response=response,
+        slip_rate=np.maximum(rates, SLOWEST),
+        normal_stress=1.0 + response.normal @ slip.slip,
+        loaded=slip.loaded,
+        fastest=fastest,
+    )
+
+
+class EdgeSlip(NamedTuple):
+    """Coefficients of slip rate and slip in the modes, and the edge's displacement."""
+
+    rates: Array
+    slip: Array
+    loaded: float
+
+
+def edge_slip(
+    response: PatchResponse,
+    friction: Array | float,
+    strength: Array | float,
+) -> EdgeSlip:
+    """The modes' coefficients of the slip rate over V and of the slip over D, (N + 1,).
+
+    Where slip changes the normal stress, the front's singularity is no square root, and the edge is
+    not regular. An error of alternating sign at neighbouring places remains, which
+    the modes' smoothing removes from the result.
+    """
+    matrix = response.coupled(friction)
+    sines: Array = matrix[:, 1:]
+    by_edge = matrix[:, 0]
+    by_strength = np.broadcast_to(strength, by_edge.shape)
+    loads = np.stack([by_edge, by_strength], axis=1)
+    rates, held = -np.linalg.solve(sines, loads).T
+    rates = np.append(1.0, rates)
+    held = np.append(0.0, held)
+    near = response.modes.values[:NEAR]
+    squares = response.modes.theta[:NEAR] ** 2
+    ratio = (near @ held) / (near @ rates)
+    loaded = -float(np.polyfit(squares, ratio, NEAR - 1)[-1])
+    smoothing = response.modes.smoothing
+    return EdgeSlip(
+        rates=smoothing * rates,
+        slip=smoothing * (loaded * rates + held),
+        loaded=loaded,
+    )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -103,10 +186,9 @@ def log_state_derivatives(
     slip_rate: Array,
     state: Array,
 ) -> tuple[Array, Array]:
-    """Derivatives of ``dpsi/dt``, which is ``g(phi w / D) / phi`` with the evolution law g(omega).
+    """Derivatives of ``dpsi/dt = g(phi w / D) / phi`` by v (1/m) and by psi (1/s).
 
-    Takes slip_rate (m/s), state (s). Returns: By v at fixed psi (1/m), and by psi at fixed v (1/s);
-    same shape.
+    Takes slip_rate (m/s) and state (s).
     """
     speed = law.slip_speed(slip_rate)
     distance = law.slip_distance
@@ -138,10 +220,7 @@ def constant_coefficients(
     a: float,
     zeta: float,
 ) -> _LinearFriction:
-    """Friction with constant a and b about steady sliding at each place.
-
-    Returns: Its coefficients, (N,).
-    """
+    """Friction with constant a and b about steady sliding at each place."""
     ones = np.ones_like(rate)
     return _LinearFriction(
         friction=friction * ones,
@@ -158,10 +237,7 @@ def local_coefficients(
     rate: Array,
     log_state: Array | None = None,
 ) -> _LinearFriction:
-    """A friction law linearised at each place.
-
-    Takes velocity (m/s). Returns: Its coefficients, (N,).
-    """
+    """A friction law linearised at each place, about steady sliding unless log(phi) is given."""
     v = velocity * rate
     psi = np.log(law.steady_state(v)) if log_state is None else log_state
     f, f_v, f_psi = law.coefficient_and_slopes(v, psi)
@@ -184,8 +260,6 @@ def creeping_patch(
     """The patch linearised about its creep: slip in D, time in D/V.
 
     ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f at each place.
-
-    Returns: Its coefficients at the angles of the modes.
     """
     response = creep.response
     stiffness = response.coupled(friction.friction)[:, 1:] @ response.modes.inverse

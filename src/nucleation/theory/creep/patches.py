@@ -10,9 +10,15 @@ import numpy as np
 from ...model.friction import Friction
 from ..spectrum import Systems
 from ..status import NoLength
-from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
+from .linearised import (
+    Creep,
+    FrozenPatch,
+    constant_coefficients,
+    creep,
+    creeping_patch,
+    local_coefficients,
+)
 from .response import PatchResponse, SlimLayers, modes_for, response
-from .steady import Creep, creep
 
 
 @dataclasses.dataclass(frozen=True)
@@ -65,25 +71,7 @@ class Patches:
         length: float,
         number: int | None = None,
     ) -> Creep:
-        """The creep of a patch.
-
-        Parameters
-        ----------
-        length : float
-            Patch length (m).
-        number : int, optional
-            Number of modes; by default as many as the fault needs.
-
-        Returns
-        -------
-        Creep
-            Slip rate and normal stress along the patch.
-
-        Raises
-        ------
-        NoLength
-            If the creep removes all of the compression somewhere.
-        """
+        """The creep of a patch (m) by a number of modes, by default as many as the fault needs."""
         bodies = self.response(length, number or self.number)
         load_rate = None if self.loading == "edge" else self.load_rate
         found = creep(bodies, self.constants[0], load_rate)
@@ -95,25 +83,7 @@ class Patches:
         length: float,
         number: int | None = None,
     ) -> FrozenPatch:
-        """The linearised patch; slip in D, time in D/V.
-
-        Parameters
-        ----------
-        length : float
-            Patch length (m).
-        number : int, optional
-            Number of modes; by default as many as the fault needs.
-
-        Returns
-        -------
-        FrozenPatch
-            Its coefficients at the angles of the modes.
-
-        Raises
-        ------
-        NoLength
-            If the creep removes all of the compression somewhere.
-        """
+        """The linearised patch (m); slip in D, time in D/V."""
         creep = self.creep(length, number)
         if self.law is None:
             friction = constant_coefficients(creep.slip_rate, *self.constants)
@@ -121,32 +91,13 @@ class Patches:
             friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
         return creeping_patch(creep, friction)
 
-    def growth(self, length: float) -> float:
-        """Re Lambda over V/D of the fastest growing mode, oscillating or not."""
-        return float(self.at(length).eigenvalues[0].real)
-
     def rate_near(
         self,
         length: float,
         rate: complex,
         number: int | None = None,
     ) -> complex:
-        """The eigenvalue that is nearest to a given one.
-
-        Parameters
-        ----------
-        length : float
-            Patch length (m).
-        rate : complex
-            Lambda over V/D, the given one.
-        number : int, optional
-            Number of modes; by default as many as the fault needs.
-
-        Returns
-        -------
-        complex
-            Lambda over V/D.
-        """
+        """The eigenvalue (Lambda over V/D) of a patch (m) that is nearest to a given one."""
         rates = self.at(length, number).eigenvalues
         return complex(rates[np.abs(rates - rate).argmin()])
 

@@ -16,11 +16,9 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...types import Array
-from ..crossings import largest_crossings
-from ..evaluation import evaluate
+from ..critical import at_each
 from ..spectrum import Systems
 from ..status import BEYOND, UNKNOWN, VALUE, NoLength
 from ..values import FaultLike
@@ -185,23 +183,10 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     The patch is pushed at its edge, and a and b are constant.
     """
 
-    def points(systems: Systems) -> NDArray:
-        critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full(
-            (4, critical.size),
-            np.nan,
-            dtype=object,
-        )
-        for i, length in enumerate(critical):
-            patches = Patches(systems.at(np.array([i])), evolution=fault.evolution)
-            try:
-                point = runaway_point(patches, float(length))
-            except NoLength as none:
-                found[2:, i] = none.status, str(none)
-                continue
-            found[:, i] = point.length, point.error, VALUE, ""
-        return found
+    def answer(one: Systems, critical: float) -> tuple[Any, ...]:
+        point = runaway_point(Patches(one, evolution=fault.evolution), critical)
+        return point.length, point.error, VALUE, ""
 
-    rows = evaluate(fault, points, rows=4, dtype=object)
+    rows = at_each(fault, answer, rows=4)
     length, error = rows[:2].astype(float)
     return length, error, rows[2], rows[3]
