@@ -8,7 +8,7 @@ import numpy as np
 from nucleation.fault import Fault
 from nucleation.model.material import ANTIPLANE, Material
 from nucleation.run.run import PAPER_RUN
-from nucleation.theory import critical, crossings, spectrum
+from nucleation.theory import critical, spectrum
 from nucleation.theory.pair import LayerPair, Layers
 
 
@@ -94,7 +94,7 @@ def critical_wavenumber(upper, lower, interface):
 
 def critical_lengths(cases):
     """L_c (m) of each system, NaN where sliding is stable."""
-    k = [crossings.largest_crossings(system(*case))[0] for case in cases]
+    k = [critical.largest_crossings(system(*case))[0] for case in cases]
     return 2.0 * np.pi / np.array(k)
 
 

@@ -16,7 +16,7 @@ from two_bodies import (
 )
 
 from nucleation.model.material import Material
-from nucleation.theory import crossings as crossings_module
+from nucleation.theory import critical as critical_module
 from nucleation.theory.critical import largest_crossings
 from nucleation.theory.spectrum import marginal_stiffness
 from nucleation.theory.status import NoLength
@@ -162,7 +162,7 @@ def test_length_does_not_depend_on_the_number_of_points(monkeypatch):
     usual = found()
     assert 20 < np.isnan(usual).sum() < 180
     for points in (100, 1000):
-        monkeypatch.setattr(crossings_module, "POINTS", points)
+        monkeypatch.setattr(critical_module, "POINTS", points)
         np.testing.assert_allclose(found(), usual, rtol=1e-11)
 
 
