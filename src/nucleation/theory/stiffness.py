@@ -129,7 +129,7 @@ class Waves:
 class StiffnessTerms(NamedTuple):
     """Numerators of ``A_xx, A_xy, A_yy, det A`` and their denominator, all times ``exp(-2q)``.
 
-    Each but ``A_xy`` is a sum of :class:`~.waves.Waves` with positive coefficients.
+    Each but ``A_xy`` is a sum of :class:`Waves` with positive coefficients.
     """
 
     denominator: Array
