@@ -34,7 +34,7 @@ def visible_texts(figure: Figure) -> list[Text]:
 def boxes(figure: Figure) -> list[tuple[str, Bbox]]:
     """Text and bounding box (pixels) of all visible text, after laying the figure out."""
     with mpl.rc_context(style.STYLE):
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         found = [(t.get_text(), t.get_window_extent()) for t in visible_texts(figure)]
     return [(text, box) for text, box in found if box.width > 0]
 

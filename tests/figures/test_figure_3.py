@@ -3,15 +3,16 @@
 import drawn_layout
 import numpy as np
 import pytest
-import xarray as xr
 
 from nucleation.pictures import style
 from replication.figures import figure_3
 
+THICK = "paper-7"  # the run in the inset
+
 
 @pytest.fixture
-def axes(theory, lengths, thick, thick_row):
-    return figure_3.draw(theory, lengths, thick, thick_row).axes[0]
+def axes(theory, lengths, thick):
+    return figure_3.draw(theory, lengths, thick, THICK).axes[0]
 
 
 def points(axes):
@@ -38,13 +39,11 @@ def test_points_and_error_bars(axes, lengths, label, marker, colour, runs):
     np.testing.assert_allclose(ends[:, 1], expected["length_high"], rtol=1e-12)
 
 
-def test_runs_without_a_length_and_unknown_studies_are_left_out(
-    theory, lengths, thick, thick_row, axes
-):
+def test_runs_without_a_length_and_unknown_studies_are_left_out(theory, lengths, thick, axes):
     assert len(points(axes)) == 3  # the run without a length has added none
     assert sum(len(c[0].get_xdata()) for c in points(axes).values()) == 11
     other = lengths.assign(role=("run", np.full(lengths.sizes["run"], "own")))
-    drawn = figure_3.draw(theory, other, thick, thick_row)
+    drawn = figure_3.draw(theory, other, thick, THICK)
     assert not drawn.axes[0].containers
 
 
@@ -90,8 +89,9 @@ def test_snapshots_go_from_creep_to_just_after_the_onset(thick, thick_row):
 
 def test_a_run_without_an_event_is_drawn_without_marks(theory, lengths, thick):
     still = thick.isel(time=slice(0, 60))
-    row = xr.Dataset({"onset_time": np.nan, "length": np.nan})
-    (inset,) = figure_3.draw(theory, lengths, still, row).axes[0].child_axes
+    shown = lengths["id"] == THICK
+    unknown = {name: lengths[name].where(~shown) for name in ("onset_time", "length")}
+    (inset,) = figure_3.draw(theory, lengths.assign(unknown), still, THICK).axes[0].child_axes
     assert len([line for line in inset.get_lines() if len(line.get_xdata()) > 2]) == 4
     assert not inset.texts
 

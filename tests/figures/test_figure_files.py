@@ -12,7 +12,8 @@ import pytest
 from matplotlib.image import imread
 
 from nucleation.pictures import run, style
-from replication.figures import figure_1, figure_2, figure_3, supplement
+from replication.figures import figure_1, figure_3
+from replication.figures import theory as theory_figures
 
 pytestmark = pytest.mark.slow
 
@@ -21,13 +22,13 @@ SOURCE = Path(style.__file__).parents[2]
 
 
 @pytest.fixture
-def draw(theory, lengths, thin, thin_row, thick, thick_row):
+def draw(theory, lengths, thin, thin_row, thick):
     """Draw a figure by name."""
     calls = {
         "figure_1": figure_1.draw,
-        "figure_2": lambda: figure_2.draw(theory),
-        "figure_3": lambda: figure_3.draw(theory, lengths, thick, thick_row),
-        "figure_s1": lambda: supplement.figure_s1(theory),
+        "figure_2": lambda: theory_figures.figure_2(theory),
+        "figure_3": lambda: figure_3.draw(theory, lengths, thick, "paper-7"),
+        "figure_s1": lambda: theory_figures.figure_s1(theory),
         "figure_s2": lambda: run.draw(thin, thin_row),
     }
     return lambda name: calls[name]()
@@ -44,7 +45,9 @@ def test_files_are_reproducible_small_and_embed_their_fonts(draw, name, tmp_path
     assert b"/Type3" not in content and b"CreationDate" not in content
     assert len(content) < 1_000_000
     width = imread(png).shape[1] / 300.0
-    assert np.isclose(width, [style.SINGLE_COLUMN, style.DOUBLE_COLUMN], atol=0.01).any()
+    assert np.isclose(
+        width, [style.SINGLE_COLUMN / 2.54, style.DOUBLE_COLUMN / 2.54], atol=0.01
+    ).any()
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -5,7 +5,8 @@ import pytest
 import xarray as xr
 
 from nucleation.theory.closed_forms import bimaterial_length_ratio
-from replication.figures import figure_2, figure_pairs
+from replication.figures import figure_pairs
+from replication.figures.theory import looks
 
 
 @pytest.fixture
@@ -37,8 +38,9 @@ def table():
 def test_identical_blocks_and_ratios(table):
     """The mean of the realisations, 0.75, with their range as bars."""
     left, right = figure_pairs.draw(table, {}).axes
-    np.testing.assert_allclose(left.lines[1].get_ydata(), 0.3)
-    np.testing.assert_allclose(left.lines[2].get_ydata(), 0.2)
+    np.testing.assert_allclose(left.containers[0][0].get_ydata(), 0.3)
+    (stability,) = (line for line in left.lines if line.get_marker() == "D")
+    np.testing.assert_allclose(stability.get_ydata(), 0.2)
     np.testing.assert_allclose(right.lines[0].get_ydata(), 0.75)
     assert right.lines[0].get_xdata().size == 3  # those of other friction are elsewhere
     for axes, unit in ((left, 0.4), (right, 1.0)):
@@ -64,8 +66,8 @@ def test_identical_blocks_have_a_smooth_curve_where_it_is_given(table):
 def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(table, theory):
     unknown = table["f_beta"].values == 0.1
     lost = table["stability_ratio"].where(~xr.DataArray(unknown, dims="run"))
-    panels = figure_2.draw_simulated(table.assign(stability_ratio=lost), theory).axes[:2]
-    papers = figure_2.looks(theory["zeta_over_a"].values)
+    panels = figure_pairs.draw_contrast(table.assign(stability_ratio=lost), theory).axes[:2]
+    papers = looks(theory["zeta_over_a"].values)
     for axes in panels:
         for weakening in (10.0, 1.0):
             label = rf"Eq. (9), $\zeta/a={weakening:g}$"
@@ -77,7 +79,7 @@ def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(tabl
 
 
 def test_figure_2_has_both_senses_in_units_without_contrast(table, theory):
-    left, right = figure_2.draw_simulated(table, theory).axes[:2]
+    left, right = figure_pairs.draw_contrast(table, theory).axes[:2]
     assert len(left.containers) == 2
     for panel, ratio in ((left, 0.75), (right, 0.5)):
         for (points, _, bars), weakening in zip(panel.containers, (10.0, 1.0), strict=True):

@@ -1,19 +1,9 @@
 """Markers by law: the paper's as in its Figure 3, and one for any other law that there is."""
 
-import numpy as np
 import pytest
 import xarray as xr
 
-from replication.figures import figure_3, figure_3_extended, figure_patch, laws
-
-
-def test_every_law_has_a_look_of_its_own():
-    found = laws.looks(["slip", "halfway", "my_law", "aging", "slip"])
-    assert list(found)[:4] == list(laws.PAPERS)
-    assert {law for law, _ in found} == {"aging", "slip", "halfway", "my_law"}
-    young = [(look.marker, look.colour) for (_, aged), look in found.items() if not aged]
-    assert len(set(young)) == 4
-    assert found["my_law", False].label == "my law law"
+from replication.figures import figure_3, figure_patch, laws
 
 
 def table(*rows):
@@ -23,16 +13,27 @@ def table(*rows):
     )
 
 
+def test_every_law_has_a_look_of_its_own():
+    names = ["slip", "halfway", "my_law", "aging", "slip"]
+    found = list(laws.kinds(table(*((name, 1.0) for name in names), ("slip", 5.0))))
+    assert [kind.name for kind in found] == [
+        "aging law", "slip law", "slip law", "halfway law", "my law law"
+    ]  # fmt: skip
+    assert [kind.old for kind in found] == [False, False, True, False, False]
+    assert len({(kind.look.marker, kind.look.colour) for kind in found}) == 5
+
+
 @pytest.mark.parametrize(
     ("rows", "shown"),
     [
-        ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [1]),
-        ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [0]),
-        ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [0, 2]),
+        ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
+        ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
+        ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
     ],
 )
 def test_what_is_shown_where_one_law_is(rows, shown):
-    assert np.flatnonzero(laws.usual(table(*rows))).tolist() == shown
+    found = figure_patch.shown(table(*rows).assign(role=("run", ["own"] * 3)))
+    assert list(zip(found["evolution"].values, found["initial_state"].values, strict=True)) == shown
 
 
 @pytest.fixture
@@ -42,20 +43,15 @@ def others(lengths):
     return lengths.assign(evolution=("run", [names[law] for law in lengths["evolution"].values]))
 
 
-def test_other_laws_are_drawn_in_figure_3(theory, others, thick, thick_row):
-    axes = figure_3.draw(theory, others, thick, thick_row).axes[0]
+def test_other_laws_are_drawn(theory, others, thick):
+    axes = figure_3.draw(theory, others, thick, "paper-7").axes[0]
     labels = axes.get_legend_handles_labels()[1]
     assert {"FEM, halfway law", "FEM, third law"} <= set(labels)
     drawn = sum(len(container[0].get_xdata()) for container in axes.containers)
-    papers = others["role"].values == "paper"
-    assert drawn == np.isfinite(others["length"].values[papers]).sum()
-
-
-def test_other_laws_are_drawn_beyond_the_paper(theory, others):
-    patches = others.rename(length="stability_length", length_low="stability_length_low",
-                            length_high="stability_length_high")  # fmt: skip
-    left, right = figure_3_extended.draw(theory, others, patches, others).axes
+    assert drawn == 11  # of the paper's runs that have a length
+    columns = ("length", "length_low", "length_high")
+    patches = others.rename({name: f"stability_{name}" for name in columns})
+    left, right = figure_3.draw_extended(theory, others, patches, others).axes
     assert "halfway law" in [text.get_text() for text in right.get_legend().get_texts()]
     assert len(left.containers) > 3
-    shown = figure_patch._shown(patches)
-    assert set(shown["evolution"].values) == {"halfway"}
+    assert set(figure_patch.shown(patches)["evolution"].values) == {"halfway"}

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from nucleation.model.friction import Friction
-from replication.figures import figure_2, supplement
+from replication.figures import theory as figures
 
 
 def test_figure_2_has_a_curve_for_each_ratio(theory):
-    (axes,) = figure_2.draw(theory).axes
+    (axes,) = figures.figure_2(theory).axes
     lines = axes.get_lines()
     assert len(lines) == theory.sizes["zeta_over_a"]
     for line in lines:
@@ -22,7 +22,7 @@ def test_figure_2_has_a_curve_for_each_ratio(theory):
 
 
 def test_the_legend_of_figure_2_shows_every_pattern_entirely(theory):
-    (axes,) = figure_2.draw(theory).axes
+    (axes,) = figures.figure_2(theory).axes
     legend = axes.get_legend()
     for line in legend.get_lines():
         x = line.get_xdata()
@@ -32,7 +32,7 @@ def test_the_legend_of_figure_2_shows_every_pattern_entirely(theory):
 
 
 def test_table_s1_holds_the_papers_values():
-    rows = {row.symbol: row for row in supplement.rows(Friction())}
+    rows = {row.symbol: row for row in figures.rows(Friction())}
     assert list(rows) == ["D", "b", "v*", "θ", "φ*", "v₀", "ξ"]
     values = [row.value for row in rows.values()]
     assert values == pytest.approx([5e-7, 0.075, 1e-7, 5 / 18, 3.3e-4, 1e-9, 0.005], rel=1e-15)
@@ -45,10 +45,10 @@ def test_table_s1_holds_the_papers_values():
      (0.2778, "0.2778"), (0.0, "0"), (2e6, "2×10⁶"), (0.005, "0.005")],
 )  # fmt: skip
 def test_values_are_written_as_in_the_paper(value, text):
-    assert supplement.value_text(value) == text
+    assert figures.value_text(value) == text
 
 
 def test_table_s1_as_markdown():
-    lines = supplement.to_markdown(supplement.rows(Friction())).splitlines()
+    lines = figures.table_s1(Friction())[".md"].splitlines()
     assert len(lines) == 9 and {line.count("|") for line in lines} == {5}
     assert r"| v\* | 10⁻⁷ | m/s |" in lines[4]

@@ -7,7 +7,7 @@ from figures import drawn_layout
 from made_up_map import lengths
 
 from nucleation.datasets.variables import DatasetError
-from replication.figures import figure_map
+from replication.figures import figure_weakening
 from replication.tables.ratios import AXES, map_files
 
 
@@ -39,7 +39,7 @@ def test_a_missing_run_is_a_gap_and_not_passed_over():
 
 
 def test_figure_shows_the_ratios_and_the_lengths():
-    figure = figure_map.draw(map_files(lengths())[".nc"])
+    figure = figure_weakening.draw_map(map_files(lengths())[".nc"])
     stable, quiet, noisy, slices = figure.axes[:4]
     for axes, value in ((stable, 0.5), (quiet, 0.6151), (noisy, 0.625)):
         (image,) = axes.collections[:1]
@@ -51,23 +51,13 @@ def test_figure_shows_the_ratios_and_the_lengths():
         np.testing.assert_allclose(stability / theory, 0.5)
 
 
-def test_contours_are_smoothed_over_known_neighbours_only():
-    """Scatter of one row is halved, a plane stays, and a gap takes no part."""
-    scattered = np.array([[0.0], [0.0], [1.0], [0.0], [0.0]])
-    np.testing.assert_allclose(figure_map._smoothed(scattered).T, [[0, 0.25, 0.5, 0.25, 0]])
-    plane = np.arange(5.0)[:, None] * np.ones(3)
-    np.testing.assert_allclose(figure_map._smoothed(plane)[1:-1], plane[1:-1])
-    gap = np.array([[2.0], [2.0], [np.nan], [2.0]])
-    np.testing.assert_allclose(figure_map._smoothed(gap).T, [[2, 2, np.nan, 2]])
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", [(1, 2), (2, 1), (2, 2), (3, 2)])
 def test_small_grids_are_legible(shape):
     """Cells are centred on their values, and no texts collide."""
     heights, weakenings = shape
     grid = map_files(lengths())[".nc"].isel(height=slice(heights), zeta_over_a=slice(weakenings))
-    figure = figure_map.draw(grid)
+    figure = figure_weakening.draw_map(grid)
     drawn_layout.require_legible(figure)
     for axes in figure.axes[:3]:
         left, right = axes.get_xlim()

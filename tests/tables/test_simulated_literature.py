@@ -11,7 +11,7 @@ from lengths.test_in_use import crack_coefficients
 from nucleation.extraction import measures as zones
 from nucleation.lengths.formulas import LOCALISED_LIMIT
 from nucleation.run.run import PAPER_RUN
-from replication.figures import figure_literature
+from replication.figures import theory
 from replication.tables import literature
 
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
@@ -98,9 +98,9 @@ def test_by_the_slip_law_a_zone_shrinks_as_the_logarithm_of_its_slip_rate_grows(
 
 def test_the_figure_draws_every_simulated_length():
     table = xr.Dataset({name: ("run", FRAME[name]) for name in FRAME})
-    left, right = figure_literature.draw(table).axes
+    left, right = theory.figure_literature(table).axes
     assert [line.get_label() for line in left.lines[:4]] == [
-        kind[0] for kind in figure_literature.KINDS.values()
+        kind[0] for kind in theory.KINDS.values()
     ]
     assert len(right.lines) > 8
 

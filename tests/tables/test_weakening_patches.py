@@ -87,11 +87,11 @@ def test_surroundings_of_another_a():
 
 def test_figure_has_each_run_by_its_outcome(table):
     (axes,) = figure_weakening.draw_patches(table).axes
-    looks = {figure_weakening.LOOKS[name][1]: figure_weakening.LOOKS[name][2] for name in FASTEST}
+    looks = {figure_weakening.LOOKS[name][0]: figure_weakening.LOOKS[name][1] for name in FASTEST}
     drawn = {line.get_marker(): line for line in axes.lines if len(line.get_xdata()) == 1}
     assert {marker: line.get_color() for marker, line in drawn.items()} == looks
     for name in FASTEST:
-        marker = figure_weakening.LOOKS[name][1]
+        marker = figure_weakening.LOOKS[name][0]
         own = table["width_ratio"][table["outcome"] == name]
         assert drawn[marker].get_ydata() == pytest.approx(own.values)
 

@@ -110,13 +110,9 @@ OF_SOLVER = {"simulate", "follow_patches", "dispersion"}
 OF_LENGTHS = {"extract", "lengths", "figure_3", "figure_s2", *CLAIMING}
 EDITS = {
     "words": (WORDS, set()),
-    # figures whose module draws, beside them, what comes from simulations
-    "solver": ({"src/nucleation/fem/kernels.py": SPARE}, OF_SOLVER | OF_LENGTHS | {"figure_2"}),
-    "extraction": (
-        {"src/replication/tables/lengths.py": SPARE},
-        OF_LENGTHS | {"figure_2", "figure_s1", "table_s1"},
-    ),
-    "figure": ({"src/replication/figures/figure_2.py": SPARE}, {"figure_2"}),
+    "solver": ({"src/nucleation/fem/kernels.py": SPARE}, OF_SOLVER | OF_LENGTHS),
+    "extraction": ({"src/replication/tables/lengths.py": SPARE}, OF_LENGTHS),
+    "figure": ({"src/replication/figures/figure_1.py": SPARE}, {"figure_1"}),
 }
 
 

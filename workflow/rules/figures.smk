@@ -36,7 +36,7 @@ rule figure_2:
         f"{RESULTS}/logs/figures/figure_2.log",
     localrule: True
     params:
-        call="replication.figures.figure_2:draw",
+        call="replication.figures.theory:figure_2",
     shell:
         JOB
 
@@ -54,7 +54,7 @@ rule figure_3:
         f"{RESULTS}/logs/figures/figure_3.log",
     localrule: True
     params:
-        call="replication.figures.figure_3:draw_run",
+        call="replication.figures.figure_3:draw",
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     shell:
@@ -72,7 +72,7 @@ rule figure_s1:
         f"{RESULTS}/logs/figures/figure_s1.log",
     localrule: True
     params:
-        call="replication.figures.supplement:figure_s1",
+        call="replication.figures.theory:figure_s1",
     shell:
         JOB
 
@@ -89,7 +89,7 @@ rule figure_s2:
         f"{RESULTS}/logs/figures/figure_s2.log",
     localrule: True
     params:
-        call="replication.figures.supplement:figure_s2",
+        call="replication.figures.figure_3:figure_s2",
         reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
         id=lambda wildcards: space_time_run().id,
     shell:
@@ -128,7 +128,7 @@ rule figure_3_extended:
         f"{RESULTS}/logs/figures/figure_3_extended.log",
     localrule: True
     params:
-        call="replication.figures.figure_3_extended:draw",
+        call="replication.figures.figure_3:draw_extended",
     shell:
         JOB
 
@@ -192,7 +192,7 @@ rule figure_map:
         f"{RESULTS}/logs/figures/figure_map.log",
     localrule: True
     params:
-        call="replication.figures.figure_map:draw",
+        call="replication.figures.figure_weakening:draw_map",
     shell:
         JOB
 
@@ -250,7 +250,7 @@ rule figure_2_simulated:
         f"{RESULTS}/logs/figures/figure_2_simulated.log",
     localrule: True
     params:
-        call="replication.figures.figure_2:draw_simulated",
+        call="replication.figures.figure_pairs:draw_contrast",
     shell:
         JOB
 
@@ -266,7 +266,7 @@ rule figure_literature:
         f"{RESULTS}/logs/figures/figure_literature.log",
     localrule: True
     params:
-        call="replication.figures.figure_literature:draw",
+        call="replication.figures.theory:figure_literature",
     shell:
         JOB
 

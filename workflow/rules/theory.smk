@@ -62,7 +62,7 @@ rule table_s1:
         f"{RESULTS}/logs/tables/table_s1.log",
     localrule: True
     params:
-        call="replication.figures.supplement:table_s1",
+        call="replication.figures.theory:table_s1",
         loads=plugins(settings.base.law),
         friction=asdict(settings.base.law),
     shell:

@@ -1,12 +1,10 @@
 """Picture of a run: shear stress in space and time, and the driving force."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -27,21 +25,7 @@ _LONG_TIMES = (
 """Times (s) from which a unit is used, the unit (s), and its name."""
 
 
-class Window(NamedTuple):
-    """The limits of a time axis."""
-
-    start: float  # s
-    end: float  # s
-    origin: float  # s
-    scale: float  # units of the axis in a second
-    unit: str  # of the axis
-
-    def shown(self, time: Array) -> Array:
-        """Times (s) on the axis."""
-        return (time - self.origin) * self.scale
-
-
-@style.styled
+@style.styled()
 def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure:
     """Draw ``tau / sigma_0`` over time and x, and the applied force below it.
 
@@ -50,66 +34,148 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     (s), ``length``, ``length_low`` and ``length_high`` (m); `symbol` is the length's.
     """
     Record(simulation).require("slip", "shear_stress")
-    figure, panels = style.panels(
-        2,
-        2,
-        10.2,
-        sharex="col",
-        width_ratios=(2.1, 1.0),
-    )
-    panels[0, 1].sharey(panels[0, 0])
+    shape: style.Options = {"rows": 2, "columns": 2, "width_ratios": (2.1, 1.0)}
+    figure, panels = style.panels(10.2, sharex="col", **shape)
+    (image, zoom), (force, last) = panels
+    style.letters(*panels.flat)
+    zoom.sharey(image)
     ratio = simulation["shear_stress"] / parameters_of(simulation).fault.normal_stress
-    ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
-    norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
+    ratio = ratio.sel(x=slice(None, slipped_extent(simulation))).transpose(
+        "x",
+        "time",
+    )
+    norm = Normalize(
+        min(0.0, float(ratio.quantile(0.001))),
+        float(ratio.quantile(0.999)),
+    )
     time = simulation["time"].values
-    start, peak, end = event_window(simulation, float(row["onset_time"]))
-    record = Window(
-        time[0],
-        time[-1],
-        0.0,
-        *time_unit(time[-1]),
+    onset = float(row["onset_time"])
+    start, peak, end = event_window(simulation, onset)
+    unit = _draw_span(
+        image,
+        force,
+        simulation,
+        row,
+        ratio,
+        norm,
+        (time[0], time[-1], 0.0),
     )
-    event = Window(
-        start,
-        end,
-        peak,
-        *time_unit(max(end - peak, peak - start)),
+    force.set_xlabel(f"Time $t$ ({unit})")
+    unit = _draw_span(
+        zoom,
+        last,
+        simulation,
+        row,
+        ratio,
+        norm,
+        (start, end, peak),
     )
-    for (image, force), window in zip(
-        panels.T,
-        (record, event),
-        strict=True,
-    ):
-        mesh = _draw_image(image, ratio, window, norm)
-        _draw_force(force, simulation, window)
-        _mark(image, force, row, window)
-    figure.colorbar(
-        mesh,
-        ax=panels[0, :],
-        label=r"$\tau/\sigma_0$",
-        pad=0.01,
-        extend="both",
-    )
-    _label(panels, row, (record, event), symbol)
-    panels[1, 0].set_ylabel(f"Applied force $-f_d$ ({_force_unit(simulation)[1]})")
+    last.set_xlabel(f"Time from the highest slip rate ({unit})")
+    look: style.Options = {"label": r"$\tau/\sigma_0$", "pad": 0.01, "extend": "both"}
+    figure.colorbar(image.collections[0], ax=[image, zoom], **look)
+    image.set_ylabel("Position $x$ (m)")
+    force.set_ylabel(f"Applied force $-f_d$ ({_force_unit(simulation)[1]})")
+    zoom.tick_params(labelleft=False)
+    last.yaxis.set_ticks_position("both")
+    last.tick_params(labelleft=False, labelright=True)
+    for axes in (image, zoom):  # ticks inside are invisible on the dark image
+        axes.tick_params(
+            which="both",
+            direction="out",
+            top=False,
+            right=False,
+        )
+    beside: style.Options = {"textcoords": "offset points", "va": "bottom"}
+    if np.isfinite(row["length"]):
+        place = image.get_yaxis_transform()
+        image.annotate(
+            symbol,
+            (0.0, row["length"]),
+            (5.0, 1.0),
+            place,
+            color="white",
+            **beside,
+        )
+    if np.isfinite(onset):
+        place = force.get_xaxis_transform()
+        at = onset * time_unit(time[-1])[0]
+        beside |= {"color": style.GUIDE, "ha": "right"}
+        force.annotate(
+            "onset",
+            (at, 0.0),
+            (-4.0, 5.0),
+            place,
+            **beside,
+        )
     return figure
 
 
-def _draw_image(
-    axes: Axes,
+def _draw_span(
+    image: Axes,
+    below: Axes,
+    record: xr.Dataset,
+    row: xr.Dataset,
     ratio: xr.DataArray,
-    window: Window,
     norm: Normalize,
-) -> QuadMesh:
-    times = thin(ratio["time"].values, window.start, window.end, _PIXELS)
-    part = ratio.isel(time=times).transpose("x", "time")
-    return axes.pcolormesh(
-        window.shown(_edges(part["time"].values)),
-        _edges(part["x"].values),
-        part.values,
-        norm=norm,
-        rasterized=True,
+    span: tuple[float, float, float],
+) -> str:
+    """Stress, force and event over a span: start, end, and zero of its axis (s); its time unit.
+
+    The force is positive in compression; the axis of the whole run has its zero.
+    """
+    start, end, origin = span
+    scale, unit = time_unit(max(end - origin, origin - start))
+    part = ratio.isel(
+        time=thin(
+            ratio["time"].values,
+            start,
+            end,
+            _PIXELS,
+        )
     )
+    edges = (_edges(part["time"].values) - origin) * scale, _edges(part["x"].values)
+    image.pcolormesh(*edges, part.values, norm=norm, rasterized=True)
+
+    onset = (float(row["onset_time"]) - origin) * scale
+    length = float(row["length"])
+    bars = [[length - float(row["length_low"])], [float(row["length_high"]) - length]]
+    white: style.Options = {"color": "white"}
+    image.axhline(length, ls="--", lw=0.9, **white)
+    image.axvline(onset, ls=":", lw=0.9, **white)
+    image.errorbar(
+        [onset],
+        [length],
+        bars,
+        marker="o",
+        ms=3.5,
+        elinewidth=0.9,
+        **white,
+    )
+
+    time = record["step_time"].values
+    force = -_force_unit(record)[0] * record["driving_force"].values
+    below.plot(
+        (time - origin) * scale,
+        force,
+        color=style.BLUE,
+        lw=1.2,
+    )
+    below.axvline(onset, ls=":", lw=0.9)
+    seen = force[(time >= start) & (time <= end)]
+    low, high = seen.min(), seen.max()
+    if origin == 0.0:
+        low = min(0.0, low)
+    margin = 0.08 * (high - low)
+    if margin > 0.0:
+        below.set_ylim(low - (margin if low else 0.0), high + margin)
+    if end > start:
+        below.set_xlim((start - origin) * scale, (end - origin) * scale)
+    return unit
+
+
+def _force_unit(record: xr.Dataset) -> tuple[float, str]:
+    """Factor and name of the unit of a record's driving force, from N/m."""
+    return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
 
 
 def _edges(centres: Array) -> Array:
@@ -183,86 +249,6 @@ def thin(
     )
     column = np.floor((time[first:last] - start) / (end - start) * columns)
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
-
-
-def _force_unit(record: xr.Dataset) -> tuple[float, str]:
-    """Factor and name of the unit of a record's driving force, from N/m."""
-    return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
-
-
-def _draw_force(axes: Axes, record: xr.Dataset, window: Window) -> None:
-    """Draw the driving force, positive in compression; the axis of the whole run has its zero."""
-    time = record["step_time"].values
-    scale, _ = _force_unit(record)
-    force = -scale * record["driving_force"].values
-    axes.plot(
-        window.shown(time),
-        force,
-        color=style.BLUE,
-        linewidth=1.2,
-    )
-    seen = force[(time >= window.start) & (time <= window.end)]
-    low = min(0.0, seen.min()) if window.origin == 0.0 else seen.min()
-    high = seen.max()
-    margin = 0.08 * (high - low)
-    if margin > 0.0:
-        axes.set_ylim(low - (margin if low else 0.0), high + margin)
-    if window.end > window.start:
-        axes.set_xlim(*window.shown(np.array([window.start, window.end])))
-
-
-def _mark(
-    image: Axes,
-    force: Axes,
-    row: xr.Dataset,
-    window: Window,
-) -> None:
-    """The onset, dotted; the length, dashed, and its error bar at the onset."""
-    onset = (float(row["onset_time"]) - window.origin) * window.scale
-    length = float(row["length"])
-    below = length - float(row["length_low"])
-    above = float(row["length_high"]) - length
-    white: style.Options = {"color": "white", "linewidth": 0.9}
-    image.axhline(length, linestyle="--", **white)
-    image.axvline(onset, linestyle=":", **white)
-    image.errorbar(
-        [onset], [length], [[below], [above]], marker="o", ms=3.5, color="white", elinewidth=0.9
-    )
-    style.vertical(force, onset, ":")
-
-
-def _label(
-    panels: NDArray[np.object_], row: xr.Dataset, windows: tuple[Window, Window], symbol: str
-) -> None:
-    """Axis labels, panel letters, and the names of the marks on the left."""
-    (image, zoom), (force, last) = panels
-    image.set_ylabel("Position $x$ (m)")
-    record, event = windows
-    force.set_xlabel(f"Time $t$ ({record.unit})")
-    last.set_xlabel(f"Time from the highest slip rate ({event.unit})")
-    zoom.tick_params(labelleft=False)
-    last.yaxis.set_ticks_position("both")
-    last.tick_params(labelleft=False, labelright=True)
-    for axes in (image, zoom):  # ticks inside are invisible on the dark image
-        axes.tick_params(direction="out", top=False, right=False)
-    style.letters(*panels.flat, pad=3.0)
-    beside: style.Options = {"textcoords": "offset points", "va": "bottom"}
-    if np.isfinite(row["length"]):
-        place = (0.0, float(row["length"]))
-        across = image.get_yaxis_transform()
-        image.annotate(
-            symbol,
-            place,
-            (5.0, 1.0),
-            across,
-            color="white",
-            **beside,
-        )
-    if np.isfinite(row["onset_time"]):
-        place = (float(record.shown(row["onset_time"].values)), 0.0)
-        up = force.get_xaxis_transform()
-        look: style.Options = {"color": style.GUIDE, "ha": "right", **beside}
-        force.annotate("onset", place, (-4.0, 5.0), up, **look)
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:

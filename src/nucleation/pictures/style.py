@@ -1,32 +1,27 @@
 """The style of all figures: sizes, fonts, colours by meaning, and reproducible files."""
 
-import functools
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, ParamSpec
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, LogLocator
 
 from ..datasets.files import replacing
-
-P = ParamSpec("P")
 
 Options = dict[str, Any]
 """Keyword arguments of matplotlib's functions."""
 
 Point = tuple[float, float]
 
-CENTIMETRE = 1.0 / 2.54  # inch
-SINGLE_COLUMN = 8.6 * CENTIMETRE
-DOUBLE_COLUMN = 17.8 * CENTIMETRE
+SINGLE_COLUMN = 8.6  # cm
+DOUBLE_COLUMN = 17.8  # cm
 
 # The colour-blind safe palette of Okabe and Ito, without its yellow, which is too light for paper.
 BLACK = "#000000"
@@ -44,7 +39,7 @@ AGING = VERMILLION
 SLIP = BLACK
 OLD_AGE = "#6B3E12"  # the paper's brown, dark enough to differ from AGING in grey
 FULL_LAW = "#8E4585"  # the palette's purple, darkened for thin lines
-GUIDE = "#595959"  # lines that mark a value
+GUIDE = "#595959"  # lines that mark a value, and entries of legends for several sets of data
 UPPER_BODY = SKY_BLUE
 LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
@@ -62,16 +57,21 @@ STYLE: dict[Any, Any] = {
     "axes.labelsize": 9.0,
     "axes.titlesize": 9.0,
     "axes.titlelocation": "left",
+    "axes.titlepad": 3.5,
     "legend.fontsize": 8.5,
+    "legend.title_fontsize": 8.5,
+    "legend.labelspacing": 0.35,
     "axes.linewidth": 0.7,
     "axes.unicode_minus": True,
     "axes.formatter.use_mathtext": True,
     "xtick.major.pad": 4.5,
     "ytick.major.pad": 4.0,
+    "axes.prop_cycle": f"cycler(color=['{GUIDE}'])",
+    "lines.color": GUIDE,
     "xtick.top": True,
     "ytick.right": True,
     "lines.linewidth": 1.4,
-    "lines.markersize": 5.0,
+    "lines.markersize": 4.2,
     "errorbar.capsize": 2.0,
     "legend.frameon": False,
     "legend.handlelength": 2.0,
@@ -89,6 +89,7 @@ for _ticks in ("xtick", "ytick"):
     STYLE[f"{_ticks}.direction"] = "in"
     STYLE[f"{_ticks}.major.width"] = 0.7
     STYLE[f"{_ticks}.minor.width"] = 0.5
+    STYLE[f"{_ticks}.minor.visible"] = True
 
 BOXED: Options = {
     "fontsize": SMALL,
@@ -96,16 +97,13 @@ BOXED: Options = {
     "framealpha": 1.0,
     "edgecolor": "0.8",
     "fancybox": False,
-    "labelspacing": 0.3,
 }
 """A legend among scattered points; without the box its marks might be taken for data."""
 
-OPEN: Options = {"markerfacecolor": "white"}
-
 
 @contextmanager
-def applied() -> Iterator[None]:
-    """Within this context :data:`STYLE` holds over matplotlib's defaults.
+def styled() -> Iterator[None]:
+    """Within this context, or decorator, :data:`STYLE` holds over matplotlib's defaults.
 
     A user's own settings, of a ``matplotlibrc`` for one, have no effect, and hold again afterwards.
     """
@@ -115,34 +113,12 @@ def applied() -> Iterator[None]:
         yield
 
 
-def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Decorator: call `draw` in the style of the project."""
-
-    @functools.wraps(draw)
-    def wrapper(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        with applied():
-            return draw(*args, **kwargs)
-
-    return wrapper
-
-
-def new_figure(height: float, width: float = DOUBLE_COLUMN) -> Figure:
-    """A figure without panels, unknown to pyplot; `height` in centimetres, `width` in inches."""
-    figure = Figure(figsize=(width, height * CENTIMETRE), layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figure, Any]:
-    """A figure of two columns' width and its panels, with options of ``Figure.subplots``."""
-    figure = new_figure(height)
+def panels(
+    height: float, width: float = DOUBLE_COLUMN, rows: int = 1, columns: int = 1, **options: Any
+) -> tuple[Figure, Any]:
+    """A figure of some size (cm), unknown to pyplot, and its panels as of ``Figure.subplots``."""
+    figure = Figure(figsize=(width / 2.54, height / 2.54), layout="constrained")
     return figure, figure.subplots(rows, columns, **options)
-
-
-def column(height: float) -> tuple[Figure, Axes]:
-    """A figure of one column's width with one panel."""
-    figure = new_figure(height, SINGLE_COLUMN)
-    return figure, figure.add_subplot()
 
 
 def look(number: int) -> tuple[str, str]:
@@ -156,87 +132,26 @@ def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
     return [colours(lightest * i / max(number - 1, 1)) for i in range(number)]
 
 
-def key(
-    label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **options: Any
-) -> Line2D:
-    """An entry of a legend for several sets of data."""
-    return Line2D(
-        [],
-        [],
-        marker=marker,
-        linestyle=line,
-        color=colour,
-        label=label,
-        **options,
-    )
+def letters(*panels: Axes) -> None:
+    """Letter panels, starting with (a)."""
+    for axes, letter in zip(panels, "abcdef", strict=False):
+        axes.set_title(f"({letter})")
 
 
-def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
-    """Letter panels, starting with (a), with minor ticks if wanted."""
-    for axes, letter in zip(panels, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        axes.set_title(f"({letter})", **options)
-        if minor:
-            axes.minorticks_on()
-
-
-def entries(*panels: Axes) -> dict[str, Artist]:
-    """The legend entries of some panels, by label, each label once."""
+def legend(owner: Figure | Axes, *panels: Axes, **options: Any) -> None:
+    """A legend of the labels in some panels, each label once."""
     found: dict[str, Artist] = {}
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             found.setdefault(label, handle)
-    return found
+    owner.legend(found.values(), found, **options)
 
 
 def plain_numbers(axis: Axis, ticks: Sequence[float] = ()) -> None:
-    """Label a logarithmic axis without powers of ten, at some ticks or at matplotlib's."""
-    if ticks:
-        axis.set_ticks(ticks)
+    """Label a logarithmic axis without powers of ten, at some ticks or at 1, 2 and 5."""
+    axis.set_major_locator(FixedLocator(ticks) if ticks else LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter("")
-
-
-def level(axes: Axes, y: float, line: Any = "-", width: float = 0.7, **options: Any) -> None:
-    """Draw a horizontal line that marks a value."""
-    usual = {"color": GUIDE, "linestyle": line, "linewidth": width}
-    axes.axhline(y, **usual | options)
-
-
-def vertical(axes: Axes, x: float, line: Any = "--", width: float = 0.9, **options: Any) -> None:
-    """Draw a vertical line that marks a value."""
-    usual = {"color": GUIDE, "linestyle": line, "linewidth": width}
-    axes.axvline(x, **usual | options)
-
-
-def band(
-    axes: Axes,
-    low: float,
-    high: float,
-    label: str,
-) -> None:
-    """Draw a horizontal band of agreement."""
-    axes.axhspan(
-        low,
-        high,
-        color=GUIDE,
-        alpha=0.15,
-        linewidth=0.0,
-        label=label,
-    )
-
-
-def arrow(
-    axes: Axes, tail: Point, head: Point, colour: str = BLACK, kind: str = "-|>", **options: Any
-) -> None:
-    """Draw an arrow between two points."""
-    look: Options = {
-        "arrowstyle": f"{kind},head_length=0.35,head_width=0.17",
-        "linewidth": 1.0,
-        "color": colour,
-        "shrinkA": 0.0,
-        "shrinkB": 0.0,
-    }
-    axes.annotate("", head, tail, arrowprops=look, **options)
 
 
 def note(axes: Axes, text: str, point: Point, offset: Point, **options: Any) -> None:
@@ -258,7 +173,7 @@ def write(figure: Figure, path: Path, key: str = "") -> None:
         entry = "Keywords"
     if key:
         metadata[entry] = key
-    with applied(), replacing(path) as temporary:
+    with styled(), replacing(path) as temporary:
         figure.savefig(temporary, format=path.suffix[1:], metadata=metadata)
 
 

@@ -1,5 +1,6 @@
 """Figure 1: the two set-ups, long bodies in sliding contact and the block pushed from its side."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -7,239 +8,168 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from numpy.typing import ArrayLike
 
 from nucleation.pictures import style
-from nucleation.pictures.style import Point
-from nucleation.types import Array
 
 _MOTION = style.VERMILLION
-_Colour = tuple[float, ...]
+_INK = 0.55  # part of its colour that a body has, the rest is white
+_SIDE = 5.2  # bodies without ends reach from minus this x to this
 
 
-@style.styled
+@style.styled()
 def draw() -> Figure:
     """Draw the sketch of both systems; it depends on no data."""
-    figure, (left, right) = style.panels(1, 2, 5.9)
-    _long_bodies(left)
-    _block_on_rigid_base(right)
+    figure, (left, right) = style.panels(5.9, columns=2)
     for axes in (left, right):
         axes.set_axis_off()
+    _draw_long_bodies(left)
+    _draw_block_on_rigid_base(right)
+    for axes, letter in ((left, "(a)"), (right, "(b)")):
+        _draw_texts(axes, (-_SIDE, 3.5, letter))
         axes.set(xlim=(-5.6, 5.6), ylim=(-3.45, 3.85))
     return figure
 
 
-def _long_bodies(axes: Axes) -> None:
+def _draw_long_bodies(axes: Axes) -> None:
     """The left panel: two very long bodies, pressed and sheared."""
-    sides = (-5.2, 5.2)
-    upper = 2.3
-    lower = 1.9
-    _faded_body(axes, sides, (0.0, upper), style.UPPER_BODY)
-    _faded_body(axes, sides, (-lower, 0.0), style.LOWER_BODY)
-    arrows = np.linspace(-3.6, 3.6, 7)
-    _pressure(axes, arrows, upper, 1.0)
-    _pressure(axes, arrows, -lower, -1.0)
-    _text(axes, 0.45, upper + 1.15, r"$\sigma_0$")
-    _text(axes, 0.45, -lower - 1.15, r"$\sigma_0$")
-    _text(axes, 0.9, upper / 2.0, r"$\mu^{(1)},\ \nu^{(1)}$")
-    _text(axes, 0.9, -lower / 2.0, r"$\mu^{(2)},\ \nu^{(2)}$")
-    _dimension(
+    _draw_body(axes, 0.0, 2.3, style.UPPER_BODY)
+    _draw_body(axes, -1.9, 0.0, style.LOWER_BODY)
+    pressed = np.linspace(-3.6, 3.6, 7)
+    _draw_arrows(axes, *((x, 3.1, x, 2.3) for x in pressed))
+    _draw_arrows(axes, *((x, -2.7, x, -1.9) for x in pressed))
+    _draw_arrows(
         axes,
-        (3.6, 0.0),
-        (3.6, upper),
-        r"$H^{(1)}$",
-        (-0.55, 0.0),
+        (-3.3, 0.0, -2.0, 0.0),
+        (-3.3, 0.0, -3.3, 1.3),
     )
-    _dimension(
+    _draw_arrows(axes, (-1.9, 1.65, -0.3, 1.65), colour=_MOTION)
+    heights = (3.6, 0.0, 3.6, 2.3), (3.6, -1.9, 3.6, 0.0)
+    _draw_arrows(axes, *heights, colour=style.GUIDE, kind="<|-|>")
+    _draw_texts(axes, (-1.1, 2.0, "$V$"), color=_MOTION)
+    _draw_texts(
         axes,
-        (3.6, -lower),
-        (3.6, 0.0),
-        r"$H^{(2)}$",
-        (-0.55, 0.0),
+        (0.45, 3.45, r"$\sigma_0$"),
+        (0.45, -3.05, r"$\sigma_0$"),
+        (0.9, 1.15, r"$\mu^{(1)},\ \nu^{(1)}$"),
+        (0.9, -0.95, r"$\mu^{(2)},\ \nu^{(2)}$"),
+        (3.05, 1.15, "$H^{(1)}$"),
+        (3.05, -0.95, "$H^{(2)}$"),
+        (-2.0, 0.36, "$x$"),
+        (-3.0, 1.2, "$y$"),
     )
-    style.arrow(
-        axes,
-        (-1.9, 1.65),
-        (-0.3, 1.65),
-        _MOTION,
-    )
-    _text(axes, -1.1, 2.0, "$V$", color=_MOTION)
-    style.arrow(
-        axes,
-        (-3.3, 0.0),
-        (-2.0, 0.0),
-        style.BLACK,
-    )
-    style.arrow(
-        axes,
-        (-3.3, 0.0),
-        (-3.3, 1.3),
-        style.BLACK,
-    )
-    _text(axes, -2.0, 0.36, "$x$")
-    _text(axes, -3.0, 1.2, "$y$")
-    _text(axes, -5.2, 3.5, "(a)")
 
 
-def _block_on_rigid_base(axes: Axes) -> None:
+def _draw_block_on_rigid_base(axes: Axes) -> None:
     """The right panel: the finite block, pushed at its left edge over a rigid body."""
-    start = -3.7
-    end = 4.0
-    height = 2.3
-    depth = 1.1
-    block = Rectangle(
-        (start, 0.0),
-        end - start,
-        height,
-        facecolor=_tint(style.UPPER_BODY),
-        edgecolor=style.BLACK,
-        linewidth=0.9,
+    look: style.Options = {"edgecolor": style.BLACK, "linewidth": 0.9}
+    axes.add_patch(
+        Rectangle(
+            (-3.7, 0.0),
+            7.7,
+            2.3,
+            facecolor=_tint(style.UPPER_BODY),
+            **look,
+        )
     )
-    axes.add_patch(block)
-    _faded_body(
+    _draw_body(axes, -1.1, 0.0, style.RIGID_BODY)
+    _draw_arrows(
         axes,
-        (-5.2, 5.2),
-        (-depth, 0.0),
-        style.RIGID_BODY,
-    )
-    _pressure(
-        axes,
-        np.linspace(
-            start + 0.35,
-            end - 0.35,
-            8,
+        *(
+            (x, 3.1, x, 2.3)
+            for x in np.linspace(
+                -3.35,
+                3.65,
+                8,
+            )
         ),
-        height,
-        1.0,
     )
-    _text(axes, (start + end) / 2.0, height + 1.15, r"$\sigma_0$")
-    _text(axes, 0.75, height / 2.0, r"$\mu,\ \nu$")
-    _text(axes, 0.15, -depth / 2.0, r"rigid, $\mu^{(2)}\!\to\infty$")
-    for y in np.linspace(0.35, height - 0.35, 4):
-        style.arrow(
-            axes,
-            (start - 1.0, y),
-            (start - 0.04, y),
-            _MOTION,
-        )
-    _text(axes, start - 1.35, height / 2.0, "$V$", color=_MOTION)
-    _dimension(
+    _draw_arrows(
         axes,
-        (end - 0.75, 0.0),
-        (end - 0.75, height),
-        "$H$",
-        (-0.4, 0.0),
+        (4.0, 0.0, 5.2, 0.0),
+        (-3.7, 2.3, -3.7, 3.3),
     )
-    _dimension(
+    pushed = np.linspace(0.35, 1.95, 4)
+    _draw_arrows(
         axes,
-        (start, -depth - 0.45),
-        (end, -depth - 0.45),
-        "$L$",
-        (0.0, -0.4),
+        *((-4.7, y, -3.74, y) for y in pushed),
+        colour=_MOTION,
     )
-    _text(axes, end + 0.35, height / 2.0, "free", rotation=90)
-    style.arrow(
+    sizes = (3.25, 0.0, 3.25, 2.3), (-3.7, -1.55, 4.0, -1.55)
+    _draw_arrows(axes, *sizes, colour=style.GUIDE, kind="<|-|>")
+    _draw_texts(axes, (-5.05, 1.15, "$V$"), color=_MOTION)
+    _draw_texts(axes, (4.35, 1.15, "free"), rotation=90)
+    _draw_texts(
         axes,
-        (end, 0.0),
-        (end + 1.2, 0.0),
-        style.BLACK,
+        (0.15, 3.45, r"$\sigma_0$"),
+        (0.75, 1.15, r"$\mu,\ \nu$"),
+        (0.15, -0.55, r"rigid, $\mu^{(2)}\!\to\infty$"),
+        (2.85, 1.15, "$H$"),
+        (0.15, -1.95, "$L$"),
+        (5.45, 0.0, "$x$"),
+        (-4.0, 3.2, "$y$"),
     )
-    style.arrow(
-        axes,
-        (start, height),
-        (start, height + 1.0),
-        style.BLACK,
-    )
-    _text(axes, end + 1.45, 0.0, "$x$")
-    _text(axes, start - 0.3, height + 0.9, "$y$")
-    _text(axes, -5.2, 3.5, "(b)")
 
 
-def _tint(colour: str) -> _Colour:
+def _tint(colour: str) -> Any:
     """A body's colour, mixed with white."""
-    return tuple(1.0 - 0.55 * (1.0 - c) for c in to_rgb(colour))
+    return 1.0 - _INK * (1.0 - np.array(to_rgb(colour)))
 
 
-def _faded_body(
-    axes: Axes,
-    x: Point,
-    y: Point,
-    colour: str,
-) -> None:
+def _draw_body(axes: Axes, low: float, high: float, colour: str) -> None:
     """A body without ends: its colour and its edges fade to either side."""
-    _faded_band(axes, x, y, _tint(colour), order=0.0)
-    black = (0.0, 0.0, 0.0)
-    for edge in y:
-        width = 0.06 if edge == 0.0 else 0.03  # the interface is the heavier line
-        _faded_band(
-            axes,
-            x,
-            (edge - width / 2.0, edge + width / 2.0),
-            black,
-            order=1.0,
-        )
+    _draw_band(axes, low, high, _tint(colour))
+    for edge in (low, high):
+        half = 0.015 if edge else 0.03  # the interface is the heavier line
+        _draw_band(axes, edge - half, edge + half, 0.0, zorder=1.0)
 
 
-def _faded_band(
-    axes: Axes,
-    x: Point,
-    y: Point,
-    colour: _Colour,
-    order: float,
-) -> None:
+def _draw_band(axes: Axes, low: float, high: float, colour: ArrayLike, zorder: float = 0.0) -> None:
     """A horizontal band that is opaque inside and transparent at its ends."""
-    position = np.linspace(-1.0, 1.0, 512)
-    image = np.empty((1, position.size, 4))
+    image = np.empty((1, 512, 4))
     image[..., :3] = colour
     image[..., 3] = np.clip(
-        (1.0 - np.abs(position)) / 0.3,
+        (1.0 - np.abs(np.linspace(-1.0, 1.0, 512))) / 0.3,
         0.0,
         1.0,
     )
+    place = (-_SIDE, _SIDE, low, high)
     axes.imshow(
         image,
-        extent=(*x, *y),
+        extent=place,
         aspect="equal",
         interpolation="bilinear",
-        zorder=order,
+        zorder=zorder,
     )
 
 
-def _pressure(
+def _draw_arrows(
     axes: Axes,
-    positions: Array,
-    edge: float,
-    outwards: float,
+    *ends: Iterable[float],
+    colour: str = style.BLACK,
+    kind: str = "-|>",
 ) -> None:
-    """A row of arrows that press on a horizontal edge from outside."""
-    for x in positions:
-        style.arrow(
-            axes,
-            (x, edge + 0.8 * outwards),
-            (x, edge),
+    """Arrows, each from the first point (x, y) to the second."""
+    look: style.Options = {"arrowstyle": f"{kind},head_length=0.35,head_width=0.17"}
+    look |= {"color": colour, "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 0.0}
+    for x, y, head_x, head_y in ends:
+        axes.annotate(
+            "",
+            (head_x, head_y),
+            (x, y),
+            arrowprops=look,
         )
 
 
-def _dimension(
-    axes: Axes,
-    start: Point,
-    end: Point,
-    label: str,
-    offset: Point,
-) -> None:
-    """A double-headed arrow between two points, with a label at an offset from its middle."""
-    style.arrow(axes, start, end, style.GUIDE, "<|-|>")
-    x, y = np.mean([start, end], axis=0) + offset
-    _text(axes, x, y, label)
-
-
-def _text(axes: Axes, x: float, y: float, label: str, **options: Any) -> None:
-    """A centred label."""
-    axes.text(
-        x,
-        y,
-        label,
-        ha="center",
-        va="center",
-        fontsize=10.0,
-        **options,
-    )
+def _draw_texts(axes: Axes, *texts: tuple[float, float, str], **look: Any) -> None:
+    """Centred labels, each at a point (x, y)."""
+    for x, y, text in texts:
+        axes.text(
+            x,
+            y,
+            text,
+            ha="center",
+            va="center",
+            fontsize=10.0,
+            **look,
+        )

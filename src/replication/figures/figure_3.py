@@ -1,4 +1,10 @@
-"""Figure 3: the critical length against the block's height, theory and simulations."""
+"""Figure 3: the critical length against the block's height, theory and simulations.
+
+:func:`draw_extended` has more lengths: where the patch becomes unstable, and the drop under load
+noise. :func:`figure_s2` shows one of the runs in space and time.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -7,10 +13,13 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
-from nucleation.pictures import style
+from nucleation.pictures import run, style
 
-from ..tables.lengths import over_realisations, row
+from ..tables.lengths import join, over_realisations
+from ..tables.lengths import row as row_of
 from . import laws
+
+_ABOVE = 1.12  # the axes end at this multiple of the highest simulated block
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
 _INSET_LEFT = 0.515
@@ -24,76 +33,68 @@ _EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
 LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
 _SHOWN_LENGTHS = 1.4  # width of the inset in critical lengths
 
+_JUDGED = "converged"
+_BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
 
-@style.styled
-def draw(
-    theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, shown: xr.Dataset
-) -> Figure:
+
+@style.styled()
+def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
     """Draw L_c over H, the paper's simulations, and slip rates of one of them in an inset.
 
-    `shown` is the simulation's row of lengths; of the realisations of one fault the mean is drawn.
+    Of the realisations of one fault the mean is drawn.
     """
-    figure, axes = style.panels(1, 1, 12.4)
+    figure, axes = style.panels(12.4)
     height = theory["height"]
-    axes.plot(height, theory["critical_length"], color=style.THEORY, label="theory")
-    thin: style.Options = {"label": r"theory, $Hk\to 0$", "linewidth": 1.1}
+    thin = theory["thin_limit_length"]
     axes.plot(
         height,
-        theory["thin_limit_length"],
+        theory["critical_length"],
+        color=style.THEORY,
+        label="theory",
+    )
+    label = r"theory, $Hk\to 0$"
+    axes.plot(
+        height,
+        thin,
         "--",
         color=style.THEORY,
-        **thin,
+        linewidth=1.1,
+        label=label,
     )
     means = over_realisations(lengths)
-    drawn = laws.where(
-        means,
-        np.isfinite(means["length"]),
-        role="paper",
-    )
-    _draw_points(axes, drawn)
-    # from zero to slightly more than the highest simulated block
-    simulated = drawn if drawn.sizes["run"] else theory
-    highest = 1.12 * float(simulated["height"].max())
-    longest = np.interp(highest, height, theory["thin_limit_length"])
-    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.04 * float(longest)))
-    axes.minorticks_on()
-    axes.set(xlabel="Height $H$ (m)", ylabel="Critical nucleation length $L_c$ (m)")
-    axes.legend(loc="upper left", labelspacing=0.35)
+    drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
+    for kind in laws.kinds(drawn):
+        look = kind.look
+        aside = ScaledTranslation(look.aside / 72.0, 0.0, figure.dpi_scale_trans)
+        marks: style.Options = {"marker": look.marker, "ms": look.size, "color": look.colour}
+        marks |= {"transform": axes.transData + aside, "zorder": 4.0 - 0.1 * look.size}
+        for same in laws.groups(kind.runs.sortby("initial_state"), "initial_state"):
+            label = f"FEM, {kind.name}"
+            if kind.old:
+                age = float(same["initial_state"][0])
+                power = np.log10(age)
+                short = power >= 3.0 and power == round(power)
+                number = f"10^{{{power:.0f}}}" if short else f"{age:g}"
+                label += f", $\\phi(t\\!=\\!0)={number}$ s"
+            laws.draw(
+                axes,
+                "height",
+                same,
+                "length",
+                label=label,
+                **marks,
+            )
+    highest = _ABOVE * float((drawn if drawn.sizes["run"] else theory)["height"].max())
+    top = 1.04 * float(np.interp(highest, height, thin))
+    axes.set(xlabel="Height $H$ (m)", xlim=(0.0, highest))
+    axes.set(ylabel="Critical nucleation length $L_c$ (m)", ylim=(0.0, top))
+    axes.legend(loc="upper left")
     # up to the lowest point above the inset
     above = drawn["length_low"].values[drawn["height"].values > (_INSET_LEFT - 0.02) * highest]
-    top = axes.get_ylim()[1]
     room = np.nanmin([*above, top]) / top - _INSET_BOTTOM - 0.03
     place = (_INSET_LEFT, _INSET_BOTTOM, _INSET_WIDTH, float(np.clip(room, *_INSET_HEIGHTS)))
-    _draw_snapshots(axes.inset_axes(place), simulation, shown)
+    _draw_snapshots(axes.inset_axes(place), simulation, row_of(lengths, id))
     return figure
-
-
-def draw_run(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    simulation: xr.Dataset,
-    id: str,
-) -> Figure:
-    """The figure with one run of the table in the inset."""
-    return draw(theory, lengths, simulation, row(lengths, id))
-
-
-def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
-    """Points of each law and initial state, with bars from the lowest to the highest."""
-    for kind, runs in laws.kinds(lengths):
-        aside = ScaledTranslation(kind.aside / 72.0, 0.0, axes.figure.dpi_scale_trans)
-        look: style.Options = {
-            "marker": kind.marker,
-            "markersize": kind.size,
-            "color": kind.colour,
-            "transform": axes.transData + aside,
-            "zorder": 4.0 - 0.1 * kind.size,
-        }
-        for same in laws.groups(runs.sortby("initial_state"), "initial_state"):
-            age = _number(float(same["initial_state"][0]))
-            state = f", $\\phi(t\\!=\\!0)={age}$ s" if kind.old else ""
-            label = f"FEM, {kind.label}{state}"
-            laws.draw(axes, "height", same, "length", label=label, **look)
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
@@ -124,13 +125,13 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     labels += [f"$t_c+{1e3 * (time[i] - start):.3g}$ ms" for i in event]
     looks = [*((shade, "-") for shade in style.shades(creep.size)), *_EVENT_LOOKS]
     shown = np.concatenate([creep, event])
-    for i, (colour, dashes), label in zip(
-        shown,
+    rates = simulation["slip_rate"].values[shown]
+    for rate, (colour, dashes), label in zip(
+        rates,
         looks,
         labels,
         strict=False,
     ):
-        rate = simulation["slip_rate"].values[i]
         moving = np.where(rate > 0.0, rate, np.nan)  # a gap where nothing slips
         axes.plot(
             x,
@@ -140,18 +141,31 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
             linewidth=1.1,
             label=label,
         )
-    highest = float(simulation["slip_rate"].isel(time=shown).max())
-    top = 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE)))
+    top = 10.0 ** np.ceil(
+        np.log10(
+            max(
+                3.0 * rates.max(),
+                10.0 * LOWEST_RATE,
+            )
+        )
+    )
     axes.set(yscale="log", ylim=(LOWEST_RATE, top))
     axes.set_xlim(0.0, np.nanmin([_SHOWN_LENGTHS * length, x.max()]))
     axes.tick_params(labelsize=style.SMALL)
     axes.set_xlabel("$x$ (m)", fontsize=8.5, labelpad=1.0)
     axes.set_ylabel("$v$ (m/s)", fontsize=8.5, labelpad=1.0)
     if np.isfinite(length):
-        style.vertical(axes, length, zorder=1.0)
+        axes.axvline(length, linestyle="--", linewidth=0.9, zorder=1.0)
         up = axes.get_xaxis_transform()
-        ends = (0.0, 0.12), (length, 0.12)
-        style.arrow(axes, *ends, kind="<->", xycoords=up, textcoords=up)
+        both: style.Options = {"arrowstyle": "<->", "shrinkA": 0.0, "shrinkB": 0.0}
+        axes.annotate(
+            "",
+            (length, 0.12),
+            (0.0, 0.12),
+            up,
+            up,
+            arrowprops=both,
+        )
         # the first snapshots of the patch end right of this text
         axes.text(
             0.2 * length,
@@ -162,19 +176,155 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
             fontsize=8.5,
         )
     small: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
-    place: style.Options = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
     axes.legend(
         title="time $t$",
-        handlelength=1.8,
-        labelspacing=0.35,
-        **place,
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
         **small,
     )
 
 
-def _number(value: float) -> str:
-    """A number as TeX, as a power of ten if that is shorter."""
-    exponent = np.log10(value)
-    if exponent >= 3.0 and exponent == round(exponent):
-        return f"10^{{{exponent:.0f}}}"
-    return f"{value:g}"
+def figure_s2(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+    """Stress in space and time of a run in a table of lengths; its length is L_c, as there."""
+    return run.draw(simulation, row_of(lengths, id), "$L_c$")
+
+
+@style.styled()
+def draw_extended(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    table: xr.Dataset,
+    noisy: xr.Dataset | Sequence[xr.Dataset] = (),
+) -> Figure:
+    """Draw lengths against height, and the same over the theory's.
+
+    `table` has L_s of the same runs. `noisy` has lengths under a stronger perturbation, from which
+    a band is drawn to the role `converged`, and further realisations of that role's faults.
+    """
+    stronger = laws.where(lengths, False)
+    if isinstance(noisy, xr.Dataset):
+        judged = laws.where(lengths, role=_JUDGED)
+        more = np.isin(noisy["strength"].values, judged["strength"].values)
+        stronger, own = laws.where(noisy, ~more), laws.where(noisy, more)
+        for name in ("study", "role"):
+            own[name] = (
+                "run",
+                np.resize(
+                    judged[name].values,
+                    own.sizes["run"],
+                ),
+            )
+        lengths = join([lengths, own])
+    lengths, stronger = _means(lengths), _means(stronger)
+    figure, (left, right) = style.panels(8.2, columns=2)
+    _draw_lengths(left, theory, lengths, table, stronger)
+    drawn = [_over_theory(own) for own in (theory, lengths, table, stronger)]
+    _draw_lengths(right, *drawn)
+    highest = _ABOVE * float(lengths["height"].max())
+    top = 1.6 * float(
+        np.interp(
+            highest,
+            theory["height"],
+            theory["critical_length"],
+        )
+    )
+    left.set(
+        xlim=(0.0, highest),
+        ylim=(0.0, top),
+        ylabel="Length $L$ (m)",
+    )
+    left.legend(loc="upper left")
+    marks = []
+    for kind in laws.kinds(lengths):
+        older = ", older interface" if kind.old else ""
+        marks += right.plot(
+            [],
+            [],
+            kind.look.marker,
+            label=kind.name + older,
+        )
+    right.set(
+        xscale="log",
+        xlim=(0.8 * lengths["height"].min(), highest),
+        ylim=(0.4, 1.2),
+    )
+    right.set_ylabel("Length over theory $L/L_c$")
+    right.legend(handles=marks, loc="upper left")
+    style.letters(left, right)
+    return figure
+
+
+def _means(table: xr.Dataset) -> xr.Dataset:
+    """The mean of each fault's realisations, and their range with one definition of length."""
+    length = table["length"]
+    return over_realisations(table.assign(length_low=length, length_high=length))
+
+
+def _over_theory(table: xr.Dataset) -> xr.Dataset:
+    """A table with its lengths over the theory's."""
+    names = [name for name in table.data_vars if "length" in str(name)]
+    return table.assign({name: table[name] / table["critical_length"] for name in names})
+
+
+def _draw_lengths(
+    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset, stronger: xr.Dataset
+) -> None:
+    """Theory, half of it, all sets of lengths, and the band under stronger perturbations."""
+    height, critical = theory["height"], theory["critical_length"]
+    axes.plot(height, critical, color=style.THEORY, label="theory $L_c$")
+    axes.plot(
+        height,
+        0.5 * critical,
+        "--",
+        color=style.THEORY,
+        label="theory $L_c/2$",
+    )
+    role = _JUDGED if _JUDGED in table["role"].values else "paper"
+    open_marks: style.Options = {"ms": 4.8, "mfc": "white"}
+    stability: style.Options = {"ms": 4.8, "color": style.STABILITY}
+    for own, column, text, look in (
+        (
+            laws.where(lengths, role="paper"),
+            "length",
+            "drop, quiet, on the paper's mesh",
+            {"ms": 3.0},
+        ),
+        (
+            laws.where(lengths, role=_JUDGED),
+            "length",
+            r"drop, load steady to $10^{-5}$",
+            open_marks,
+        ),
+        (
+            laws.where(table, role=role),
+            "stability_length",
+            "patch turns unstable, $L_s$",
+            stability,
+        ),
+    ):
+        label = text
+        for kind in laws.kinds(laws.where(own, np.isfinite(own[column]))):
+            marks: style.Options = {"marker": kind.look.marker, "color": kind.look.colour}
+            laws.draw(
+                axes,
+                "height",
+                kind.runs,
+                column,
+                label=label,
+                **marks | look,
+            )
+            label = ""  # one entry of the legend for all kinds
+    if stronger.sizes["run"]:
+        quiet = next(laws.kinds(laws.where(lengths, role=_JUDGED))).runs
+        heights = (stronger["height"], quiet["height"])
+        shared, first, second = np.intersect1d(*heights, return_indices=True)
+        ends = stronger["length"][first], quiet["length"][second]
+        axes.fill_between(
+            shared,
+            *ends,
+            color=style.AGING,
+            alpha=0.2,
+            lw=0.0,
+            label=_BAND,
+        )
+    axes.set_xlabel("Height $H$ (m)")

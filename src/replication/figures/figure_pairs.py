@@ -1,17 +1,19 @@
-"""Two deformable bodies: lengths of the patch against height, and over the theory of each pair."""
+"""Two deformable bodies: lengths against height, over the theory of each pair, and by contrast."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator
 
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.pictures import style
+from nucleation.theory.closed_forms import bimaterial_length_ratio
 
 from ..tables.ratios import pairs_over_realisations
 from . import laws
 from .figure_studies import Curves
+from .theory import HANDLE
+from .theory import looks as curve_looks
 
 _SIDES = (
     ("free", "o", style.VERMILLION),
@@ -27,88 +29,168 @@ _HALF_SPACES = (
 )
 """Part of the half-spaces' length, line and name."""
 
-_THEORY = "theory $L_c$, free far sides"
+_UNSTABLE = "patch turns unstable, $L_s$"
+_CONTRAST = np.linspace(-0.42, 0.42, 169)
+_PANELS = (("length_ratio", "(a) at the drop"), ("stability_ratio", "(b) patch turns unstable"))
+_UNKNOWN = 0.14  # ordinate of runs without the length
 
 
-@style.styled
+@style.styled()
 def draw(table: xr.Dataset, theory: Curves) -> Figure:
     """Draw (a) lengths of identical blocks and (b) the lengths of all pairs over the theory's."""
-    figure, (left, right) = style.panels(1, 2, 7.4)
+    figure, (left, right) = style.panels(7.4, columns=2)
     table = pairs_over_realisations(table)
     table = laws.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check
-    identical = laws.where(table, role="pairs_identical").sortby("height")
-    _draw_heights(left, identical, theory)
+    _draw_heights(left, laws.where(table, role="pairs_identical").sortby("height"), theory)
     weakening = table["zeta_over_a"].values / np.median(table["zeta_over_a"])
-    _draw_ratios(right, laws.where(table, np.abs(weakening - 1.0) < 0.1))
+    similar = laws.where(table, np.abs(weakening - 1.0) < 0.1)
+    similar["thickness"] = similar["second_height"] / similar["critical_length"]
+    for side, marker, colour in _SIDES:
+        own = laws.where(similar, far_side=side)
+        look: style.Options = {"color": colour, "marker": marker, "linestyle": "none"}
+        laws.draw(
+            right,
+            "thickness",
+            own,
+            "length_ratio",
+            label=f"bottom {side}",
+            **look,
+        )
+        right.plot(
+            own["thickness"],
+            own["stability_ratio"],
+            mfc="none",
+            **look,
+        )
+    for part, line, label in ((1.0, "-", "theory $L_c$"), (0.5, "--", "theory $L_c/2$")):
+        right.axhline(
+            part,
+            ls=line,
+            lw=1.2,
+            color=style.THEORY,
+            label=label,
+        )
+    right.set(xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$")
+    right.set_ylabel("Length / theory for the same pair")
+    right.set_title("(b) all pairs: drop (filled), $L_s$ (open)")
+    right.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85), **style.BOXED)
     return figure
 
 
 def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
-    height = rows["height"].values
-    theory = rows["critical_length"].values
-    connected = {"": {"x": height, "length": theory}}
+    """Lengths of identical blocks over their height; `curves` has the theory closely spaced."""
+    height, critical = rows["height"].values, rows["critical_length"].values
+    connected = {"": {"x": height, "length": critical}}
     for curve in (curves or connected).values():
+        label = "theory $L_c$, free far sides"
         axes.plot(
             curve["x"],
             curve["length"],
             color=style.THEORY,
-            label=_THEORY,
+            label=label,
         )
+    for end in ("low", "high"):  # the range of the realisations
+        rows[f"length_{end}"] = critical * rows[f"length_ratio_{end}"]
+    laws.draw(
+        axes, "height", rows, "length", marker="o", color=style.VERMILLION, label="at the drop"
+    )
+    look: style.Options = {"color": style.STABILITY, "mfc": "none"}
     axes.plot(
         height,
-        rows["length"],
-        "o",
-        color=style.VERMILLION,
-        label="at the drop",
+        rows["stability_length"],
+        "D",
+        label=_UNSTABLE,
+        **look,
     )
-    low = theory * rows["length_ratio_low"]
-    high = theory * rows["length_ratio_high"]
-    axes.vlines(height, low, high, color=style.VERMILLION)
-    look: style.Options = {"color": style.STABILITY, "ms": 4.0, "mfc": "none"}
-    label = "patch turns unstable, $L_s$"
-    axes.plot(height, rows["stability_length"], "D", label=label, **look)
     if height.size:
         for part, line, label in _HALF_SPACES:
-            style.level(
-                axes,
-                part * theory[-1],
-                line,
-                0.8,
+            axes.axhline(
+                part * critical[-1],
+                ls=line,
+                lw=0.8,
                 label=label,
             )
-    axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="Height of each block $H$ (m)",
+        ylabel="Length (m)",
+    )
     style.plain_numbers(axes.yaxis)
     axes.set_title("(a) identical blocks")
     axes.legend(fontsize=style.SMALL, loc="lower right")
 
 
-def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
-    for side, marker, colour in _SIDES:
-        own = laws.where(rows, far_side=side)
-        thickness = own["second_height"] / own["critical_length"]
-        look: style.Options = {"color": colour, "ms": 4.2}
-        axes.plot(thickness, own["length_ratio"], marker, label=f"bottom {side}", **look)
-        axes.plot(thickness, own["stability_ratio"], marker, mfc="none", **look)
-        ends = (own["length_ratio_low"], own["length_ratio_high"])
-        axes.vlines(thickness, *ends, color=colour, linewidth=0.9)
-    style.level(
-        axes,
-        1.0,
-        "-",
-        1.2,
-        color=style.THEORY,
-        label="theory $L_c$",
+@style.styled()
+def draw_contrast(table: xr.Dataset, theory: xr.Dataset) -> Figure:
+    """Draw Figure 2 with lengths over ``L_c^M``, at the drop and where the patch becomes unstable.
+
+    The stiffer body is the upper one in the left half of each panel, and the lower one in the right
+    half; bars are the range of the realisations. Crosses are runs without the length.
+    """
+    rows = pairs_over_realisations(laws.where(table, role="figure_2_simulated"))
+    rows = rows.assign(zeta_over_a=rows["zeta_over_a"].round(3)).sortby("f_beta")
+    figure, panels = style.panels(8.8, columns=2, sharey=True)
+    simulated = np.unique(rows["zeta_over_a"].values)
+    looks = curve_looks(np.union1d(theory["zeta_over_a"].values, simulated))
+    for axes, (name, title) in zip(panels, _PANELS, strict=True):
+        for ratio, marker in zip(
+            simulated[::-1],
+            style.MARKERS,
+            strict=False,
+        ):
+            own = laws.where(rows, zeta_over_a=ratio)
+            _draw_weakening(
+                axes,
+                own,
+                name,
+                {"marker": marker, **looks[float(ratio)]},
+            )
+        axes.set(title=title, xlabel=r"Bimaterial contrast $f\beta$")
+        axes.set_xlim(_CONTRAST[0], _CONTRAST[-1])
+        axes.axvline(0.0, ls=":", lw=0.6)
+        look: style.Options = {"transform": axes.transAxes, "fontsize": style.SMALL}
+        axes.text(0.02, 0.03, "stiffer body above", ha="left", **look)
+        axes.text(0.98, 0.03, "stiffer body below", ha="right", **look)
+    panels[0].set(ylim=(0.0, None), ylabel=r"Length over $L_c^{\mathcal{M}}$")
+    below: style.Options = {"loc": "outside lower center", "handlelength": HANDLE}
+    style.legend(
+        figure,
+        *panels,
+        ncols=max(simulated.size, 1),
+        **below,
     )
-    style.level(
+    return figure
+
+
+def _draw_weakening(axes: Axes, own: xr.Dataset, name: str, look: style.Options) -> None:
+    """The curve of Eq. (9) and the simulated lengths of one zeta/a."""
+    ratio = float(own["zeta_over_a"][0])
+    weakening = rf"$\zeta/a={ratio:.3g}$"
+    curve = bimaterial_length_ratio(np.abs(_CONTRAST), ratio)
+    line: style.Options = look | {"marker": "", "linewidth": 1.1}
+    axes.plot(_CONTRAST, curve, label=f"Eq. (9), {weakening}", **line)
+    # the theory's length for blocks of this height without contrast
+    unit = 1.0 / own["half_space_ratio"]
+    own = own.assign({key: own[key] / unit for key in own if str(key).startswith(name)})
+    marks: style.Options = look | {"linestyle": "-", "linewidth": 0.5, "capsize": 1.8}
+    label = f"simulated, {weakening}"
+    laws.draw(
         axes,
-        0.5,
-        "--",
-        1.2,
-        color=style.THEORY,
-        label="theory $L_c/2$",
+        "f_beta",
+        own,
+        name,
+        label=label,
+        **marks,
     )
-    axes.set(xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$")
-    axes.set_ylabel("Length / theory for the same pair")
-    axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85), **style.BOXED)
+    unknown = own["f_beta"].values[np.isnan(own[name].values)]
+    if unknown.size:
+        at = np.full(unknown.size, _UNKNOWN)
+        label = f"{weakening}, no length found"
+        axes.plot(
+            unknown,
+            at,
+            "x",
+            color=look["color"],
+            label=label,
+        )

@@ -1,13 +1,13 @@
 """Any study's lengths: simulations against theory over the varied parameters."""
 
-import math
-import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from nucleation.model.quantities import Quantity
@@ -15,256 +15,206 @@ from nucleation.pictures import style
 from nucleation.types import Array
 
 from . import laws
-from .study_axes import edges, label_of, named, set_scale, symbol_of
 
-Values = dict[str, list[float] | list[str]]
-Entries = dict[str, Quantity]
 Curves = Mapping[str, Mapping[str, Sequence[float] | Array]]
 
-_RATIO_MAP = "cividis"  # looks the same to all colour vision
-_DASHES = ("-", "--", "-.", ":")  # of the theory's curves
-_FEW_ROWS = 2  # of two varied numbers on a grid, one with so few values makes curves, not a map
-_FEW = 6  # so few faults have a marker each, if no number is an axis
-_STRIP = 0.09  # height of the strip of runs without an event, which have no length
-_SHORT = 24  # characters of labels that leave room for two columns in the legend
-_LINE = 0.16  # inches, of a line in the legend
+_DASHES = ("-", "--", "-.", ":")  # of the theory's curves, so that equal ones are seen
+_FEW = 8  # so many kinds are in the legend, more are shaded by a number
+_WIDE = 4.0  # ratio of the largest to the smallest value above which an axis is logarithmic
+
+_SYMBOLS = {
+    "rho": r"\rho",
+    "mu": r"\mu",
+    "nu": r"\nu",
+    "sigma0": r"\sigma_0",
+    "tau0": r"\tau_0",
+    "phi0": r"\phi_0",
+    "L": "",  # the measured length here
+    "zeta/a": r"\zeta/a",
+    "zeta": r"\zeta",
+    "phi*": r"\phi_*",
+    "theta": r"\theta",
+    "v*": "v_*",
+    "v0": "v_0",
+    "xi": r"\xi",
+}
+
+_WORDS = {
+    "initial_state": "initial state",
+    "zeta_over_a": "weakening over direct effect",
+    "n_x": "elements along x",
+    "n_y": "elements along y",
+}
+"""Names of parameters with a symbol for a name in studies."""
 
 
-@style.styled
+@style.styled()
 def draw(
-    table: xr.Dataset, varied: Values, entries: dict[str, dict[str, Any]], theory: Curves
+    table: xr.Dataset,
+    varied: dict[str, list[float] | list[str]],
+    entries: dict[str, dict[str, Any]],
+    theory: Curves,
 ) -> Figure:
-    """Draw one study: a curve, two maps, or points about equality.
+    """Draw lengths (m) of one study over the number with most values, marked by all others.
 
-    If one number is varied, lengths (m) are drawn over it. If two numbers are varied on a full
-    grid, the figure has a curve for each of two values, or maps of the length and of its ratio to
-    the theory's. Otherwise simulations are drawn against theory, with the varied parameters in the
-    title. Texts, such as the evolution law, have different markers. Runs without an event are in a
-    separate strip.
+    If there are many kinds of runs, the number with most values but one is a shade. If no number is
+    varied, the theory's length is the abscissa. `theory` has closely spaced curves by kind; without
+    one the theory of the runs is connected. Runs without an event are crosses at the lower edge.
     """
-    declared = {name: Quantity(**fields) for name, fields in entries.items()}
+    # realisations of one fault have the same mark
+    declared = {name: Quantity(**own) for name, own in entries.items() if name != "seed"}
     numbers = [name for name, entry in declared.items() if not entry.choices]
-    words = [name for name in declared if name not in numbers]
-    if len(numbers) == 2 and not words:
-        grid = {name: np.unique(varied[name]) for name in numbers}
-        along, other = sorted(numbers, key=lambda name: -grid[name].size)
-        if grid[along].size * grid[other].size == table.sizes["run"]:
-            if grid[other].size > _FEW_ROWS:
-                return _draw_maps(table, varied, declared, grid)
-            numbers = [along]
-            words = [other]
-    if len(numbers) == 1:
-        rows = _rows(table, varied[numbers[0]], varied, words, declared)
-        return _draw(
-            rows,
-            theory,
-            label_of(numbers[0], declared[numbers[0]]),
-        )
-    words += _distinguishing(varied, words, numbers)
-    rows = _rows(table, table["critical_length"].values, varied, words, declared)
-    title = f"varied: {', '.join(map(named, declared))}" if declared else ""
-    return _draw(rows, None, "Theory's critical length $L_c$ (m)", title)
-
-
-def _rows(
-    table: xr.Dataset, x: Sequence[Any] | Array, varied: Values, words: list[str], entries: Entries
-) -> xr.Dataset:
-    """The table with the abscissa ``x``, and ``kind``: a label by some varied parameters."""
-    kinds = []
-    for i in range(table.sizes["run"]):
-        values = {name: varied[name][i] for name in words}
-        texts = [
-            _value_text(
-                name,
-                value,
-                entries[name],
-            )
-            for name, value in values.items()
-        ]
-        kinds.append(", ".join(filter(None, texts)))
-    return table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
-
-
-def _value_text(name: str, value: float | str | None, entry: Quantity) -> str:
-    """A value with its parameter's symbol or name; empty if there is none."""
-    if value is None or isinstance(value, str):
-        return value or ""
-    symbol = symbol_of(entry)
-    text = f"${symbol}={value:.4g}$" if symbol else f"{named(name)} {value:.4g}"
-    return text if entry.unit == "1" else f"{text} {entry.unit}"
-
-
-def _draw(
-    rows: xr.Dataset,
-    theory: Curves | None,
-    label: str,
-    title: str = "",
-) -> Figure:
-    """Lengths over one number, or over the theory's lengths if `theory` is None."""
-    figure = style.new_figure(7.31, style.SINGLE_COLUMN)
-    axes, strip = _axes(figure, rows)
-    names = ("length", "length_low", "length_high", "critical_length")
-    lengths = np.concatenate([rows[name].values for name in names])
-    lengths = lengths[np.isfinite(lengths)]
-    if theory is not None:
-        _draw_theory(axes, rows, theory)
-    _draw_runs(axes, strip, rows)
-    if theory is None and lengths.size:
-        ends = [0.95 * lengths.min(), 1.05 * lengths.max()]
-        axes.plot(
-            ends,
-            ends,
-            color=style.GUIDE,
-            linewidth=0.8,
-            label="equality",
-        )
-    axes.set_title(textwrap.fill(title, 48), fontsize=style.SMALL)
-    axes.set_ylabel("Length at the drop $L$ (m)")
-    figure.axes[-1].set_xlabel(label)
-    set_scale(axes, "x", lengths if theory is None else rows["x"].values)
-    set_scale(axes, "y", lengths)
-    _add_legend(figure, axes)
-    return figure
-
-
-def _add_legend(figure: Figure, axes: Axes) -> None:
-    """The legend below the axes, as runs may be anywhere within them."""
-    labels = axes.get_legend_handles_labels()[1]
-    columns = 2 if max(map(len, labels)) <= _SHORT else 1
-    rows = math.ceil(len(labels) / columns)
-    figure.set_figheight(figure.get_figheight() + rows * _LINE)
-    figure.legend(loc="outside lower center", ncols=columns, fontsize=style.SMALL)
-
-
-def _axes(figure: Figure, rows: xr.Dataset) -> tuple[Axes, Axes | None]:
-    """Axes of lengths; below it a strip of the runs without an event, if there are any."""
-    lost = int(np.isnan(rows["length"]).sum())
-    if not lost:
-        return figure.subplots(), None
-    axes, strip = figure.subplots(
-        2,
-        1,
-        sharex=True,
-        height_ratios=[1.0, _STRIP],
+    numbers.sort(key=lambda name: -len(set(varied[name])))
+    shade, title = "", ""
+    others = [name for name in declared if name not in numbers[:1]]
+    kinds = _kinds(varied, declared, others)
+    if len(set(kinds)) > _FEW and len(numbers) > 1:
+        shade = numbers[1]
+        others.remove(shade)
+        kinds = _kinds(varied, declared, others)
+        if len(set(kinds)) > _FEW:
+            title = f"also varied: {', '.join(map(_named, others))}"
+            kinds = [""] * len(kinds)
+    x = varied[numbers[0]] if numbers else table["critical_length"].values
+    rows = table.assign(
+        x=("run", np.asarray(x, dtype=float)),
+        kind=("run", kinds),
     )
-    label = f"no event\n({lost} of {rows.sizes['run']})"
-    strip.set_yticks([0.0], [label], fontsize=style.SMALL)
-    strip.set_ylim(-1.0, 1.0)
-    strip.tick_params(which="both", left=False, right=False, top=False)
-    return axes, strip
+    rows["shade"] = ("run", np.asarray(varied[shade] if shade else np.zeros(len(kinds))))
 
-
-def _draw_runs(axes: Axes, strip: Axes | None, rows: xr.Dataset) -> None:
-    """Points with bars for the runs with an event, open markers in the strip for the others."""
-    for i, same in enumerate(laws.groups(rows, "kind")):
-        marker, colour = style.look(i)
-        kind = str(same["kind"].values[0])
-        label = f"simulation, {kind}" if kind else "simulation"
-        look: style.Options = {"marker": marker, "color": colour}
-        known = np.isfinite(same["length"].values)
-        if known.any():
-            happened = laws.where(same, known)
-            laws.draw(
-                axes,
-                "x",
-                happened,
-                "length",
-                ms=4.0,
-                label=label,
-                **look,
-            )
-        if strip is not None:
-            lost = same["x"].values[~known]
-            strip.plot(
-                lost,
-                np.zeros(lost.size),
-                linestyle="none",
-                **look,
-                **style.OPEN,
-            )
-
-
-def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
-    """The first numbers that distinguish the faults; none if there are too many faults."""
-
-    def faults(number: int) -> int:
-        names = (*words, *numbers[:number])
-        return len(set(zip(*(varied[name] for name in names), strict=True)))
-
-    every = faults(len(numbers))
-    fewest = next(number for number in range(len(numbers) + 1) if faults(number) == every)
-    return numbers[:fewest] if every <= _FEW else []
-
-
-def _draw_theory(axes: Axes, rows: xr.Dataset, theory: Curves) -> None:
-    """The theory over one number, a curve for each label, or one if all are the same."""
-    curves: dict[str, Mapping[str, Sequence[float] | Array]] = {}
-    for same in laws.groups(rows, "kind"):
-        kind = str(same["kind"].values[0])
-        rising = same.sortby("x")
-        connected = {"x": rising["x"].values, "length": rising["critical_length"].values}
-        curves[kind] = theory.get(kind, connected)
-    first, *others = curves.values()
-    if all(np.array_equal(curve[n], first[n]) for curve in others for n in first):
-        curves = {"": first}
-    for i, (kind, curve) in enumerate(curves.items()):
+    names = list(dict.fromkeys(kinds))
+    figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
+    colours = ScalarMappable(cmap=style.SEQUENCE)
+    colours.set_array(rows["shade"])
+    if _is_wide(rows["shade"].values):
+        colours.set_norm(LogNorm())
+    colours.autoscale()
+    several = bool(shade) or len(names) > 1
+    axes.plot(
+        [],
+        [],
+        color=style.GUIDE if several else style.THEORY,
+        label="theory",
+    )
+    for own in laws.groups(rows.sortby("x"), "kind", "shade"):
+        kind = str(own["kind"].values[0])
+        number = names.index(kind)
+        marker, colour = style.look(number)
+        look: style.Options = {
+            "color": colours.to_rgba(own["shade"].values[0]) if shade else colour
+        }
+        line = dict(look) if several else {"color": style.THEORY}
+        curve = theory.get(kind, {"x": own["x"], "length": own["critical_length"]})
+        line["marker"] = "_" if np.size(curve["x"]) == 1 else ""
+        dashes = _DASHES[number % len(_DASHES)]
         axes.plot(
             curve["x"],
             curve["length"],
-            _DASHES[i % len(_DASHES)],
-            color=style.THEORY,
-            label=f"theory, {kind}" if kind else "theory",
+            dashes,
+            lw=1.0,
+            ms=9.0,
+            **line,
         )
-
-
-def _draw_maps(
-    table: xr.Dataset,
-    varied: Mapping[str, Sequence[float] | Sequence[str]],
-    entries: Mapping[str, Quantity],
-    grid: Mapping[str, Array],
-) -> Figure:
-    """Draw maps of the length and of its ratio to the theory's."""
-    along, up = grid
-    x = np.asarray(varied[along], dtype=float)
-    y = np.asarray(varied[up], dtype=float)
-    at = np.searchsorted(grid[up], y), np.searchsorted(grid[along], x)
-    figure, (left, right) = style.panels(
-        1,
-        2,
-        7.476,
-        sharex=True,
-        sharey=True,
-    )
-    length = table["length"].values
-    ratio = length / table["critical_length"].values
-    lost = ~np.isfinite(length)
-    label = f"no event ({lost.sum()} of {lost.size})"
-    for axes, values, title, colours in (
-        (left, length, "(a) Length at the drop, simulated (m)", style.SEQUENCE),
-        (right, ratio, "(b) Simulations over theory", _RATIO_MAP),
-    ):
-        image = np.full((grid[up].size, grid[along].size), np.nan)
-        image[at] = values
-        mesh = axes.pcolormesh(
-            edges(grid[along]),
-            edges(grid[up]),
-            image,
-            cmap=colours,
+        known = np.isfinite(own["length"].values)
+        label = f"simulation, {kind}" if kind else "simulation"
+        if known.any():
+            laws.draw(
+                axes,
+                "x",
+                laws.where(
+                    own,
+                    known,
+                ),
+                "length",
+                marker=marker,
+                label=label,
+                **look,
+            )
+        if not known.all():
+            lost = own["x"].values[~known]
+            label = f"no event ({np.isnan(rows['length'].values).sum()} of {len(kinds)})"
+            edge: style.Options = {"transform": axes.get_xaxis_transform(), "label": label}
+            axes.plot(
+                lost,
+                np.full(lost.size, 0.03),
+                "x",
+                **edge,
+                **look,
+            )
+    if shade:
+        figure.colorbar(
+            colours,
+            ax=axes,
+            label=_label(shade, declared[shade]),
         )
-        axes.plot(
-            x[lost],
-            y[lost],
-            "x",
-            color=style.VERMILLION,
-            label=label,
-        )
-        figure.colorbar(mesh, ax=axes, pad=0.02)
-        axes.set_title(title)
-        axes.set_xlabel(label_of(along, entries[along]))
-        set_scale(axes, "x", grid[along])
-        set_scale(axes, "y", grid[up])
-        axes.tick_params(which="both", direction="out", top=False, right=False)
-    if lost.any():
-        left.legend(frameon=True, framealpha=1.0)
-    left.set_ylabel(label_of(up, entries[up]))
+    label = "Theory's critical length $L_c$ (m)"
+    axes.set_xlabel(_label(numbers[0], declared[numbers[0]]) if numbers else label)
+    axes.set_ylabel("Length at the drop $L$ (m)")
+    axes.set_title(title, fontsize=style.SMALL, wrap=True)
+    _scale(axes, "x", rows["x"].values)
+    _scale(axes, "y", np.r_[rows["length"], rows["critical_length"]])
+    style.legend(figure, axes, loc="outside lower center", fontsize=style.SMALL)
     return figure
+
+
+def _kinds(
+    varied: Mapping[str, Sequence[Any]], declared: Mapping[str, Quantity], names: list[str]
+) -> list[str]:
+    """The values of some varied parameters of each run, with their symbols or names."""
+    texts: list[list[str]] = [
+        [""]
+        * max(
+            map(len, varied.values()),
+            default=1,
+        )
+    ]
+    for name in names:
+        entry = declared[name]
+        symbol = _SYMBOLS.get(entry.symbol, entry.symbol)
+        shown = f"${symbol}={{:.4g}}$" if symbol else _named(name) + " {:.4g}"
+        shown += "" if entry.unit == "1" else f" {entry.unit}"
+        own = []
+        for value in varied[name]:
+            word = value is None or isinstance(value, str)
+            own.append(value or "" if word else shown.format(value))
+        texts.append(own)
+    return [
+        ", ".join(
+            filter(
+                None,
+                row,
+            )
+        )
+        for row in zip(*texts, strict=True)
+    ]
+
+
+def _named(name: str) -> str:
+    """A parameter's name in words, as within a sentence."""
+    words = _WORDS.get(
+        name,
+        name.rpartition(".")[2].replace("_", " "),
+    )
+    return words[0].lower() + words[1:]
+
+
+def _label(name: str, entry: Quantity) -> str:
+    """The label of an axis."""
+    words = _named(name)
+    symbol = _SYMBOLS.get(entry.symbol, entry.symbol)
+    text = words[0].upper() + words[1:] + (f" ${symbol}$" if symbol else "")
+    return text if entry.unit == "1" else f"{text} ({entry.unit})"
+
+
+def _is_wide(values: Array) -> bool:
+    """Whether an axis with these values is logarithmic."""
+    known = values[np.isfinite(values)]
+    return bool(known.size and known.min() > 0.0 and known.max() > _WIDE * known.min())
+
+
+def _scale(axes: Axes, which: str, values: Array) -> None:
+    """Set the scale of an axis, with plain numbers at its ticks if it has less than two decades."""
+    if _is_wide(values):
+        axes.set(**{f"{which}scale": "log"})
+        if np.nanmax(values) < 100.0 * np.nanmin(values):
+            style.plain_numbers({"x": axes.xaxis, "y": axes.yaxis}[which])

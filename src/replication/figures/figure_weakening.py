@@ -1,14 +1,17 @@
-"""Where slow slip begins and where it ends in an event, over the weakening of friction.
+"""Lengths over the weakening of friction: over zeta/a, and over height and zeta/a.
 
 :func:`draw_patches`: which weakening patches creep, slip slowly or have events.
 """
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from nucleation.pictures import style
+from nucleation.types import Array
 
 from . import laws
 
@@ -26,127 +29,234 @@ _LINES = {
 _SIMULATED = "simulated drop: mean and range of realisations"
 _BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
 _FEWEST = 3  # zeta/a of a base and height for a panel
-_TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)  # of zeta/a
-_RATIOS = (0.5, 1.0, 2.0)  # ticks of lengths over L_c
 
 
-@style.styled
+@style.styled()
 def draw(table: xr.Dataset) -> Figure:
     """Draw lengths over L_c against zeta/a, one panel for each base and height."""
     systems = []
     for system in laws.groups(table, "study", "below", "height"):
         if np.unique(system["zeta_over_a"]).size >= _FEWEST:
             systems.append(system)
-    figure, panels = style.panels(1, len(systems), 7.5)
-    panels = np.ravel(panels)
-    for axes, letter, system in zip(panels, "abcdefgh", systems, strict=False):
-        curves = _curves(table, system)
-        _draw_system(axes, system, curves)
+    figure, panels = style.panels(7.5, columns=len(systems), squeeze=False)
+    for axes, letter, system in zip(
+        panels.flat,
+        "abcdefgh",
+        systems,
+        strict=False,
+    ):
+        same = np.ones(table.sizes["system"], dtype=bool)
+        for name in ("study", "below", "height"):
+            same &= table[f"curve_{name}"].values == system[name].values[0]
+        curves = table.isel(system=np.flatnonzero(same)[0])
+        for name, (label, colour, dashes) in _LINES.items():
+            axes.plot(
+                curves["curve_ratio"],
+                curves[name],
+                dashes,
+                color=colour,
+                label=label,
+            )
+        axes.axhline(0.5, lw=0.7, label="half of $L_c$")
+        for fault in laws.groups(system, "zeta_over_a"):
+            simulated = (fault["length"] / fault["critical_length"]).values
+            dropped = simulated[np.isfinite(simulated)]
+            if dropped.size:
+                look: style.Options = {"color": style.BLACK, "marker": "o"}
+                laws.draw_range(axes, fault["zeta_over_a"].values[0], dropped, **look)
         height = f"$H$ = {float(system['height'][0]):g} m"
         text = f"{_BASES[str(system['below'].values[0])]}, {height}"
         if curves["curve_half_spaces"]:
             text = f"half-spaces (runs: {height})"
-        axes.set_title(f"({letter}) {text}")
-    panels[0].set_ylabel("Length over theory $L/L_c$")
-    entries = style.entries(panels[0])
-    entries[_SIMULATED] = style.key(_SIMULATED, "o", colour=style.BLACK)
-    figure.legend(entries.values(), entries, loc="outside upper center", ncols=2)
+        axes.set(title=f"({letter}) {text}", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
+        axes.set(xscale="log", yscale="log", ylim=(0.4, 3.5))
+        style.plain_numbers(axes.xaxis)
+        style.plain_numbers(axes.yaxis)
+    axes.plot(
+        [],
+        [],
+        "o",
+        color=style.BLACK,
+        label=_SIMULATED,
+    )
+    panels[0, 0].set_ylabel("Length over theory $L/L_c$")
+    style.legend(figure, axes, loc="outside upper center", ncols=2)
     return figure
 
 
-def _curves(table: xr.Dataset, system: xr.Dataset) -> xr.Dataset:
-    """The theory's curves of a base and height."""
-    same = np.ones(table.sizes["system"], dtype=bool)
-    for name in ("study", "below", "height"):
-        same &= table[f"curve_{name}"].values == system[name].values[0]
-    return table.isel(system=np.flatnonzero(same)[0])
-
-
-def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset) -> None:
-    """The lengths of one base and height."""
-    for name, (label, colour, dashes) in _LINES.items():
-        axes.plot(
-            curves["curve_ratio"],
-            curves[name],
-            dashes,
-            color=colour,
-            label=label,
-        )
-    for fault in laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"):
-        simulated = (fault["length"] / fault["critical_length"]).values
-        dropped = simulated[np.isfinite(simulated)]
-        if dropped.size:
-            look: style.Options = {"color": style.BLACK, "marker": "o", "markersize": 4.0}
-            laws.draw_range(axes, fault["zeta_over_a"].values[0], dropped, **look)
-    style.level(axes, 0.5, label="half of $L_c$")
-    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
-    axes.set(yscale="log", ylim=(0.4, 3.5))
-    style.plain_numbers(axes.xaxis, _TICKS)
-    style.plain_numbers(axes.yaxis, _RATIOS)
-
-
 LOOKS = {
-    "creep": ("creep", "o", style.BLUE),
-    "slow slip": ("slow slip", "s", style.GREEN),
-    "event": ("event", "^", style.VERMILLION),
-    "undecided": ("undecided", "D", style.GUIDE),
+    "creep": ("o", style.BLUE),
+    "slow slip": ("s", style.GREEN),
+    "event": ("^", style.VERMILLION),
+    "undecided": ("D", style.GUIDE),
 }
-"""Label, marker and colour of each outcome of a run."""
+"""Marker and colour of each outcome of a run."""
 
 TICKS = (0.2, 0.5, 1.0, 2.3, 5.0)  # of zeta/a
 APART = 0.08  # log of zeta/a over that of r, by which marks of one zeta/a are displaced
 
 
-@style.styled
+@style.styled()
 def draw_patches(table: xr.Dataset) -> Figure:
-    """Draw outcomes of patches over zeta/a and W/W_c, one panel for each V, the largest first."""
+    """Draw outcomes of patches over zeta/a and W/W_c, one panel for each V, the largest first.
+
+    Filled marks are of runs where the surroundings have another a.
+    """
     velocities = np.unique(table["velocity"])[::-1]
     figure, panels = style.panels(
-        1,
-        velocities.size,
         8.0,
+        columns=velocities.size,
         sharey=True,
         squeeze=False,
     )
     for axes, letter, velocity in zip(
-        panels[0],
+        panels.flat,
         "abcdefgh",
         velocities,
         strict=False,
     ):
         rows = laws.where(table, velocity=velocity)
-        _draw_outcomes(axes, rows)
-        rate = float(rows["dynamic_rate"][0])
-        axes.set_title(rf"({letter}) $v_d$ = {rate:.3g} $V$")
+        axes.axhline(1.0, lw=0.7)
+        for name, (marker, colour) in LOOKS.items():
+            axes.plot(
+                [],
+                [],
+                marker,
+                color=colour,
+                mfc="none",
+                label=name,
+            )
+            for varies, face in (("zeta", "none"), ("a", colour)):
+                own = laws.where(rows, outcome=name, varies=varies)
+                place = own["zeta_over_a"] * own["strengthening"] ** APART
+                axes.plot(
+                    place,
+                    own["width_ratio"],
+                    marker,
+                    color=colour,
+                    mfc=face,
+                )
+        axes.plot([], [], "o", label="other $a$")
+        axes.set(xscale="log", xlabel=r"Weakening of the patch $\zeta/a$")
+        axes.set_title(rf"({letter}) $v_d$ = {float(rows['dynamic_rate'][0]):.3g} $V$")
+        style.plain_numbers(axes.xaxis, TICKS)
     panels[0, 0].set_ylabel("Width of the patch $W/W_c$")
-    entries = {
-        label: style.key(label, marker, colour=colour, mfc="none")
-        for label, marker, colour in LOOKS.values()
+    style.legend(figure, axes, loc="outside upper center", ncols=len(LOOKS) + 1)
+    return figure
+
+
+_STEPS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0)  # of the colours
+_NOTHING = "#D9D9D9"
+_WEAKENINGS = ("o", style.VERMILLION), ("s", style.BLUE), ("^", style.BLACK)
+"""Marks of the weakenings in the panel over height."""
+
+
+@style.styled()
+def draw_map(grid: xr.Dataset) -> Figure:
+    """Draw ratios of lengths over height and weakening as images, and lengths over height.
+
+    The images show stability, and the drop at the weakest and the strongest perturbation. Lengths
+    over height are drawn for a few weakenings.
+    """
+    figure, panels = style.panels(13.0, rows=2, columns=2)
+    stability = grid["stability_ratio"].mean("seed", skipna=False).isel(strength=0)
+    drop = grid["length_ratio"].mean("seed", skipna=False)
+    shown = [(r"(a) patch turns unstable, $L_s/L_c$", stability)]
+    for letter, i in (("b", 0), ("c", -1)):
+        exponent = np.log10(grid["strength"].values[i])
+        title = rf"({letter}) drop, load $10^{{{exponent:.0f}}}$, $L/L_c$"
+        shown.append((title, drop.isel(strength=i)))
+    look: style.Options = {
+        "cmap": style.SEQUENCE,
+        "norm": BoundaryNorm(_STEPS, colormaps[style.SEQUENCE].N, extend="both"),
+        "rasterized": True,
     }
-    entries["other $a$"] = style.key("other $a$", "o", colour=style.GUIDE)
-    figure.legend(
-        entries.values(),
-        entries,
-        loc="outside upper center",
-        ncols=len(entries),
+    for axes, (title, ratio) in zip(panels.flat, shown, strict=False):
+        x, y = _edges(ratio["height"].values), _edges(ratio["zeta_over_a"].values)
+        image = axes.pcolormesh(x, y, ratio.transpose("zeta_over_a", "height"), **look)
+        axes.set(facecolor=_NOTHING, xscale="log", yscale="log", title=title)
+        axes.set(xlabel="Block height $H$ (m)", ylabel=r"Weakening $\zeta/a$")
+        style.plain_numbers(axes.yaxis, (1.5, 2.0, 3.0, 4.0, 6.0))
+        axes.tick_params(which="both", direction="out", top=False, right=False)
+    figure.colorbar(image, ax=panels[:, 1], label="(a) to (c): length over theory")
+    _draw_heights(
+        panels[1, 1],
+        grid,
+        stability,
+        drop.isel(strength=0),
     )
     return figure
 
 
-def _draw_outcomes(axes: Axes, rows: xr.Dataset) -> None:
-    """The runs with one V; filled where the surroundings have another a."""
-    style.level(axes, 1.0)
-    for name, (_, marker, colour) in LOOKS.items():
-        for varies, face in (("zeta", "none"), ("a", colour)):
-            own = laws.where(rows, outcome=name, varies=varies)
-            place = own["zeta_over_a"] * own["strengthening"] ** APART
-            axes.plot(
-                place,
-                own["width_ratio"],
-                marker,
-                color=colour,
-                mfc=face,
-                ls="none",
-            )
-    axes.set(xscale="log", xlabel=r"Weakening of the patch $\zeta/a$")
-    style.plain_numbers(axes.xaxis, TICKS)
+def _edges(values: Array) -> Array:
+    """Edges of cells around values, half way between them on a logarithmic axis."""
+    if values.size == 1:
+        return np.array([0.9, 1.1]) * values
+    middle = np.sqrt(values[1:] * values[:-1])
+    return np.r_[values[0] ** 2 / middle[0], middle, values[-1] ** 2 / middle[-1]]
+
+
+def _draw_heights(
+    axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray
+) -> None:
+    """Theory, stability and drop over height for a few weakenings."""
+    weakenings = grid["zeta_over_a"].values
+    height = grid["height"].values
+    places = np.linspace(
+        0,
+        weakenings.size - 1,
+        len(_WEAKENINGS) + 2,
+    )[1:-1]
+    shown = np.unique(places.round().astype(int))
+    for i, (marker, colour) in zip(shown, _WEAKENINGS, strict=False):
+        theory = grid["critical_length"].values[:, i]
+        axes.plot(height, theory, color=colour)
+        axes.plot(
+            height,
+            theory * drop[:, i],
+            marker,
+            color=colour,
+            ms=3.5,
+        )
+        axes.plot(
+            height,
+            theory * stability[:, i],
+            "--",
+            color=colour,
+            lw=0.9,
+        )
+        name, end = rf"$\zeta/a = {weakenings[i]:.2g}$", (height[-1], theory[-1])
+        style.note(
+            axes,
+            name,
+            end,
+            (5.0, 0.0),
+            va="center",
+            color=colour,
+        )
+    axes.plot([], [], label="theory $L_c$")
+    axes.plot(
+        [],
+        [],
+        "o",
+        ms=3.5,
+        label="drop $L$",
+    )
+    axes.plot(
+        [],
+        [],
+        "--",
+        lw=0.9,
+        label="$L_s$",
+    )
+    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
+    axes.set_title("(d) lengths over height")
+    for axis, room in ((axes.xaxis, 0.3), (axes.yaxis, 0.15)):  # for the labels and the legend
+        low, high = axis.get_view_interval()
+        axis.set_view_interval(low, high * (high / low) ** room, ignore=True)
+    axes.legend(
+        ncols=3,
+        fontsize=style.SMALL,
+        loc="upper left",
+        columnspacing=1.2,
+    )
