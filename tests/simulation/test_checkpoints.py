@@ -18,8 +18,8 @@ from nucleation.simulation.checkpoints import (
     EVERY,
     SIGNALS,
     VARIABLE,
-    Checkpoint,
     Stopped,
+    _Checkpoint,
     interval,
 )
 from nucleation.simulation.run import simulate
@@ -49,7 +49,7 @@ RUNS = {
 
 def checkpoint(path, fingerprint="this run", every=0.0):
     log = io.StringIO()
-    return Checkpoint(path, fingerprint, every=every, log=log), log
+    return _Checkpoint(path, fingerprint, every=every, log=log), log
 
 
 def kept_at(parameters, steps):
@@ -138,14 +138,14 @@ def test_environment_tells_how_often(tmp_path, monkeypatch):
     """Only how often: what a run is does not depend on it."""
     monkeypatch.delenv(VARIABLE, raising=False)
     assert interval() == EVERY == 60.0
-    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: pytest.fail("it is not yet time"))
+    _Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: pytest.fail("it is not yet time"))
     monkeypatch.setenv(VARIABLE, "0")
-    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: {"value": np.array(1.0)})
+    _Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: {"value": np.array(1.0)})
     assert (tmp_path / "a.npz").exists()
     for text in ("-1", "nan", "a minute"):
         monkeypatch.setenv(VARIABLE, text)
         with pytest.raises(ParameterError, match=f"{VARIABLE} = '{text}' is not allowed: a time"):
-            Checkpoint(tmp_path / "a.npz", "this run")
+            _Checkpoint(tmp_path / "a.npz", "this run")
 
 
 def test_checkpoint_of_another_run_is_refused(tmp_path):

@@ -12,7 +12,7 @@ from nucleation.simulation import interface, passes, step
 from nucleation.simulation.interface import NewtonFailure
 from nucleation.simulation.run import instants
 from nucleation.simulation.start import at_rest, composed
-from nucleation.simulation.stepping import BDF, Formula
+from nucleation.simulation.stepping import BDF, _Formula
 
 
 def small(law="aging", **mesh):
@@ -152,7 +152,7 @@ def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     rates = np.full_like(report.interface.slip_rate, slow)
     rates[0] = fastest
     state = dataclasses.replace(state, past_slip_rates=rates[None])
-    formulas = dataclasses.replace(BDF().step(0, state.past_times), body=Formula(length, 1.0, ()))
+    formulas = dataclasses.replace(BDF().step(0, state.past_times), body=_Formula(length, 1.0, ()))
     guess = step._extrapolated(state, formulas, 1e-3, 5e-7)
     np.testing.assert_allclose(guess.slip_rate, rates, rtol=1e-12)
     changed = rates * (1.0 + 1e-6)

@@ -11,7 +11,7 @@ from nucleation.simulation.stepping import (
     LARGEST_GROWTH,
     LARGEST_GROWTH_OF_BDF3,
     RUNGS_PER_OCTAVE,
-    Formula,
+    _Formula,
     error_factor,
     extrapolation_weights,
     rung_below,
@@ -38,7 +38,7 @@ def past_times(previous, *growths):
 
 @given(steps, ratios, coefficients)
 def test_bdf2_is_exact_for_quadratics(previous, ratio, c):
-    formula = Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
+    formula = _Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
     y, rate = polynomial(c, 2, previous)
     assert formula.step == pytest.approx(ratio * previous, rel=1e-9)
     found = formula.from_past(y(past_times(previous))) + formula.beta * rate(formula.step)
@@ -48,7 +48,7 @@ def test_bdf2_is_exact_for_quadratics(previous, ratio, c):
 @given(steps, gentle, gentle, gentle, coefficients)
 def test_bdf3_is_exact_for_cubics(previous, ratio, growth, earlier, c):
     past = past_times(previous, growth)
-    formula = Formula.bdf3(ratio * previous, past)
+    formula = _Formula.bdf3(ratio * previous, past)
     y, rate = polynomial(c, 3, previous)
     found = formula.from_past(y(past)) + formula.beta * rate(formula.step)
     scale = np.abs(y(past)).max() + abs(y(formula.step))
@@ -60,7 +60,7 @@ def test_extrapolation_is_exact_for_quadratics_and_the_error_is_that_of_a_cubic(
     previous, ratio, growth, c
 ):
     past = past_times(previous, growth)
-    formula = Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
+    formula = _Formula.bdf2(BDF().leading_coefficient(ratio * previous, previous), previous)
     weights = extrapolation_weights(formula.step, past)
     y, _ = polynomial(c, 2, previous)
     scale = 1e-9 * (np.abs(weights) @ np.abs(y(past)) + 1.0)
@@ -126,10 +126,10 @@ def test_the_largest_growth_of_steps_is_stable_and_twice_as_much_is_not():
     """Of steps that grow again and again by the same factor; shorter ones never grow."""
 
     def bdf2(growth):
-        return Formula.bdf2(BDF().leading_coefficient(growth, 1.0), 1.0)
+        return _Formula.bdf2(BDF().leading_coefficient(growth, 1.0), 1.0)
 
     def bdf3(growth):
-        return Formula.bdf3(growth, -np.cumsum([0.0, 1.0, 1.0 / growth]))
+        return _Formula.bdf3(growth, -np.cumsum([0.0, 1.0, 1.0 / growth]))
 
     for formula, growth in ((bdf2, LARGEST_GROWTH), (bdf3, LARGEST_GROWTH_OF_BDF3)):
         assert growth > 1.2

@@ -22,10 +22,10 @@ from verification.test_page import PAGE
 from benchmarks.assembled import assemble, unknown
 from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.recording import ENERGIES, Energy
+from nucleation.simulation.recording import ENERGIES, _Energy
 from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import composed
-from nucleation.simulation.stepping import BDF, Formula
+from nucleation.simulation.stepping import BDF, _Formula
 
 pytestmark = pytest.mark.slow
 
@@ -100,7 +100,7 @@ class Accountant:
 
     def books(self, over):
         """The ledger until the event is `over`, by its largest slip rate and the present one."""
-        ledger, past, start, recorded = Ledger(), [], None, Energy(self.dynamics)
+        ledger, past, start, recorded = Ledger(), [], None, _Energy(self.dynamics)
         for instant in instants(self.parameters, None, self.dynamics):
             now = self.moment(instant, past)
             if past:
@@ -145,7 +145,7 @@ class Accountant:
         before = zip(*(moment.relative for moment in past), strict=True)
         if len(past) == 1:
             return [(v - old) / step for v, (old,) in zip(relative, before, strict=True)]
-        f = Formula.bdf2(BDF().leading_coefficient(step, past[0].step), past[0].step)
+        f = _Formula.bdf2(BDF().leading_coefficient(step, past[0].step), past[0].step)
         pairs = zip(relative, before, strict=True)
         return [(v - f.from_past(np.array(old))) / f.beta for v, old in pairs]
 

@@ -75,7 +75,13 @@ class Record:
             WINDOW * self.run.memory_time,
             self.settings.drop,
             self._fast,
-            self.step_time > long_after(self.run, self.x, self.time, rates),
+            self.step_time
+            > long_after(
+                self.run,
+                self.x,
+                self.time,
+                rates,
+            ),
             ruptures,
         )
 

@@ -167,7 +167,11 @@ def follow_patch(
     def rates(frames: Iterable[int]) -> tuple[ComplexArray, ComplexArray]:
         for frame in frames:
             if frame not in known:
-                patch, pair = frozen(slip_rate[frame], state[frame], force[frame])
+                patch, pair = frozen(
+                    slip_rate[frame],
+                    state[frame],
+                    force[frame],
+                )
                 fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
                 known[frame] = fastest, pair
         found = np.array([known[frame] for frame in frames], dtype=complex).reshape(-1, 2)
@@ -177,7 +181,11 @@ def follow_patch(
     fit, nearest = beginning_of_growth(frames, length, rates)
     mode = np.zeros(grid.n_x + 1, dtype=complex)
     if nearest is not None:
-        patch, pair = frozen(slip_rate[nearest], state[nearest], force[nearest])
+        patch, pair = frozen(
+            slip_rate[nearest],
+            state[nearest],
+            force[nearest],
+        )
         mode[patch.nodes], _ = patch.mode(pair)
     instants = sorted(known)
     fastest, oscillating = rates(instants)

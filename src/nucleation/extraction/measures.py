@@ -245,10 +245,18 @@ def far_ahead(
 
     NaN if the largest slip rate (m/s) is not reached, or if the fault is stuck there.
     """
-    rate = _when_passing(simulation, slip_rate, lambda rates, _: rates[_opposite(rates)])
+    rate = _when_passing(
+        simulation,
+        slip_rate,
+        lambda rates, _: rates[_opposite(rates)],
+    )
     if not rate > 0.0:  # slip rates of a stuck fault are not recorded
         return math.nan, math.nan
-    state = _when_passing(simulation, slip_rate, lambda rates, states: states[_opposite(rates)])
+    state = _when_passing(
+        simulation,
+        slip_rate,
+        lambda rates, states: states[_opposite(rates)],
+    )
     return rate, rate * state / slip_distance
 
 

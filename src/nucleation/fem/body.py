@@ -132,7 +132,13 @@ class Body:
 
     def parts(self, field: Field) -> list[Field]:
         """Views of a field: each layer's, the lower one's mirrored."""
-        return list(map(Field, self.split(field.modes), self.split(field.edge)))
+        return list(
+            map(
+                Field,
+                self.split(field.modes),
+                self.split(field.edge),
+            )
+        )
 
     def zero_field(self) -> Field:
         """A field of zeros."""
@@ -170,12 +176,21 @@ class Body:
         rates.modes[: self.layers[0].levels, 0] = -velocity * ones
         return Motion(displacement, rates, self.momentum_x(rates))
 
-    def inertia_load(self, s: float, terms: Sequence[tuple[float, Field]], load: Field) -> Field:
+    def inertia_load(
+        self,
+        s: float,
+        terms: Sequence[tuple[float, Field]],
+        load: Field,
+    ) -> Field:
         """``load + s M sum_i c_i f_i`` (N/m) of at most four terms; `s` in 1/s^2, f_i in m."""
         found = Field(np.empty_like(load.modes), np.empty_like(load.edge))
         nothing = (0.0, terms[0][1])
         missing = 4 - len(terms)  # the kernel takes four terms
-        coefficients, fields = zip(*terms, *[nothing] * missing, strict=True)
+        coefficients, fields = zip(
+            *terms,
+            *[nothing] * missing,
+            strict=True,
+        )
         split = zip(*map(self.parts, fields), strict=True)
         for layer, of_layer, own, out in zip(
             self.layers, split, self.parts(load), self.parts(found), strict=True
@@ -205,7 +220,11 @@ class Body:
 
     def kinetic_energy(self, velocity: Field, of_edge: float) -> float:
         """Kinetic energy (J/m) at a velocity w_t and that of the driven edge (m/s)."""
-        momentum = self.inertia_load(1.0, [(1.0, velocity)], self.zero_field())
+        momentum = self.inertia_load(
+            1.0,
+            [(1.0, velocity)],
+            self.zero_field(),
+        )
         modes = (momentum.modes * velocity.modes).sum(axis=(0, 1)) @ self.modes.norms
         own = 0.5 * float(modes + momentum.edge @ velocity.edge)
         return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
@@ -225,7 +244,12 @@ class Body:
             x, y = self.modes.on_all_nodes(x, 0.0), self.modes.on_all_nodes(y, 0.0)
         return x, -y if number else y
 
-    def settled(self, motions: tuple[Motion, ...], step: float, slid: float) -> tuple[Motion, ...]:
+    def settled(
+        self,
+        motions: tuple[Motion, ...],
+        step: float,
+        slid: float,
+    ) -> tuple[Motion, ...]:
         """Remove a translation of two blocks along y that has grown from round-off.
 
         If no far side is held, no force acts on such a translation but round-off, which makes it
@@ -241,11 +265,19 @@ class Body:
             return motions
         risen = self.zero_field()  # both blocks moved up by one metre
         level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
-        for part, up in zip(self.parts(risen), (1.0, -1.0), strict=True):
+        for part, up in zip(
+            self.parts(risen),
+            (1.0, -1.0),
+            strict=True,
+        ):
             part.modes[:, 1] = up * level
             part.edge[:] = up
         settled = []
-        for motion, age in zip(motions, (0.0, step), strict=False):
+        for motion, age in zip(
+            motions,
+            (0.0, step),
+            strict=False,
+        ):
             displacement = motion.displacement.plus(risen.times(age * rate - rise))
             velocity = motion.velocity.plus(risen.times(-rate))
             settled.append(Motion(displacement, velocity, motion.momentum))

@@ -87,13 +87,30 @@ class LayerFactors:
         At least the two lowest levels are given.
         """
         levels = len(modes)
-        kernels.substitute(self.inverse[:levels], self.lower[: levels - 1], modes)
+        kernels.substitute(
+            self.inverse[:levels],
+            self.lower[: levels - 1],
+            modes,
+        )
 
-    def residual(self, load: Field, modes: Array, edge: Array, levels: int = 0) -> Array:
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+        levels: int = 0,
+    ) -> Array:
         """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
         weights = self.layer.modes.edge_weights
         levels = levels or edge.size
-        return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge, levels)
+        return edge_kernels.edge_residual(
+            self._rows,
+            weights,
+            modes,
+            edge,
+            load.edge,
+            levels,
+        )
 
     def schur(self) -> Array:
         """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
@@ -118,9 +135,22 @@ class LayerFactors:
                 first,
                 solution,
             )
-            edge_kernels.edge_sums(modes.edge_weights, solution, first - 1, sums[i])
+            edge_kernels.edge_sums(
+                modes.edge_weights,
+                solution,
+                first - 1,
+                sums[i],
+            )
         rows = np.zeros((levels, levels))
-        for matrix, by_value in zip(self._rows[:3], np.moveaxis(sums, 1, 0), strict=True):
+        for matrix, by_value in zip(
+            self._rows[:3],
+            np.moveaxis(
+                sums,
+                1,
+                0,
+            ),
+            strict=True,
+        ):
             rows += product(matrix, by_value.T).T
         # the sums begin at the level of each edge value: the other half follows by symmetry
         lower = np.tril(product(self._rows[3], np.eye(levels)) - rows.T)
@@ -162,6 +192,10 @@ def elastic_energy(layer: Layer, displacement: Field) -> float:
     rows = LayerFactors(layer, 0.0)
     none = np.zeros_like(displacement.edge)
     for edge in (none, displacement.edge):
-        forces = rows.residual(Field(displacement.modes, none), displacement.modes, edge)
+        forces = rows.residual(
+            Field(displacement.modes, none),
+            displacement.modes,
+            edge,
+        )
         twice -= float(displacement.edge @ forces)
     return 0.5 * twice

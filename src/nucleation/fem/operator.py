@@ -118,7 +118,12 @@ class Operator:
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
         swept = Field(np.empty_like(load.modes), edge)
-        parts = zip(self.factors, self.body.parts(load), self.body.parts(swept), strict=True)
+        parts = zip(
+            self.factors,
+            self.body.parts(load),
+            self.body.parts(swept),
+            strict=True,
+        )
         for factors, own, part in parts:
             kernels.eliminate(
                 factors.lower,
@@ -137,7 +142,14 @@ class Operator:
         held = np.empty_like(self.modal)
         start = np.empty_like(self.modal)
         lower = swept[self.body.layers[0].levels]
-        kernels.load_couple(self.compliance, self.forces, swept[0], lower, held, start)
+        kernels.load_couple(
+            self.compliance,
+            self.forces,
+            swept[0],
+            lower,
+            held,
+            start,
+        )
         return held, start
 
     def substitute_up(
@@ -162,7 +174,12 @@ class Operator:
             return np.zeros_like(swept)
         rate = np.empty_like(swept)
         given = (before.newest.modes, before.oldest.modes, rate)
-        for factors, *own in zip(self.factors, parts, *map(self.body.split, given), strict=True):
+        for factors, *own in zip(
+            self.factors,
+            parts,
+            *map(self.body.split, given),
+            strict=True,
+        ):
             c1, c2 = before.coefficients
             part, newest, oldest, own_rate = own
             kernels.move(
@@ -178,7 +195,12 @@ class Operator:
             )
         return rate
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> Response:
+    def respond(
+        self,
+        load: Field,
+        w: Array,
+        edge: Array | None = None,
+    ) -> Response:
         """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
 
         Edge values (m) that are given are assumed to be in balance; this saves half of the work.
@@ -187,7 +209,11 @@ class Operator:
         given = np.zeros_like(load.edge) if edge is None else edge
         swept = self.swept_down(load, given)
         reduced, start = self.reduced(swept)
-        tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
+        tangential, normal = self.body.modes.forces(
+            self.modal,
+            amplitudes,
+            reduced,
+        )
         if self.edge is None:
             return Response(w, tangential, normal, load, given, swept, start)
         if edge is not None:
@@ -197,7 +223,12 @@ class Operator:
             self.factors[0].substitute(lowest)
             above = self.body.parts(load)[0]
             own = edge[: above.edge.size]
-            normal[-1] = -self.factors[0].residual(above, lowest, own, levels=1)[0]
+            normal[-1] = -self.factors[0].residual(
+                above,
+                lowest,
+                own,
+                levels=1,
+            )[0]
             return Response(w, tangential, normal, load, edge, swept, start)
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
@@ -236,7 +267,15 @@ class Operator:
         if self.edge is not None and not solved:
             residual = self.edge.residual(response.load, modes, given)
             own = given + self.edge.compliance @ residual
-        error = np.inf if foreseen is None else edge_kernels.relative_error(own, foreseen, edge)
+        error = (
+            np.inf
+            if foreseen is None
+            else edge_kernels.relative_error(
+                own,
+                foreseen,
+                edge,
+            )
+        )
         edge_rate = np.zeros_like(own)
         if before is not None:
             (c1, c2), beta, newest, oldest = before
@@ -250,7 +289,11 @@ class Operator:
     def apply(self, w: Array) -> Components:
         """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
         amplitudes = self.body.modes.sine_amplitudes(w)
-        tangential, normal = self.body.modes.forces(self.modal, amplitudes, self._no_load)
+        tangential, normal = self.body.modes.forces(
+            self.modal,
+            amplitudes,
+            self._no_load,
+        )
         if self.edge is not None:
             edge_kernels.add_edge_in_balance(
                 w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
@@ -297,7 +340,13 @@ class Operator:
                 between = np.subtract.outer(nodes, nodes)
                 blocks[:] = d[between], h[between]
             else:
-                edge_kernels.interface_blocks(d, h, self.body.modes.n_x, nodes, *blocks)
+                edge_kernels.interface_blocks(
+                    d,
+                    h,
+                    self.body.modes.n_x,
+                    nodes,
+                    *blocks,
+                )
                 self._add_edge(nodes, self.edge, *blocks)
         return self._last_blocks
 

@@ -73,7 +73,14 @@ class EdgeValues:
         first = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
         self.felt = np.ascontiguousarray(forces[..., first:])
         self.response_near = np.ascontiguousarray(self.response[:, first:])
-        self.to_interface = tangential, np.append(normal, self.schur[:, :1], axis=1)
+        self.to_interface = (
+            tangential,
+            np.append(
+                normal,
+                self.schur[:, :1],
+                axis=1,
+            ),
+        )
 
     def _put_in_series(self, compliance: Array, forces: Array) -> Array:
         """Set `schur`, and return forces on the modes of w and u_y per edge value."""
@@ -99,7 +106,11 @@ class EdgeValues:
     def _compliance_of_pair(self, moves: bool) -> Array:
         above = self._body.layers[0].levels
         held = self._body.is_held_along_y
-        independent = np.delete(np.eye(len(self.schur)), above, axis=1)
+        independent = np.delete(
+            np.eye(len(self.schur)),
+            above,
+            axis=1,
+        )
         independent[above, 0] = -1.0  # the corner, mirrored
         first = None if held or moves else 1
         last = -1 if held else None
@@ -107,7 +118,12 @@ class EdgeValues:
         inverse = _inverse_within(stiffness, slice(first, last))
         return independent @ inverse @ independent.T
 
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
         """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
         parts = zip(
             self._factors,
@@ -115,7 +131,14 @@ class EdgeValues:
             self._body.parts(Field(modes, edge)),
             strict=True,
         )
-        found = [layer.residual(own, part.modes, part.edge) for layer, own, part in parts]
+        found = [
+            layer.residual(
+                own,
+                part.modes,
+                part.edge,
+            )
+            for layer, own, part in parts
+        ]
         return np.concatenate(found)
 
 

@@ -40,7 +40,7 @@ class Stopped(Exception):
     """A signal stopped the run, which has left a checkpoint."""
 
 
-class Checkpoint:
+class _Checkpoint:
     """The checkpoint of one run, in a file beside that of its result.
 
     One with another fingerprint, of parameters and code, is refused, and so is a damaged one: the
@@ -146,11 +146,16 @@ def run_to_file(
     from .run import simulate
 
     fingerprint = provenance.fingerprint(run.to_dict(), code_digest)
-    checkpoint = Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
+    checkpoint = _Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
     failed = output.with_suffix(".failed.nc")
     with checkpoint.listening():
         start = checkpoint.load()
-        dataset = simulate(run, progress=progress, start=start, keep=checkpoint.keep)
+        dataset = simulate(
+            run,
+            progress=progress,
+            start=start,
+            keep=checkpoint.keep,
+        )
         path = output if dataset.attrs["completed"] else failed
         write(dataset, path)
         checkpoint.path.unlink(missing_ok=True)

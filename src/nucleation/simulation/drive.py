@@ -66,7 +66,11 @@ class Remote(Drive):
     moves: ClassVar[bool] = False
 
     def at(self, time: float) -> Imposed:
-        return self.near.at(time)._replace(displacement=0.0, velocity=0.0, acceleration=0.0)
+        return self.near.at(time)._replace(
+            displacement=0.0,
+            velocity=0.0,
+            acceleration=0.0,
+        )
 
     def load(self, time: float) -> Field:
         displacement = self.near.at(time).displacement

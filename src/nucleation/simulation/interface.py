@@ -188,7 +188,14 @@ class Interface:
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = modes.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
-            solved = _solved(operator, friction[1:], residual, damping, active, beta)
+            solved = _solved(
+                operator,
+                friction[1:],
+                residual,
+                damping,
+                active,
+                beta,
+            )
             linear = residual, elastic, damping, active, solved
             if law.asinh_of_rate:
                 change = passes.direction(*linear)

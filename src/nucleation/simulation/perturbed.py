@@ -80,7 +80,14 @@ class Series:
 
     def __init__(self, seed: int, correlation: float) -> None:
         self.spacing = MEAN_SQUARE * correlation
-        self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
+        self.phase = float(
+            _uniform(
+                seed,
+                PHASE,
+                SERIES,
+                1,
+            )[0]
+        )
         self._seed = seed
         self._coefficients = np.empty(0)
         self._before = np.zeros(1)  # sums of the coefficients before each
@@ -139,7 +146,12 @@ class Series:
         return position - first, self._coefficients[first : first + 4], self._before[first]
 
 
-def _along_x(seed: int, correlation: float, x: Array, stream: int) -> Callable[[int], Array]:
+def _along_x(
+    seed: int,
+    correlation: float,
+    x: Array,
+    stream: int,
+) -> Callable[[int], Array]:
     """The function that gives each row of a stream as a series at positions x (m), (n,)."""
     phase = _uniform(seed, PHASE, stream, 2)[1]
     s = x / (MEAN_SQUARE * correlation) + phase
@@ -167,7 +179,14 @@ class Sheet:
         self, seed: int, correlation_time: float, correlation_length: float, x: Array
     ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
-        self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
+        self.phase = float(
+            _uniform(
+                seed,
+                PHASE,
+                SHEET,
+                1,
+            )[0]
+        )
         rows = _along_x(seed, correlation_length, x, SHEET)
         self._row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
 
@@ -252,4 +271,14 @@ def perturbed(run: Run, body: Body, load: Field) -> Steady:
         factor = 1.0 + strength * profile(seed, length, body.grid.x)
         return _UnevenStrength(velocity, load, factor)
     rate = strength * (1.0 / run.memory_time)
-    return _ForcedState(velocity, load, rate, Sheet(seed, time, length, body.grid.x))
+    return _ForcedState(
+        velocity,
+        load,
+        rate,
+        Sheet(
+            seed,
+            time,
+            length,
+            body.grid.x,
+        ),
+    )

@@ -57,7 +57,12 @@ class Progress:
         state, control = instant.state, instant.control
         rate = instant.report.interface.slip_rate
         edge = SLIPPING * self._fault.velocity
-        (length,) = patch_lengths(self._fault.loading, self._x, rate[None], edge)
+        (length,) = patch_lengths(
+            self._fault.loading,
+            self._x,
+            rate[None],
+            edge,
+        )
         self._length = max(self._length, float(length))
         part = max(state.time / self._end, self._length / self._critical_length)
         line = (
@@ -67,7 +72,12 @@ class Progress:
             f"{int(100.0 * min(part, NEARLY))} % of the way"
         )
         if self._terminal:
-            print(f"\r{line:<{self._shown}}", end="", file=self._stream, flush=True)
+            print(
+                f"\r{line:<{self._shown}}",
+                end="",
+                file=self._stream,
+                flush=True,
+            )
             self._shown = len(line)
         else:
             print(line, file=self._stream, flush=True)
@@ -75,7 +85,12 @@ class Progress:
     def close(self) -> None:
         """Remove the terminal's line."""
         if self._terminal:
-            print(f"\r{'':<{self._shown}}", end="\r", file=self._stream, flush=True)
+            print(
+                f"\r{'':<{self._shown}}",
+                end="\r",
+                file=self._stream,
+                flush=True,
+            )
 
 
 def simulate(

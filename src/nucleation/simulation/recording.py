@@ -61,7 +61,7 @@ class Recorder:
         self._frames: list[Array] = []  # of the fields
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        self._energy = Energy(dynamics) if self._fields == INTERFACE else None
+        self._energy = _Energy(dynamics) if self._fields == INTERFACE else None
         self._watch = DropWatch(WINDOW * run.memory_time, run.stepping.event_drop)
         self._bursts = PatchBursts(run)
         self._event_time = np.inf
@@ -100,7 +100,12 @@ class Recorder:
             onset = self._watch.since
             times = np.array(self._frame_times)
             rates = np.array([fields[0] for fields in self._frames])
-            if onset > long_after(self.run, self.grid.x, times, rates):
+            if onset > long_after(
+                self.run,
+                self.grid.x,
+                times,
+                rates,
+            ):
                 self._event_time = state.time
                 self._onset_time = onset
             else:
@@ -183,7 +188,11 @@ class Recorder:
     def dataset(self) -> xr.Dataset:
         """The record of the run so far, with the variables of :data:`RECORDED`."""
         data: dict[str, tuple[Sequence[str], Array]] = {}
-        for name, values in zip(PER_STEP, zip(*self._rows, strict=True), strict=True):
+        for name, values in zip(
+            PER_STEP,
+            zip(*self._rows, strict=True),
+            strict=True,
+        ):
             data[name] = ("step",), np.array(values)
         frames = np.array(self._frames)
         for i, name in enumerate(self._fields):
@@ -206,7 +215,7 @@ class Recorder:
         return reduced
 
 
-class Energy:
+class _Energy:
     """Adds up the works of one run's steps (J/m) by the trapezoidal rule, and compares energies."""
 
     def __init__(self, dynamics: Dynamics) -> None:

@@ -45,7 +45,7 @@ class SimulationFailure(RuntimeError):
 
 
 @dataclasses.dataclass(frozen=True)
-class Control:
+class _Control:
     """Memory of the step-size control between accepted steps."""
 
     wanted: float  # leading coefficient beta (s) of the next step
@@ -59,14 +59,14 @@ class Instant:
 
     state: State
     report: StepReport
-    control: Control
+    control: _Control
 
 
 def accepted_step(
     dynamics: Dynamics,
     stepping: Stepping,
     state: State,
-    control: Control,
+    control: _Control,
     longest: float,
 ) -> Instant:
     """Make the next step, so short that its error is within the tolerance.
@@ -102,7 +102,7 @@ def accepted_step(
             continue
         step = new.last_step * min(factor, growth)
         wanted = scheme.leading_coefficient(step, new.last_step)
-        return Instant(new, report, Control(wanted, control.steps + 1, rejected))
+        return Instant(new, report, _Control(wanted, control.steps + 1, rejected))
 
 
 def _step_factor(error: float, scheme: BDF) -> float:
@@ -115,7 +115,7 @@ def _step_factor(error: float, scheme: BDF) -> float:
 
 def instants(
     run: Run,
-    start: tuple[State, Control] | None = None,
+    start: tuple[State, _Control] | None = None,
     dynamics: Dynamics | None = None,
 ) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
@@ -137,7 +137,7 @@ def instants(
     longest = dynamics.scheme.leading_coefficient(longest_step, longest_step)
     if start is None:
         state, report = at_rest(dynamics, run)
-        control = Control(min(FIRST_STEP * run.memory_time, longest))
+        control = _Control(min(FIRST_STEP * run.memory_time, longest))
         yield Instant(state, report, control)
     else:
         state, control = start
@@ -159,7 +159,7 @@ def simulate(
 
     `progress` is called with every accepted step. `keep` is called after every step with a function
     that returns all arrays of the run at this instant, to be stored
-    (:class:`nucleation.simulation.checkpoints.Checkpoint`); given these arrays as `start`, a run
+    (:mod:`nucleation.simulation.checkpoints`); given these arrays as `start`, a run
     with the same parameters resumes there, with the same result to the last bit as if it had never
     stopped.
 
@@ -172,11 +172,11 @@ def simulate(
     earlier = 0.0
     dynamics = composed(run)
     recorder = Recorder(run, dynamics)
-    control = Control(0.0)
+    control = _Control(0.0)
     position = None
     if start is not None:
         recorder.restore(start)
-        control = Control(
+        control = _Control(
             float(start["wanted"]),
             recorder.steps,
             int(start["rejected"]),

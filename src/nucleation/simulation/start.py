@@ -26,7 +26,14 @@ NEWTON = 1e-3
 
 def grid_of(body: runs.Body, periodic: bool = False) -> Grid:
     """The mesh of a block."""
-    return Grid(body.length, body.height, body.n_x, body.n_y, body.grading, periodic)
+    return Grid(
+        body.length,
+        body.height,
+        body.n_x,
+        body.n_y,
+        body.grading,
+        periodic,
+    )
 
 
 def body_of(run: Run) -> Body:
@@ -44,7 +51,11 @@ def layers_of(run: Run, periodic: bool) -> Body:
     first = grid_of(upper, periodic), upper.material
     if below is None:
         return Body(first)
-    return Body(first, (grid_of(below, periodic), below.material), below.far_side)
+    return Body(
+        first,
+        (grid_of(below, periodic), below.material),
+        below.far_side,
+    )
 
 
 def interface_of(run: Run, grid: Grid) -> Interface:
@@ -85,7 +96,12 @@ def composed(run: Run) -> Dynamics:
     """The dynamics of a run: a further drive or scheme is chosen here."""
     body = body_of(run)
     interface = interface_of(run, body.grid)
-    return Dynamics(body, interface, drive_of(run, body), BDF(body.crossing_time))
+    return Dynamics(
+        body,
+        interface,
+        drive_of(run, body),
+        BDF(body.crossing_time),
+    )
 
 
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:

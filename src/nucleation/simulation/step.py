@@ -62,7 +62,14 @@ class State:
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
         """The inverse of :meth:`to_arrays`."""
-        fields = (map(Field, arrays[name], arrays[f"{name}_edge"]) for name in _FIELDS)
+        fields = (
+            map(
+                Field,
+                arrays[name],
+                arrays[f"{name}_edge"],
+            )
+            for name in _FIELDS
+        )
         motions = tuple(map(Motion, *fields, arrays["momentum"].tolist()))
         plain = {name: arrays[name] for name in _PLAIN}
         return cls(motions, **plain, edge_error=float(arrays["edge_error"]))
@@ -118,7 +125,13 @@ class Dynamics:
     inertia acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(self, body: Body, interface: Interface, drive: Drive, scheme: BDF) -> None:
+    def __init__(
+        self,
+        body: Body,
+        interface: Interface,
+        drive: Drive,
+        scheme: BDF,
+    ) -> None:
         self.body = body
         self.interface = interface
         self.drive = drive
@@ -144,13 +157,23 @@ class Dynamics:
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
         newest, oldest = state.displacement, state.motions[-1].displacement
-        before = Before(step.body.past, step.body.beta, newest, oldest)
+        before = Before(
+            step.body.past,
+            step.body.beta,
+            newest,
+            oldest,
+        )
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
             response = operator.respond(load, w, edge)
             solution = self.interface.solve(operator, response, past, imposed, rates)
-            moved, velocity, error = operator.balance(response, solution.w, before, foreseen)
+            moved, velocity, error = operator.balance(
+                response,
+                solution.w,
+                before,
+                foreseen,
+            )
             if operator.tolerates(error):
                 break
         motion = Motion(moved, velocity, self.body.momentum_x(velocity))
@@ -161,12 +184,22 @@ class Dynamics:
         )
         return new, StepReport(solution, force, step.error(distance))
 
-    def _past(self, state: State, step: Step, imposed: Imposed) -> Past:
+    def _past(
+        self,
+        state: State,
+        step: Step,
+        imposed: Imposed,
+    ) -> Past:
         formula = step.interface
         log_state = formula.from_past(state.past_log_states)
         if imposed.state_forcing is not None:
             log_state = log_state + formula.beta * imposed.state_forcing
-        return Past(formula.from_past(state.past_w), log_state, formula.beta, step.first)
+        return Past(
+            formula.from_past(state.past_w),
+            log_state,
+            formula.beta,
+            step.first,
+        )
 
     def operator(self, s: float) -> Operator:
         """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
@@ -186,10 +219,19 @@ class Dynamics:
             load = load.plus(self.body.translation_load(imposed.acceleration))
         return imposed, load
 
-    def _load_with_past(self, state: State, step: Step, load: Field) -> Field:
+    def _load_with_past(
+        self,
+        state: State,
+        step: Step,
+        load: Field,
+    ) -> Field:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
-        for c, motion in zip(step.body.past, state.motions, strict=False):
+        for c, motion in zip(
+            step.body.past,
+            state.motions,
+            strict=False,
+        ):
             terms.append((c, motion.displacement))
             terms.append((c * step.body.beta, motion.velocity))
         return self.body.inertia_load(step.s, terms, load)
@@ -209,7 +251,11 @@ class Dynamics:
         force = solution.tangential[self.grid.own].sum()
         if self.drive.moves:
             change = motion.momentum
-            for c, past in zip(step.body.past, state.motions, strict=False):
+            for c, past in zip(
+                step.body.past,
+                state.motions,
+                strict=False,
+            ):
                 change -= c * past.momentum
             force = force - change / step.body.beta
         return float(force) - self.body.total_mass * imposed.acceleration  # of the frame

@@ -29,7 +29,7 @@ QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
 
 
 @dataclasses.dataclass(frozen=True)
-class Formula:
+class _Formula:
     """Coefficients of one step: ``y = sum_i past_i y_{n-i} + beta dy/dt``, newest value first."""
 
     step: float  # s
@@ -41,7 +41,7 @@ class Formula:
         cls,
         beta: float,
         previous_step: float,
-    ) -> Formula:
+    ) -> _Formula:
         """The BDF2 step of a leading coefficient (s), after a step of some length (s)."""
         half = beta - 0.5 * previous_step
         step = half + math.sqrt(half * half + beta * previous_step)
@@ -55,7 +55,7 @@ class Formula:
         cls,
         step: float,
         past_times: Array,
-    ) -> Formula:
+    ) -> _Formula:
         """The BDF3 step (s): by the cubic through the new value and three past ones."""
         a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
         beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
@@ -86,7 +86,7 @@ def extrapolation_weights(time: float, past: Array) -> Array:
     return np.array(weights)
 
 
-def error_factor(formula: Formula, past: Array) -> float:
+def error_factor(formula: _Formula, past: Array) -> float:
     """Local error of the BDF2 step over the difference of step and quadratic extrapolation.
     The local error is ``B y'''`` with ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))``. The extrapolation's
     is ``A y'''`` with ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
@@ -115,8 +115,8 @@ def rung_value(rung: int) -> float:
 class Step:
     """The formulas of one step."""
 
-    body: Formula
-    interface: Formula
+    body: _Formula
+    interface: _Formula
     extrapolation: Array  # weights of the interface's past values, newest first, for a first guess
     error_share: float  # local error over the distance between step and guess
     first: bool  # whether the step starts from rest
@@ -163,9 +163,9 @@ class BDF:
         beta = rung_value(rung)
         known = past_times.size
         if known == 1:
-            formula = Formula(beta, beta, (1.0, 0.0))  # backward Euler
+            formula = _Formula(beta, beta, (1.0, 0.0))  # backward Euler
         else:
-            formula = Formula.bdf2(beta, float(past_times[0] - past_times[1]))
+            formula = _Formula.bdf2(beta, float(past_times[0] - past_times[1]))
         # the second step's guess is too poor for an error estimate
         share = error_factor(formula, past_times) if known == self.instants else 0.0
         weights = extrapolation_weights(float(past_times[0]) + formula.step, past_times)
@@ -174,7 +174,7 @@ class BDF:
             now, before, earlier = past_times.tolist()
             growths = formula.step / (now - before), (now - before) / (before - earlier)
             if max(growths) <= LARGEST_GROWTH_OF_BDF3:
-                interface = Formula.bdf3(formula.step, past_times)
+                interface = _Formula.bdf3(formula.step, past_times)
         return Step(formula, interface, weights, share, known == 1)
 
     def leading_coefficient(
