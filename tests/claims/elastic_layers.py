@@ -32,14 +32,7 @@ class Layer:
     The equations are rows of coefficients of (U, W) at the collocation points.
     """
 
-    def __init__(
-        self,
-        q,
-        poisson_ratio,
-        modulus=1.0,
-        far_side="velocity",
-        points=64,
-    ):
+    def __init__(self, q, poisson_ratio, modulus=1.0, far_side="velocity", points=64):
         lame = 2.0 * modulus * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
         stiffness = lame + 2.0 * modulus
         self.y, d = _chebyshev(points, q)
@@ -58,11 +51,7 @@ class Layer:
         self.at_interface = np.stack([rows[0] for rows in fields])
         self.own = np.vstack([along_x[inside], along_y[inside], far[-1], n[-1]])
 
-    def field(
-        self,
-        rows,
-        values,
-    ):
+    def field(self, rows, values):
         """(U, W) for the values of two rows at the interface."""
         equations = np.vstack([self.own, rows])
         return _solve(equations, values)
@@ -73,10 +62,7 @@ class Layer:
         return self.field(displacement, (1.0, 0.0))
 
 
-def pair_transfer(
-    upper,
-    lower=None,
-):
+def pair_transfer(upper, lower=None):
     """G1 and G2 of two layers in contact."""
     field = upper.field_of_slip() if lower is None else _joint_field(upper, lower)
     _, _, t, n = upper.at_interface
@@ -92,12 +78,7 @@ def _joint_field(above, below):
     return field[: 2 * above.y.size]
 
 
-def half_spaces(
-    nu,
-    psi=1.0,
-    nu2=None,
-    points=64,
-):
+def half_spaces(nu, psi=1.0, nu2=None, points=64):
     """G1 and G2 of two half-spaces."""
     upper = Layer(HALF_SPACE, nu, points=points)
     if nu2 is None:

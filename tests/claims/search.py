@@ -11,11 +11,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 
-def _growth(
-    load,
-    a,
-    zeta,
-):
+def _growth(load, a, zeta):
     """The root with the larger real part, over V/ell."""
     half = 0.5 * (load - zeta) / a
     root = cmath.sqrt(half**2 - load / a)
@@ -23,12 +19,7 @@ def _growth(
     return max(rates, key=lambda rate: rate.real)
 
 
-def growth_at(
-    wavenumber,
-    transfer,
-    modulus,
-    interface,
-):
+def growth_at(wavenumber, transfer, modulus, interface):
     """The root of Eq. (5) with the larger real part, over V/ell."""
     g1, g2 = transfer(wavenumber)
     scale = modulus * wavenumber * interface.slip_distance / interface.normal_stress
@@ -36,12 +27,7 @@ def growth_at(
     return _growth(load, interface.a, interface.zeta)
 
 
-def critical_wavenumber(
-    transfer,
-    modulus,
-    interface,
-    guess,
-):
+def critical_wavenumber(transfer, modulus, interface, guess):
     """The largest wavenumber with growth."""
 
     def rate(wavenumber):
@@ -52,11 +38,7 @@ def critical_wavenumber(
     return k, abs(rate(k).imag)
 
 
-def half_space_load(
-    f_beta,
-    a,
-    zeta,
-):
+def half_space_load(f_beta, a, zeta):
     """The largest real part of the load with growth, for two half-spaces: ``zeta L_c^M / L_c``."""
 
     def rate(load):
@@ -82,10 +64,7 @@ def _largest_growing(rate, falling):
     raise ValueError("there is no growth in the range of the search")
 
 
-def strengthening_threshold(
-    a,
-    zeta,
-):
+def strengthening_threshold(a, zeta):
     """The least f beta at which two half-spaces with ``zeta < 0`` slide unstably."""
 
     def largest_rate(f_beta):
@@ -99,10 +78,7 @@ def strengthening_threshold(
         least = int(np.argmin(decays))
         near = grid[max(least - 1, 0) : least + 2]
         found = minimize_scalar(
-            decay,
-            bounds=(near[0], near[-1]),
-            method="bounded",
-            options={"xatol": 1e-12},
+            decay, bounds=(near[0], near[-1]), method="bounded", options={"xatol": 1e-12}
         )
         return -found.fun
 

@@ -76,12 +76,7 @@ def growth(length, upper, lower, uniform):
     elastic = -(rate / (A * SIGMA0 * stress))[:, None] * own
     healing = np.diag(-rate * (1.0 + WEAKENING))
     decay = np.diag(rate) + healing
-    matrix = np.block(
-        [
-            [elastic, healing],
-            [-elastic / D, -decay / D],
-        ]
-    )
+    matrix = np.block([[elastic, healing], [-elastic / D, -decay / D]])
     rates = np.linalg.eigvals(matrix)
     oscillating = np.abs(rates.imag) > 1e-3 * V / D
     return rates[oscillating].real.max()
@@ -112,11 +107,7 @@ def simulated(sign):
 
 
 @pytest.mark.parametrize(
-    ("bodies", "sign", "mean"),
-    [
-        ((SOFT, STIFF), 1, 0.69),
-        ((STIFF, SOFT), -1, 1.43),
-    ],
+    ("bodies", "sign", "mean"), [((SOFT, STIFF), 1, 0.69), ((STIFF, SOFT), -1, 1.43)]
 )
 def test_simulated_lengths_follow_from_the_creeps_own_normal_stress(bodies, sign, mean):
     assert stability_ratio(*bodies) == pytest.approx(simulated(sign), rel=0.025)
