@@ -6,6 +6,7 @@ from asked import expected_drop
 from configurations import CONFIG
 from parts import with_parts
 
+from nucleation.api import PAPER
 from nucleation.drop.expected_drop import Block, feels_far_end
 from nucleation.model.friction import Friction
 from nucleation.model.quantities import ParameterError
@@ -42,6 +43,17 @@ def test_drop_follows_loss_of_stability():
     assert not found.doubt
     # simulations with this load on 800 elements: 0.670 to 0.707 of the theory, of five seeds
     assert drop.length / THEORY == pytest.approx(0.685, abs=0.025)
+
+
+@pytest.mark.parametrize("kind", ["strength", "state"])
+def test_the_usual_correlation_length_is_a_fifth_of_state_evolution(kind):
+    """The strength of the perturbation was overwritten on the way to it."""
+    own = PAPER.replace(height=0.02)
+    length = own.single("shear_modulus") / (1.0 - own.single("poisson_ratio"))
+    length *= own.single("slip_distance") / (own.single("b") * own.single("normal_stress"))
+    usual = own.lengths(kind, 1e-4)["drop_length"]
+    given = own.lengths(kind, 1e-4, correlation_length=0.2 * length)["drop_length"]
+    assert usual.value == pytest.approx(given.value, rel=1e-9)
 
 
 @pytest.mark.slow

@@ -389,9 +389,9 @@ class Fault:
 
             if correlation_length is None and perturbation in ALONG_X:
                 modulus = self.single("shear_modulus") / (1.0 - self.single("poisson_ratio"))
-                strength = self.single("b") * self.single("normal_stress")
+                fall = self.single("b") * self.single("normal_stress")
                 distance = self.single("slip_distance")
-                correlation_length = roughness_length(modulus, distance, strength)
+                correlation_length = roughness_length(modulus, distance, fall)
             scale = 1.0 if correlation_length is None else correlation_length
             declared = Perturbation(perturbation, strength, correlation_time, scale)
             found |= answers_of_drop(self, declared)
