@@ -18,7 +18,6 @@ from nucleation.simulation.event import slipping_edge
 from nucleation.simulation.run import instants
 from nucleation.simulation.start import composed
 from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
-from nucleation.theory.creep.front import advance, oscillating
 
 pytestmark = pytest.mark.slow
 
@@ -110,14 +109,3 @@ def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
     assert measured.real[1] > 0.5 and frozen.real[1] > 0.5
     assert (measured.real - frozen.real > 0.0).all() and (measured.real - frozen.real < 0.3).all()
     np.testing.assert_allclose(measured.imag, frozen.imag, rtol=0.02)
-
-
-def test_the_theory_has_the_time_and_the_growth_of_each_patch(followed):
-    patches, start = PARAMETERS.patches, PARAMETERS.fault.initial_state
-    first = advance(patches, np.array([twin.first_length for twin in followed]), start)
-    assert first.time == pytest.approx([twin.start for twin in followed], rel=0.015)
-    mean = advance(patches, np.array([np.mean(twin.lengths) for twin in followed]), start)
-    rates = oscillating(mean) / PARAMETERS.memory_time
-    frozen = np.array([np.mean(twin.frozen) for twin in followed])
-    assert rates.real == pytest.approx(frozen.real, abs=0.35)
-    assert rates.imag == pytest.approx(frozen.imag, rel=0.025)

@@ -140,22 +140,6 @@ def test_long_blocks_have_the_transfer_functions(bottom):
     assert (np.abs(orders - 2.0) < 0.15).all(), (errors, orders)
 
 
-def test_bonded_identical_blocks_expand_as_one_under_the_load():
-    """Nothing holds them along x: sigma_yy = -sigma0 alone, a strain of (1 - nu) sigma0/2 mu."""
-    grids = (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4, grading=3.0))
-    body = pair_of(grids, lower=UPPER)
-    operator = Operator(body, STATIC)
-    response = operator.respond(body.far_load(1e6), np.zeros(12))
-    np.testing.assert_allclose(response.normal, 1e6 * grids[0].nodal_lengths, rtol=1e-9)
-    assert np.abs(response.tangential).max() < 1e-9 * 1e6 * grids[0].dx
-    x, y = body.nodal_values(operator.balance(response, response.w)[0])
-    nu, across = UPPER.poisson_ratio, 1e6 / (2.0 * UPPER.shear_modulus)
-    np.testing.assert_allclose(x, np.tile(nu * across * grids[0].x, (6, 1)), atol=1e-14)
-    np.testing.assert_allclose(
-        y - y[:1], np.tile(-(1 - nu) * across * grids[0].y[:, None], 13), atol=1e-14
-    )
-
-
 def test_a_translation_that_has_grown_from_rounding_is_taken_out():
     """All nodes of both blocks move by what the corner has risen, at each instant its own."""
     rng, step = np.random.default_rng(3), 0.1

@@ -73,20 +73,6 @@ def test_constants_along_x_are_those_declared(law, varies):
     assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
 
 
-@pytest.mark.parametrize("law", ["product", "dieterich_ruina"])
-def test_zeta_changes_its_sign_within_a_patch(law):
-    """A patch that weakens by 0.003 among surroundings that strengthen by 0.002, at one f and a."""
-    v = 1e-5
-    friction = Friction(law=law).with_expansion(v, 0.4, 0.007, -0.002)
-    own = Heterogeneity(varies="zeta", shape="step", centre=0.5, width=0.2, change=-2.5)
-    varied = own.friction(friction, v, own.factor(np.array([0.3, 0.5]), 1.0, False))
-    state = friction.steady_state(v)
-    assert varied.coefficient(v, state) == pytest.approx([0.4, 0.4])
-    slower = friction.steady_state(0.999 * v)
-    slope = (varied.coefficient(v, state) - varied.coefficient(0.999 * v, slower)) / 1e-3
-    assert slope == pytest.approx([0.002, -0.003], rel=2e-3)
-
-
 @pytest.mark.parametrize(
     ("change", "words"),
     [

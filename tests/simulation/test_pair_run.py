@@ -5,11 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from nucleation.extraction.growth import frozen_patch
-from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.run import instants, simulate
-from nucleation.simulation.start import body_of, composed
+from nucleation.simulation.start import composed
 
 COARSE = PAPER_RUN.replaced(
     height=0.02, block_length=1.2, n_x=60, n_y=4, grading=2.0, end_time=30.0,
@@ -56,21 +54,3 @@ def test_a_stiff_clamped_block_is_the_rigid_base():
     assert force[1] == pytest.approx(force[0], rel=1e-4)
     rates = [run["slip_rate"].values[-1] for run in (rigid, stiff)]
     np.testing.assert_allclose(rates[1], rates[0], rtol=2e-3, atol=1e-9)
-
-
-@pytest.mark.parametrize("bottom", BOTTOMS)
-def test_the_frozen_patch_of_a_pair(bottom):
-    """Its static stiffness is the pair's, normal stress included."""
-    operator = Operator(body_of(pair(bottom, second_shear_modulus=9e9)), 0.0)
-    n = operator.body.grid.n_x
-    rate, state = np.zeros(n + 1), np.full(n + 1, 0.05)
-    rate[:20] = 1e-5
-    force = 1e6 * operator.body.grid.nodal_lengths
-    patch = frozen_patch(operator, COARSE.law, rate, state, force, 1e-7)
-    w = np.zeros(n)
-    w[patch.nodes - 1] = np.random.default_rng(3).normal(size=patch.nodes.size)
-    p, normal = operator.apply(w)
-    law = COARSE.law
-    f, (f_v, _) = law.coefficient(1e-5, 0.05), law.derivatives(1e-5, 0.05)
-    expected = -(p[patch.nodes - 1] + f * normal[patch.nodes]) / (f_v * force[patch.nodes])
-    np.testing.assert_allclose(patch.by_w @ w[patch.nodes - 1], expected, rtol=1e-9)

@@ -73,21 +73,6 @@ def test_slope_and_integral_belong_to_the_series():
     assert series.integral(40.0) == pytest.approx(by_parts, abs=1e-6)
 
 
-@pytest.mark.slow
-def test_spectral_density_is_that_of_unit_variance():
-    omega = np.linspace(-4000.0, 4000.0, 400001)
-    density = spectral_density(omega, 0.05)
-    assert np.trapezoid(density, omega) / (2 * np.pi) == pytest.approx(1.0, rel=1e-5)
-    assert spectral_density(0.0, 0.05) == pytest.approx(0.05)  # the correlation time
-    series, fine = Series(1, 0.05), np.arange(0.0, 400.0, 0.004)
-    values = np.array([series.value(t) for t in fine])
-    power = np.abs(np.fft.rfft(values)) ** 2 * 0.004 / values.size
-    slow = 2 * np.pi * np.fft.rfftfreq(values.size, 0.004)
-    band = (slow > 5.0) & (slow < 60.0)
-    expected = spectral_density(slow[band], 0.05).mean()
-    assert power[band].mean() == pytest.approx(expected, rel=4.0 / np.sqrt(band.sum()))
-
-
 @pytest.mark.parametrize("scale", [0.05, 2.0])
 def test_correlation_and_spectral_density_are_a_pair(scale):
     """One at no lag; its integral is the correlation time; its Fourier transform the density."""

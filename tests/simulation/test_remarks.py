@@ -78,9 +78,3 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
     first = find_onset(record.step_time, force, COARSE.memory_time, 0.02, record._fast)
     at_first = record.lengths[record.frames_at(record.step_time[[first.start]])[0]]
     assert at_first < (FEW + 1) * X[1] < record.lengths_at_drop[0, 0]
-
-
-@pytest.mark.slow
-def test_a_run_that_its_mesh_resolves_says_nothing():
-    made = simulate(COARSE.replaced(n_x=120))
-    assert ";" not in made.attrs["status"]

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from benchmarks.crosscheck.__main__ import RUNS, compare, runs
+from benchmarks.crosscheck.__main__ import RUNS, runs
 from benchmarks.crosscheck.freefem import PROGRAM, FreeFemError, arguments, solve
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
@@ -49,21 +49,6 @@ def test_both_solvers_agree_on_the_block(tmp_path):
 def test_what_the_other_solver_lacks_is_refused(changes, words):
     with pytest.raises(FreeFemError, match=words):
         arguments(PARAMETERS.replaced(**changes))
-
-
-def test_differences_of_two_records():
-    """A run without an event has no differences of L(t). A drop and fast slip make an event."""
-    own = simulate(PARAMETERS)
-    assert np.isnan(compare(own, own)["onset_time"])
-    late = own["step_time"] > 0.95 * END
-    own["driving_force"] = own["driving_force"].where(~late, 0.5 * own["driving_force"])
-    own["maximal_slip_rate"] = own["maximal_slip_rate"].where(~late, 1e-3)  # m/s
-    scaled = own.assign(driving_force=1.02 * own["driving_force"])
-    row = compare(own, scaled)
-    assert row["onset_time"] == row["onset_time_freefem"] < END
-    assert row["driving_force_rms"] == pytest.approx(0.02)
-    assert row["patch_length_rms"] == 0.0
-    assert [*row] == [*REFERENCE]
 
 
 def test_the_solvers_agree_on_the_drop():
