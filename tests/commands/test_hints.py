@@ -24,22 +24,6 @@ def test_unknown_options(nucleation, command, unknown, answer):
     assert f"Error: No such option '{unknown}'; {answer}" in " ".join(ended.err.split())
 
 
-@pytest.mark.parametrize(
-    ("key", "answer"),
-    [
-        ("Dc", "did you mean slip_distance?"),
-        ("youngs_modulus", "give shear_modulus: mu = E/(2 (1 + nu))"),
-        ("normal_stres", "did you mean normal_stress?"),
-    ],
-)
-def test_unknown_keys_of_files(nucleation, tmp_path, key, answer):
-    path = tmp_path / "fault.yaml"
-    path.write_text(f"{key}: 1.0\n")
-    ended = nucleation("length", *FAULT, "--parameters", path)
-    assert ended.code == 2
-    assert f"{key} = 1.0 is not allowed: unknown key; {answer}" in " ".join(ended.err.split())
-
-
 def test_a_message_lists_the_keys_of_its_command(nucleation, tmp_path):
     path = tmp_path / "fault.yaml"
     path.write_text("xyzzy: 1.0\n")

@@ -1,14 +1,12 @@
 """``nucleation length`` with ranges and samples against the library."""
 
 import json
-import math
 import re
 
 import numpy as np
 import pytest
 
 from nucleation.api import Fault, draw_samples, quantiles
-from nucleation.commands.quantiles import as_sure
 
 ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
 WORDS = [*ROCK, "--poisson-ratio", "0.25 (0.2 to 0.3)", "--b", "0.015"]
@@ -83,21 +81,3 @@ def test_what_is_refused(nucleation, samples, words, message):
     ended = nucleation(*words, *samples)
     assert ended.code == 2
     assert re.search(message, ended.err)
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (2.8083, 0.04, "2.81"),
-        (8.09, 0.6, "8.1"),
-        (9.19, 1.1, "9"),
-        (4.89012, 1e-5, "4.890"),
-        (12.3, 20.0, "10"),
-        (3.2e-7, 1e-9, "3.20e-07"),
-        (math.inf, math.inf, "stable"),
-        (3.0, math.inf, "3"),
-        (math.nan, math.nan, "nan"),
-    ],
-)
-def test_digits_follow_the_error(value, error, text):
-    assert as_sure(value, error) == text

@@ -122,18 +122,6 @@ def test_the_paper_fills_in_what_is_not_given(nucleation, tmp_path):
     assert "--paper" in nucleation("length", "--height", "2cm").err
 
 
-def test_what_is_assumed_of_the_second_body_is_told_by_all(nucleation, tmp_path):
-    """A second body without a height is as high as the first, whichever command is asked."""
-    for body, assumed in (
-        ({"--second-shear-modulus": "35GPa"}, "as high as the first"),
-        ({"--second-body": "deformable"}, "like the first"),
-    ):
-        fault = words(alone(FAULT) | body)
-        for command in (("length",), ("simulate", tmp_path / "run.nc", "--dry-run")):
-            told = " ".join(nucleation(*command, *fault).out.split())
-            assert f"Assumed: the second body is {assumed}" in told, command
-
-
 def test_one_file_for_all_commands(nucleation, tmp_path):
     lines = [f"{k[2:].replace('-', '_')}: {v}" for k, v in FAULT.items()]
     lines += ["second_body: deformable", "friction_law: dieterich_ruina", "n_x: 200"]

@@ -1,8 +1,5 @@
 """Laws are files: what there is, and what a run uses of it."""
 
-import copy
-import pickle
-
 import pytest
 
 import nucleation.model.friction.laws as laws
@@ -35,12 +32,6 @@ def test_parameters_of_the_same_name_are_the_same():
     assert found["aging_coefficient"].description == "aging coefficient (friction law product)"
 
 
-def test_plugins_of_a_run():
-    run = PAPER_RUN.replaced(friction_law="dieterich_ruina", evolution="slip")
-    expected = (f"{HOME}.laws.dieterich_ruina", f"{HOME}.evolutions.slip")
-    assert plugins(run.law) == expected
-
-
 def test_code_of_a_run_is_that_of_its_own_laws():
     """No law is reached by imports: the digest has those that are named beside, and no other."""
     packages = (f"{HOME}.laws.", f"{HOME}.evolutions.")
@@ -49,12 +40,6 @@ def test_code_of_a_run_is_that_of_its_own_laws():
     own = plugins(PAPER_RUN.law)
     whole = code.closure("nucleation.simulation.run", *own)
     assert {name for name in whole if name.startswith(packages)} == set(own)
-
-
-def test_objects_are_copied_and_stored():
-    friction = Friction(law="dieterich_ruina", evolution="slip", log_state_coefficient=0.02)
-    for again in (copy.deepcopy(friction), pickle.loads(pickle.dumps(friction))):
-        assert again == friction and type(again) is type(friction)
 
 
 def test_another_law_keeps_what_all_share():

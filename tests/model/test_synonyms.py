@@ -38,11 +38,6 @@ def test_the_difference_of_a_and_b_has_its_sign(name):
     assert hint(name, FILE).startswith("give zeta: ")
 
 
-def test_the_name_is_that_of_the_door():
-    assert hint("Dc", FILE) == "did you mean slip_distance?"
-    assert hint("Dc", ("height",)) == ""
-
-
 def test_misspelt_names():
     assert hint("heigth", API) == "did you mean height?"
     assert hint("xyz", API) == ""

@@ -63,7 +63,9 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         reason = f"{error} is missing" if isinstance(error, KeyError) else error
         raise DatasetError(f"{file} is no {kind} of this version: {reason}") from error
-    lines = text.wrapped(f"{file}: {kind}", *map(text.printable, lines))
+    # no control characters, which a terminal would obey
+    lines = ["".join(c if c.isprintable() else repr(c)[1:-1] for c in line) for line in lines]
+    lines = text.wrapped(f"{file}: {kind}", *lines)
     text.show(as_json, found, lines)
     if plot:
         from ..pictures import run, style

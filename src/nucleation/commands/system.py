@@ -71,7 +71,7 @@ def _system_line(fault: Fault, sought: str) -> str:
         bodies = f"two identical bodies, each {first}"
     else:
         bodies = f"{first} on {second}"
-    if fault.has_zone:
+    if fault.zone_thickness is not None:
         thickness = in_unit(fault.zone_thickness, "m")
         bodies += f"; a zone of {thickness} {_material(fault, 'zone_')} in each deformable body "
         bodies += "beside the fault"

@@ -114,11 +114,6 @@ def warn(text: str) -> None:
     click.echo("\n".join(wrapped(f"Warning: {text}", err=True)), err=True)
 
 
-def printable(text: str) -> str:
-    """A text of a file without control characters, which a terminal would obey."""
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
-
-
 def table(rows: Sequence[Row], right: Collection[int] = ()) -> list[str]:
     """Rows of cells in columns, and lines between them; on a narrow terminal the last one wraps.
 

@@ -2,7 +2,6 @@
 
 import contextlib
 import datetime
-import hashlib
 import importlib.metadata
 import json
 import os
@@ -17,21 +16,6 @@ STRUCTURES = {"parameters", "sources", "versions"}
 """Attributes that are JSON."""
 
 _LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "matplotlib", "snakemake")
-
-
-def versions() -> dict[str, str]:
-    """Versions of Python, of this package and of the installed libraries it depends on."""
-    found = {"nucleation": __version__, "python": platform.python_version()}
-    for library in _LIBRARIES:
-        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
-            found[library] = importlib.metadata.version(library)
-    return found
-
-
-def fingerprint(parameters: Any, code_digest: str) -> str:
-    """Digest of parameters (for JSON) and of code, by which a checkpoint is recognised."""
-    text = json.dumps([parameters, code_digest], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def moment() -> datetime.datetime:
@@ -63,11 +47,15 @@ def attributes(
     `parameters` are all values (for JSON) that it depends on, `sources` the keys of the results
     that it was made from, by role, and `key` its own in the workflow, if that made it.
     """
+    versions = {"nucleation": __version__, "python": platform.python_version()}
+    for library in _LIBRARIES:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            versions[library] = importlib.metadata.version(library)
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),
         "code_digest": code_digest,
         "sources": json.dumps(dict(sources or {}), sort_keys=True),
-        "versions": json.dumps(versions(), sort_keys=True),
+        "versions": json.dumps(versions, sort_keys=True),
         "command": command,
         "created": moment().isoformat(timespec="seconds"),
     }

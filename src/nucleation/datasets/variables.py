@@ -73,12 +73,6 @@ def table(
     return xr.Dataset(variables)
 
 
-def is_table(dataset: xr.Dataset) -> bool:
-    """Whether all variables of a dataset are columns on one dimension."""
-    columns = dataset.data_vars.values()
-    return len(dataset.dims) == 1 and all(column.ndim == 1 for column in columns)
-
-
 def to_csv(table: xr.Dataset) -> str:
     """Write a table as comma-separated text, in the order of its columns."""
     columns = list(table.data_vars)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ..model.friction import Friction
-from ..model.friction.constants import AGE, law_of, roughness_length
+from ..model.friction.constants import law_of, roughness_length
 from ..model.hints import hint
 from ..model.quantities import ParameterError, declared
 from ..model.settings import ALONG_X, Perturbation
@@ -208,16 +208,6 @@ class Fault:
         """The parameters of a single fault as plain values in SI units, with the law's."""
         return flat(self)
 
-    @property
-    def has_zone(self) -> bool:
-        """Whether there is a zone of other stiffness beside the fault."""
-        return self.zone_thickness is not None
-
-    @property
-    def bodies_differ(self) -> Any:
-        """Whether the second body is no mirror image of the first one (bool or array)."""
-        return bodies_differ(vars(self))
-
     def law(self) -> Friction:
         """The full friction law of a single fault with velocity and friction.
 
@@ -235,12 +225,6 @@ class Fault:
         if np.size(value) != 1:
             raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
         return float(np.ravel(value)[0])
-
-    def age(self) -> float:
-        """phi0 (s) of a single fault: the given one, or 20 D/V."""
-        if self.initial_state is not None:
-            return self.single("initial_state")
-        return AGE * self.single("slip_distance") / self.single("velocity")
 
     def critical_length(self) -> Any:
         """Critical nucleation length L_c of the linear theory of homogeneous sliding.
@@ -436,7 +420,7 @@ class Fault:
 
     def _critical(self) -> CriticalMode:
         length, k, omega = evaluate(self, critical_modes, rows=3)
-        mirrored = np.logical_not(self.bodies_differ)
+        mirrored = np.logical_not(bodies_differ(vars(self)))
         omega = omega + (abs(omega) - omega) * mirrored  # keeps the dimensions' names
         frequency = "frequency of the critical mode"
         return CriticalMode(

@@ -4,7 +4,7 @@ import csv
 import os
 import re
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import yaml
@@ -17,14 +17,14 @@ from ..model.units import rescaled
 from ..types import Array
 
 _HEADER = re.compile(r"\s*(\w+)\s*(?:\((.*)\)|\[(.*)\])?\s*")
-_INTEGER = re.compile(r"[-+]?(0|[1-9][0-9]*)")
-_FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?\.inf|\.nan")
+_OCTAL = re.compile(r"[-+]?0[0-9_]+")
 
 
 def read_yaml(path: str | os.PathLike[str]) -> Any:
-    """The contents of a YAML file, with the numbers of YAML 1.2: 0400 is 400, 1:30 a text.
+    """The contents of a YAML file.
 
-    A ParameterError names a file that can't be read or is not YAML, and a key that is there twice.
+    A ParameterError names a file that can't be read or is not YAML, a key that is there twice, and
+    a number that YAML reads otherwise than it looks.
     """
     try:
         refuse_pipe(path)
@@ -47,11 +47,6 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
 class _Loader(yaml.SafeLoader):
     """YAML's safe loader; libyaml's is faster, but a hundred thousand brackets crash it."""
 
-    yaml_implicit_resolvers: ClassVar = {
-        first: [(tag, form) for tag, form in own if not tag.endswith((":int", ":float"))]
-        for first, own in yaml.SafeLoader.yaml_implicit_resolvers.items()
-    }
-
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         lines: dict[str, int] = {}
         for key, _ in node.value:
@@ -65,9 +60,20 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-for _tag, _form in (("int", _INTEGER), ("float", _FLOAT)):
-    _whole = re.compile(f"(?:{_form.pattern})$")
-    _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", _whole, list("-+.0123456789"))
+def _number(loader: _Loader, node: yaml.ScalarNode) -> Any:
+    """A number that looks as YAML 1.1 reads it: 0400 would be 256, 1:30 90."""
+    is_integer = node.tag.endswith(":int")
+    value = (loader.construct_yaml_int if is_integer else loader.construct_yaml_float)(node)
+    if ":" in node.value or (is_integer and _OCTAL.fullmatch(node.value)):
+        raise ParameterError(
+            f"{node.start_mark.name}, line {node.start_mark.line + 1}: YAML reads {node.value} as "
+            f"{value}: write numbers without leading zeros and colons"
+        )
+    return value
+
+
+_Loader.add_constructor("tag:yaml.org,2002:int", _number)
+_Loader.add_constructor("tag:yaml.org,2002:float", _number)
 
 
 def read_samples(path: Path | str) -> dict[str, Array]:

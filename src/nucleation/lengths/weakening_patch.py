@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..model.material import Material
+from ..theory.reading import bodies_differ
 from ..theory.values import FaultLike, Values
 from ..theory.weakening_patch import weakening_patch_values
 from . import patch_outcomes
@@ -98,7 +99,7 @@ def _untried(fault: FaultLike, width: float) -> str:
     """What is unlike the simulations besides friction's constants, in words; empty if nothing."""
     if fault.plane == "stress":
         return "plane stress"
-    if fault.has_zone or np.any(fault.bodies_differ):
+    if fault.zone_thickness is not None or np.any(bodies_differ(vars(fault))):
         return "a fault between different bodies"
     lowest = min(fault.single("height"), fault.single("second_height"))
     if lowest < patch_outcomes.ROOM * width:

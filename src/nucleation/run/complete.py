@@ -9,7 +9,7 @@ import numpy as np
 
 from ..fault import Fault
 from ..model.friction import Friction
-from ..model.friction.constants import roughness_length
+from ..model.friction.constants import AGE, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
 from ..model.settings import Start
@@ -80,7 +80,7 @@ def complete(
             )
     law = law or fault.law()
     if fault.initial_state is None:
-        fault = fault.replace(initial_state=fault.age())
+        fault = fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
     found = dict(values)
     try:
         critical = float(unstable_modes(single_system(fault)).length[0])

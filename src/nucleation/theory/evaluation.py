@@ -50,7 +50,7 @@ def evaluate(
     The function returns `rows` arrays of length n; the result has the shape ``(rows,) + broadcast
     shape``, and the first dimension of a DataArray is ``row``.
     """
-    names = (*_OF_SYSTEMS, *ZONE) if fault.has_zone else _OF_SYSTEMS
+    names = (*_OF_SYSTEMS, *ZONE) if fault.zone_thickness is not None else _OF_SYSTEMS
     parameters = {name: getattr(fault, name) for name in names}
     for name in names:
         if name.endswith("poisson_ratio"):

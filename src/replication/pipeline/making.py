@@ -22,7 +22,7 @@ import xarray as xr
 
 from nucleation.datasets import DatasetError, code, netcdf, provenance
 from nucleation.datasets.files import replacing
-from nucleation.datasets.variables import is_table, to_csv
+from nucleation.datasets.variables import to_csv
 from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event
@@ -231,7 +231,9 @@ class _Maker:
         files = made if isinstance(made, Mapping) else {"": made}  # a figure has several files
         if isinstance(made, xr.Dataset):  # which is a mapping, too
             files = {".nc": made}
-        if ".nc" in files and ".csv" not in files and is_table(files[".nc"]):
+        columns = files[".nc"].data_vars.values() if ".nc" in files else ()
+        is_table = columns and len(files[".nc"].dims) == 1 and all(x.ndim == 1 for x in columns)
+        if is_table and ".csv" not in files:
             files = {**files, ".csv": to_csv(files[".nc"])}
         origin = _origin(recipe)
 

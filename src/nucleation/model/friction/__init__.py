@@ -133,7 +133,22 @@ class Friction(Checked):
     )
 
     set_by_expansion: ClassVar[tuple[str, ...]] = ()
-    """The parameters that :meth:`with_expansion` determines."""
+    """The parameters that `with_expansion` determines."""
+
+    constants: ClassVar[Any]
+    """Of each law: the parameters that `formula` uses."""
+
+    formula: ClassVar[Any]
+    """Of each law: f, df/dv (s/m) and df/dpsi of slip rates v (m/s), psi and `constants`.
+
+    A static function of arrays of equal shape, which the simulation compiles.
+    """
+
+    with_expansion: ClassVar[Any]
+    """Of each law: the law of V (m/s), f, a and zeta with this :meth:`expansion`.
+
+    It has other values of `set_by_expansion`, or raises a ParameterError.
+    """
 
     asinh_of_rate: ClassVar[bool] = False
     """Whether f is proportional to ``asinh(v / linear_below(psi))`` at fixed state."""
@@ -175,62 +190,9 @@ class Friction(Checked):
         """The module of the state evolution, :mod:`nucleation.model.friction.evolutions`."""
         return module("evolutions", self.evolution)
 
-    # -- to be defined by each law --------------------------------------------------------------
-
-    @property
-    def constants(self) -> tuple[float, ...]:
-        """The parameters that :meth:`formula` uses."""
-        raise NotImplementedError
-
-    @staticmethod
-    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
-        """The friction coefficient and its slopes; the simulation compiles this function.
-
-        Parameters
-        ----------
-        v : ndarray
-            Slip rates (m/s), of any shape.
-        psi : ndarray
-            Logarithms of the state (s), of the same shape.
-        constants : tuple of float
-            The law's :attr:`constants`.
-
-        Returns
-        -------
-        coefficient, by_rate, by_log_state : ndarray
-            ``f(v, psi)``, df/dv (s/m) and df/dpsi, of the same shape.
-        """
-        raise NotImplementedError
-
     def linear_below(self, log_state: ArrayLike) -> Any:
         """Slip rate (m/s) below which friction is linear in it: about its scale of change there."""
         return self.regularisation_slip_rate
-
-    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
-        """The law with other :attr:`set_by_expansion`, so that :meth:`expansion` is (f, a, zeta).
-
-        Parameters
-        ----------
-        velocity : float
-            Slip rate V of steady sliding (m/s).
-        f : float
-            Friction coefficient at V.
-        a, zeta : float
-            Direct effect ``v df/dv`` and velocity weakening ``-v df_ss/dv`` at V.
-
-        Returns
-        -------
-        Friction
-            An object of the same class.
-
-        Raises
-        ------
-        ParameterError
-            If no allowed parameters give this expansion.
-        """
-        raise NotImplementedError
-
-    # -- common to all laws ---------------------------------------------------------------------
 
     def coefficient_and_slopes(
         self, slip_rate: ArrayLike, log_state: ArrayLike
