@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..model.material import Material
-from ..theory.reading import bodies_differ
+from ..theory.evaluation import bodies_differ
 from ..theory.values import FaultLike, Values
 from ..theory.weakening_patch import weakening_patch_values
 from . import patch_outcomes

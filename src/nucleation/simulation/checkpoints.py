@@ -146,13 +146,8 @@ def run_to_file(
     """
     from .run import simulate
 
-<<<<<<< HEAD
-    fingerprint = provenance.fingerprint(run.to_dict(), code_digest)
-    checkpoint = _Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
-=======
     fingerprint = json.dumps([run.to_dict(), code_digest], sort_keys=True)
-    checkpoint = Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
->>>>>>> a5eb78be (What each friction law defines is named once; a property that compares one value is written in place)
+    checkpoint = _Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
     failed = output.with_suffix(".failed.nc")
     with checkpoint.listening():
         start = checkpoint.load()

@@ -114,7 +114,7 @@ def _systems(fault: FaultLike, own: dict[str, Array]) -> Systems:
     """Faults as systems, all or none of them with a rigid second body."""
     antiplane = fault.plane == ANTIPLANE
     zone = None
-    if fault.has_zone:
+    if fault.zone_thickness is not None:
         modulus, ratio, thickness = (own[f"zone_{name}"] for name in (*_OF_BODY, "thickness"))
         zone = Layers(modulus, ratio, thickness, "free", antiplane)
     bodies: list[Layers | None] = []
