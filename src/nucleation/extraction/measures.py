@@ -100,23 +100,17 @@ def measure(record: Record) -> dict[str, float]:
     start = record.onset.start
     _, steep, end = record.drop_times
     found |= {
-        "acceleration_time": _acceleration_time(record, start),
         "drop_time": float(end - steep),
         "onset_rate": float(record.fastest[start]),
         "shortest_step": float(sizes[start:].min()),
     }
-    return found | _patch(record)
-
-
-def _acceleration_time(record: Record, start: int) -> float:
-    """Time (s) in which the largest slip rate grows from 10 V to 100 V after a step."""
-    rates = record.fastest[start:]
+    # from the last step below 10 V to the first one above 100 V
+    rates, time = record.fastest[start:], record.step_time[start:]
     hundred = int(np.argmax(rates > 100.0 * record.velocity))  # zero also if it is never so fast
     slower = np.flatnonzero(rates[:hundred] < 10.0 * record.velocity)
-    if not slower.size:
-        return math.nan
-    time = record.step_time[start:]
-    return float(time[hundred] - time[slower[-1]])
+    if slower.size:
+        found["acceleration_time"] = float(time[hundred] - time[slower[-1]])
+    return found | _patch(record)
 
 
 def _patch(record: Record) -> dict[str, float]:

@@ -15,8 +15,6 @@ from . import edge_kernels, kernels
 from .body import Layer, product, transposed
 from .grid import Field
 
-ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
-
 
 class Before(NamedTuple):
     """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
@@ -69,13 +67,6 @@ class LayerFactors:
         own = own + (density * dx / 3.0 + shear / dx) * layer.mass
         self._rows = np.array([against_x, against_slope, against_y, own])
         self._transposed = np.array([transposed(matrix) for matrix in self._rows[:3]])
-
-    @property
-    def round_off(self) -> float:
-        """Relative error of the edge values in any solve."""
-        grid = self.layer.grid
-        condition = (grid.height / np.diff(grid.y).min()) ** 2
-        return ROUND_OFF * np.finfo(float).eps * condition
 
     def profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""

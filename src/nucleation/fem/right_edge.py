@@ -16,6 +16,7 @@ from .factors import LayerFactors
 from .grid import Field, Motion
 from .modes import BlockModes
 
+ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 
 
@@ -57,7 +58,9 @@ class EdgeValues:
         assert isinstance(body.modes, BlockModes)
         self._body = body
         self._factors = factors
-        self.round_off = max(layer.round_off for layer in factors)
+        grids = [layer.grid for layer in body.layers]
+        condition = max((grid.height / np.diff(grid.y).min()) ** 2 for grid in grids)
+        self.round_off = ROUND_OFF * np.finfo(float).eps * condition  # relative, in any solve
         if series is None:
             modal = factors[0].to_modes()
             self.schur = factors[0].schur()

@@ -60,7 +60,7 @@ class Remote(Drive):
     """
 
     velocity: float
-    near: Steady
+    near: Drive
     start: Field  # N/m, the far load at time zero
     rising: Field  # N/m per m of the edge's displacement
     moves: ClassVar[bool] = False

@@ -76,32 +76,22 @@ def interface_of(run: Run, grid: Grid) -> Interface:
     return Interface(friction, tolerance, extra_normal=extra)
 
 
-def drive_of(run: Run, body: Body) -> Drive:
-    """The drive of a run: a moving edge, or a far load that rises."""
-    load = body.far_load(run.fault.normal_stress)
-    near = Steady(run.fault.velocity, load)
-    if run.perturbation.acts:
-        from .perturbed import perturbed
-
-        near = perturbed(run, body, load)
-    if run.fault.loading != "remote":
-        return near
-    shear = body.far_load(0.0, 1.0)
-    start = shear.times(run.start.initial_shear_stress)
-    per_displacement = run.start.stress_rate / run.fault.velocity
-    return Remote(near.velocity, near, start, shear.times(per_displacement))
-
-
 def composed(run: Run) -> Dynamics:
     """The dynamics of a run: a further drive or scheme is chosen here."""
     body = body_of(run)
     interface = interface_of(run, body.grid)
-    return Dynamics(
-        body,
-        interface,
-        drive_of(run, body),
-        BDF(body.crossing_time),
-    )
+    load = body.far_load(run.fault.normal_stress)
+    drive: Drive = Steady(run.fault.velocity, load)
+    if run.perturbation.acts:
+        from .perturbed import perturbed
+
+        drive = perturbed(run, body, load)
+    if run.fault.loading == "remote":
+        shear = body.far_load(0.0, 1.0)
+        start = shear.times(run.start.initial_shear_stress)
+        per_displacement = run.start.stress_rate / run.fault.velocity
+        drive = Remote(drive.velocity, drive, start, shear.times(per_displacement))
+    return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
@@ -111,7 +101,12 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
-        response = _in_uniform_shear(dynamics, run, operator, load, response)
+        # after the slip with which all nodes bear the initial shear stress
+        nodes = np.arange(1, body.modes.n_x + 1)
+        stiffness, _ = operator.tangent(nodes)
+        forces = -run.start.initial_shear_stress * dynamics.grid.nodal_lengths[nodes]
+        slip = np.linalg.solve(stiffness, forces - response.tangential)
+        response = operator.respond(load, slip)
     else:
         response = _relaxed(dynamics, run, operator, load, response)
     displacement = operator.balance(response, response.w)[0]
@@ -132,22 +127,6 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     friction = float(interface.tangential[dynamics.grid.own].sum())
     force = friction - body.total_mass * imposed.acceleration
     return state, StepReport(interface, force, 0.0)
-
-
-def _in_uniform_shear(
-    dynamics: Dynamics,
-    run: Run,
-    operator: Operator,
-    load: Field,
-    response: Response,
-) -> Response:
-    """The response after the slip with which all nodes bear the initial shear stress."""
-    n = dynamics.grid.n_x
-    nodes = np.arange(1, n + 1)
-    stiffness, _ = operator.tangent(nodes)
-    forces = -run.start.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
-    slip = np.linalg.solve(stiffness, forces - response.tangential)
-    return operator.respond(load, slip)
 
 
 def _relaxed(
