@@ -164,14 +164,6 @@ def test_lengths_of_the_literature():
         assert factor.between(low, high + 0.005).all()
 
 
-STUDIES = {
-    r"`map`, all heights, $\zeta/a$ = 1.5 to 6": ["map"],
-    r"`converged`, both laws, $\phi_0$ = 1 and 1000 s": ["converged"],
-    "identical pairs, far sides, held layers": ["pairs_identical", "pairs_far_sides",
-                                                "pairs_layers", "pairs_weak"],
-    "`figure_2_simulated`, both senses": ["figure_2_simulated"],
-    "`patch_theory`, below": ["patch_theory"],
-}  # fmt: skip
 EXPLAINED = {
     "patch_theory-aging-H0.01-phi1-zeta_over_a0.5": "Weak weakening",
     "patch_theory-slip-H0.03-phi1-zeta_over_a10": "Steady creep",
@@ -187,16 +179,6 @@ def patch_theory_errors():
     for name in ("front", "creep"):
         found[name] = 100.0 * (found[f"{name}_length"] / found["stability_length"] - 1.0)
     return found
-
-
-def patch_theory_rows():
-    """One row for each group of studies: errors of both theories."""
-    found = patch_theory_errors()
-    for words, studies in STUDIES.items():
-        rows = found[found["study"].isin(studies)]
-        errors = [rows[name] for name in ("front", "creep")]
-        cells = [f"{np.sqrt(np.mean(e**2)):.1f} %, {e[e.abs().idxmax()]:+.1f} %" for e in errors]
-        yield line(words, len(rows), *cells)
 
 
 def extent(values):
@@ -256,22 +238,31 @@ def test_limits_of_the_simulated_patches_are_stated():
     assert peaks.iloc[0] > 3e4 and peaks.iloc[1] > 4e3
     says(
         "creeping_patch.md",
-        f"Of the {len(simulated())} second widths {one_rate} were simulated at one $V$ only",
+        f"Of the {len(simulated())} widths from which events are stated, {one_rate} were simulated",
         f"{peaks.iloc[2]:.0f} $v_d$",
         f"all others are {peaks.iloc[-1]:.1f} to {peaks.iloc[3]:.0f} $v_d$",
     )
 
 
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
-    page = (DOCS / "creeping_patch.md").read_text(encoding="utf-8")
     found = patch_theory_errors()
+    page = (DOCS / "creeping_patch.md").read_text(encoding="utf-8")
     assert set(found["id"][found["front"].abs() > 3.0]) == EXPLAINED.keys()
     assert all(f"**{part}" in page for part in EXPLAINED.values())
+    squares = np.sqrt((found[["front", "creep"]] ** 2).mean())
+    largest = found[["front", "creep"]].abs().max()
+    says(
+        "creeping_patch.md",
+        f"Against {len(found)} simulated faults",
+        f"an error of {squares['front']:.1f} % (rms)",
+        f"{largest['front']:.1f} % at worst",
+        f"it is {squares['creep']:.1f} %, {largest['creep']:.1f} % at worst",
+    )
 
 
 TABLES = {
     "verification": (kind_rows, floor_rows),
-    "creeping_patch": (patch_theory_rows, patch_outcome_rows),
+    "creeping_patch": (patch_outcome_rows,),
 }
 
 
