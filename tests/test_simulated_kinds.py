@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from nucleation.api import Fault, Run, extract, simulate
-from nucleation.lengths.patch_outcomes import DYNAMIC, bounds
+from nucleation.lengths.weakening_patch import DYNAMIC, bounds
 from replication.configuration.load import load
 
 ROOT = Path(__file__).parents[1]

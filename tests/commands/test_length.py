@@ -10,8 +10,8 @@ import pytest
 
 from nucleation import commands
 from nucleation.api import Fault
+from nucleation.lengths.formulas import TWO_MATERIALS
 from nucleation.lengths.in_use import LENGTHS
-from nucleation.lengths.length import TWO_MATERIALS
 
 WORDS = [
     "length", "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa",

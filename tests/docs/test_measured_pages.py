@@ -10,7 +10,7 @@ from docs.prose import says, span, table
 from docs.samples import DOCS
 
 from nucleation.lengths.in_use import LENGTHS
-from nucleation.lengths.patch_outcomes import DYNAMIC, ROOM, simulated
+from nucleation.lengths.weakening_patch import DYNAMIC, ROOM, simulated
 from replication.tables.weakening_patches import patch_outcomes_table
 
 

@@ -13,9 +13,8 @@ from two_bodies import Body, Interface, fault_of, transfer_functions
 
 from nucleation.api import Fault
 from nucleation.lengths import formulas
-from nucleation.lengths.expanding_zone import expanding_length
-from nucleation.lengths.in_use import LENGTHS
-from nucleation.lengths.length import TWO_MATERIALS
+from nucleation.lengths.formulas import TWO_MATERIALS
+from nucleation.lengths.in_use import LENGTHS, expanding_length
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import closed_forms

@@ -6,9 +6,15 @@ import pytest
 from asked import weakening_patch_length
 
 from nucleation.api import Fault
-from nucleation.lengths import patch_outcomes
-from nucleation.lengths.patch_outcomes import OTHER_A, OTHER_B, simulated
-from nucleation.lengths.weakening_patch import NO_WIDTH, patch_answer, process_zone
+from nucleation.lengths import weakening_patch as patch_outcomes
+from nucleation.lengths.weakening_patch import (
+    NO_WIDTH,
+    OTHER_A,
+    OTHER_B,
+    patch_answer,
+    process_zone,
+    simulated,
+)
 
 ROCK = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.01, "b": 0.015,

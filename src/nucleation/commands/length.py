@@ -12,8 +12,8 @@ import click
 from ..lengths import formulas
 from ..lengths.answer import Answer
 from ..lengths.draws import DRAWS, WEAKENING_RATE, parse_range
+from ..lengths.formulas import HALF_SPACES, TWO_MATERIALS, Length, of_two_materials
 from ..lengths.in_use import LENGTHS
-from ..lengths.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
 from ..model.quantities import ParameterError, declarations, declared
 from ..model.settings import Perturbation
 from ..theory.status import BEYOND, STABLE, UNKNOWN
@@ -280,7 +280,7 @@ def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) 
         f"      {length.source}",
         f"      {validity}",
     ]
-    a, b = number(fault, "a"), number(fault, "b")
+    a, b = fault.a, fault.b
     if length.beyond and formulas.between_localised_and_crack(a, b):
         rows.append(f"      {length.beyond}")
     return rows
@@ -315,7 +315,7 @@ def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) ->
             own = f"{patch['width_ratio']:.3g} W_c"
             rows.append(("W", in_unit(width, "m"), own, patch["outcome"]))
             if patch["width_ratio"] >= 1.0:
-                from ..lengths.patch_outcomes import SETTING
+                from ..lengths.weakening_patch import SETTING
 
                 rows.append(f"      simulated: {SETTING}")
     if not math.isnan(patch["cell_size"]):

@@ -6,19 +6,16 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..lengths.answer import Answer
 from ..model.friction.constants import AGE, law_of
 from ..model.quantities import ParameterError
 from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
-from ..theory.critical import largest_crossings
-from ..theory.evaluation import evaluate
+from ..theory.critical import at_each
 from ..theory.spectrum import Systems
 from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike
-from ..types import Array
 
 if TYPE_CHECKING:
     from .expected_drop import ExpectedDrop
@@ -36,47 +33,32 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
         return _alike(fault, _none(UNKNOWN, "it is known for a patch that is pushed at its edge"))
     from .expected_drop import WEAK, expected_drop
 
-    given = (fault.velocity, fault.slip_distance)
     age = np.nan if fault.initial_state is None else fault.initial_state
 
-    def points(
-        systems: Systems,
-        velocity: Array,
-        distance: Array,
-        age: Array,
-    ) -> NDArray:
-        critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full(
-            (2 * FIELDS, critical.size),
-            np.nan,
-            dtype=object,
-        )
-        for i, length in enumerate(critical):
-            one = systems.at(np.array([i]))
-            v, d = float(velocity[i]), float(distance[i])
-            constants = (float(one.friction[0]), float(one.a[0]), float(one.zeta[0]))
-            phi0 = AGE * d / v if math.isnan(age[i]) else float(age[i])
-            try:
-                law = law_of(fault.friction_law, fault.evolution, v, d, *constants)
-                patches = Patches(one, law, v, evolution=fault.evolution)
-                known = expected_drop(patches, declared, float(length), phi0)
-                slowly = constants[2] < WEAK * constants[1]
-                runaway, drop = _both(known, slowly)
-            except NoLength as none:
-                runaway = drop = _none(none.status, str(none))
-            except ParameterError as refused:  # no law has these constants
-                runaway = drop = _none(UNKNOWN, str(refused))
-            found[:, i] = *runaway, *drop
-        return found
+    def answer(
+        one: Systems,
+        critical: float,
+        velocity: float,
+        distance: float,
+        age: float,
+    ) -> tuple[Any, ...]:
+        constants = (float(one.friction[0]), float(one.a[0]), float(one.zeta[0]))
+        phi0 = AGE * distance / velocity if math.isnan(age) else age
+        given = fault.friction_law, fault.evolution
+        try:
+            law = law_of(*given, velocity, distance, *constants)
+            patches = Patches(one, law, velocity, evolution=fault.evolution)
+            known = expected_drop(patches, declared, critical, phi0)
+        except NoLength as none:
+            runaway = drop = _none(none.status, str(none))
+        except ParameterError as refused:  # no law has these constants
+            runaway = drop = _none(UNKNOWN, str(refused))
+        else:
+            runaway, drop = _both(known, constants[2] < WEAK * constants[1])
+        return *runaway, *drop
 
-    rows = evaluate(
-        fault,
-        points,
-        *given,
-        age,
-        rows=2 * FIELDS,
-        dtype=object,
-    )
+    arrays = fault.velocity, fault.slip_distance, age
+    rows = at_each(fault, answer, *arrays, rows=2 * FIELDS)
     return {"runaway_length": _answer(rows[:FIELDS]), "drop_length": _answer(rows[FIELDS:])}
 
 
@@ -93,12 +75,7 @@ def _none(status: str, reason: str) -> Answer:
 def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
     """The same answer about both lengths of all faults."""
 
-    def points(systems: Systems) -> NDArray:
-        found = np.empty((FIELDS, systems.a.size), dtype=object)
-        found[:] = np.array(answer, dtype=object)[:, None]
-        return found
-
-    found = _answer(evaluate(fault, points, rows=FIELDS, dtype=object))
+    found = _answer(at_each(fault, lambda *_: answer, rows=FIELDS))
     return {"runaway_length": found, "drop_length": found}
 
 
@@ -121,11 +98,5 @@ def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    return runaway, Answer(
-        known.length,
-        known.low,
-        known.high,
-        VALUE,
-        "",
-        "; ".join(doubts),
-    )
+    drop = Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts))
+    return runaway, drop

@@ -29,14 +29,8 @@ class CreepPath(NamedTuple):
     rate: ComplexArray
 
 
-def trend(
-    history: ModeHistory,
-    values: Array,
-) -> Callable[[Array], Array]:
-    """Real values as a function of patch length.
-
-    Returns: Of lengths (m): a polynomial, continued as a straight line.
-    """
+def trend(history: ModeHistory, values: Array) -> Callable[[Array], Array]:
+    """Real values as a function of patch length (m): a polynomial, continued as a straight line."""
     last = history.length[-1]
     fit = np.polynomial.Polynomial.fit(history.length, values, DEGREE)
     slope = fit.deriv()(last)
@@ -53,17 +47,10 @@ def complex_trend(
     history: ModeHistory,
     values: ComplexArray,
 ) -> Callable[[Array | float], ComplexArray]:
-    """Complex values as a function of patch length.
-
-    Returns: Of lengths (m): a polynomial, continued as a constant.
-    """
+    """Complex values as a function of patch length (m): a polynomial, continued as a constant."""
     last = history.length[-1]
     powers = np.vander(history.length / last - 1.0, DEGREE + 1)
-    fitted, *_ = np.linalg.lstsq(
-        powers.astype(complex),
-        values,
-        rcond=None,
-    )
+    fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
 
     def at(lengths: Array | float) -> ComplexArray:
         within = np.atleast_1d(np.minimum(lengths, last))
@@ -99,10 +86,7 @@ def roughness_weights(
     path: CreepPath,
     x: Array,
 ) -> Iterator[tuple[float, ComplexArray]]:
-    """Weights of the roughness at each position in the amplitude A, as time advances.
-
-    Takes x (m).
-    """
+    """Weights of the roughness at positions x (m) in the amplitude A, as time advances."""
     exponent = exponent_of(path)
     moving = _moving_weights(history)
     times = path.time.size
@@ -144,25 +128,12 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     longest = history.length[-1] * BEYOND
     behind = np.arange(-longest, 4.0 * dx, 0.5 * dx)
     rows = [
-        np.interp(
-            behind + length,
-            history.x,
-            weights,
-            left=0.0,
-            right=0.0,
-        )
+        np.interp(behind + length, history.x, weights, left=0.0, right=0.0)
         for length, weights in zip(history.length, history.strength, strict=True)
     ]
     fitted = complex_trend(history, np.array(rows))
 
-    def at(
-        length: float,
-        x: Array,
-    ) -> ComplexArray:
-        """The weights for a front.
-
-        Takes length (m), x (m).
-        """
+    def at(length: float, x: Array) -> ComplexArray:
         weights = fitted(length)
         return np.interp(x - length, behind, weights, left=0.0, right=0.0)
 

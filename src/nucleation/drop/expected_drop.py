@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..model.settings import Perturbation
-from ..theory.creep.lengths import stability_point
+from ..theory.creep.lengths import stability_length_of
 from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import runaway_point
 from ..theory.status import UNKNOWN, VALUE, NoLength
@@ -93,7 +93,7 @@ def expected_drop(
         raise NoLength("nothing is perturbed: without a strength the drop depends on round-off")
     history = mode_history(patches, critical, initial_state, initial_stress)
     found = growth(history, declared)
-    stable = _stability_length(patches, critical)
+    stable = stability_length_of(patches, critical)
     runaway, runaway_error, status, reason = _runaway_length(patches, critical, stable)
     known = ExpectedDrop(
         stability_length=stable,
@@ -105,29 +105,12 @@ def expected_drop(
         runaway_status=status,
         runaway_reason=reason,
     )
-    return known._replace(
-        doubt="; ".join(
-            _doubts(
-                history,
-                known,
-                critical,
-                block,
-            )
-        )
-    )
-
-
-def _stability_length(patches: Patches, critical: float) -> float:
-    try:
-        return stability_point(patches, critical).length
-    except NoLength:
-        return math.nan
+    doubts = _doubts(history, known, critical, block)
+    return known._replace(doubt="; ".join(doubts))
 
 
 def _runaway_length(
-    patches: Patches,
-    critical: float,
-    stable: float,
+    patches: Patches, critical: float, stable: float
 ) -> tuple[float, float, str, str]:
     """L_run (m) with error, status and reason; NaN where weakening is strong or it is not known.
 
@@ -138,10 +121,9 @@ def _runaway_length(
     if ratio >= WEAK:
         reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
         return math.nan, math.nan, UNKNOWN, reason
-    with_constants = dataclasses.replace(patches, law=None)
-    constant = _stability_length(with_constants, critical)
+    constant = stability_length_of(patches, critical, constant=True)
     if abs(stable / constant - 1.0) < CONSTANT:
-        patches = with_constants
+        patches = dataclasses.replace(patches, law=None)
     try:
         point = runaway_point(patches, critical)
     except NoLength as none:

@@ -6,19 +6,18 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.hints import warn_of_implausible
 from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
-from ..theory.critical import largest_crossings, stability_reason
+from ..theory.critical import at_each, stability_reason
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
-from ..theory.status import STABLE, UNKNOWN, VALUE
+from ..theory.status import STABLE, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike, Numbers, Values, labelled
+from ..types import Array
+from .formulas import TWO_MATERIALS, Length
 from .in_use import LENGTHS, values_of
-from .length import TWO_MATERIALS, Length, number
-from .process_zone import process_zone
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +31,9 @@ TITLES = {
 }
 TITLES |= {length.key: length.title for length in LENGTHS}
 """Title of each length by key: those of the theory, and of the literature."""
+
+_HALVINGS = 60  # of the interval of log k in which the process zone is searched
+_SPAN = 1e6  # ratio of the longest one of the search to L_b/2, and of that to the shortest
 
 _CRITICAL = declared("critical length", "(0, inf) m")
 
@@ -130,14 +132,7 @@ class Lengths(Mapping[str, Answer]):
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)][:-1]
         lines = []
         for *cells, last in rows:
-            padded = [
-                cell.ljust(width)
-                for cell, width in zip(
-                    cells,
-                    widths,
-                    strict=True,
-                )
-            ]
+            padded = map(str.ljust, cells, widths)
             lines.append("  ".join([*padded, last]).rstrip())
         return "\n".join(lines)
 
@@ -174,24 +169,39 @@ def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
 
 
 def _critical_answer(fault: FaultLike) -> Answer:
-    def points(systems: Systems) -> NDArray[np.object_]:
-        lengths = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full(
-            (3, systems.a.size),
-            "",
-            dtype=object,
-        )
-        found[0] = lengths
-        found[1] = VALUE
-        for i in np.flatnonzero(np.isnan(lengths)):
-            found[1, i] = STABLE
-            found[2, i] = stability_reason(systems.at(np.array([i])))
-        return found
+    def point(one: Systems, critical: float) -> tuple[float, str, str]:
+        if np.isnan(critical):
+            raise NoLength(stability_reason(one), STABLE)
+        return critical, VALUE, ""
 
-    rows = evaluate(fault, points, rows=3, dtype=object)
+    rows = at_each(fault, point, rows=3)
     length = rows[:1].astype(float)[0]
     warn_of_implausible("critical_length", length, _CRITICAL)
     return Answer(length, length, length, rows[1], rows[2])
+
+
+def process_zone(fault: FaultLike) -> Any:
+    """The process zone (m) of each fault, NaN where b is not positive.
+
+    The wavelength over 2 pi at which the stiffness of the bodies is ``b sigma0/D``: ``L_b/2``
+    between identical half-spaces, ``sqrt(2 H L_b)`` in a thin layer on a rigid body, with
+    ``L_b = mu* D/(b sigma0)``. That of half-spaces is customarily ``(9 pi/32) L_b`` (Lapusta and
+    Liu, 2009), which is larger.
+    """
+
+    def zones(systems: Systems) -> Array:
+        b = np.where(systems.b > 0.0, systems.b, np.nan)
+        thick = systems.softness / b
+        low = 1.0 / (_SPAN * thick)
+        high = _SPAN / thick
+        for _ in range(_HALVINGS):
+            middle = np.sqrt(low * high)
+            stiff = systems.load_and_coupling(middle)[0] > b
+            low = np.where(stiff, low, middle)
+            high = np.where(stiff, middle, high)
+        return 1.0 / low[None]
+
+    return evaluate(fault, zones)[0]
 
 
 def process_zone_answer(fault: FaultLike) -> Answer:
@@ -202,7 +212,7 @@ def process_zone_answer(fault: FaultLike) -> Answer:
         return "" if np.isfinite(value) else f"needs b > 0: b = {b:.4g}"
 
     status = _elementwise(lambda x: VALUE if np.isfinite(x) else UNKNOWN, length)
-    reason = _elementwise(reason_of, length, number(fault, "b"))
+    reason = _elementwise(reason_of, length, fault.b)
     return Answer(length, length, length, status, reason)
 
 
@@ -210,22 +220,12 @@ def answers_of_literature(
     fault: FaultLike, weakening_rate: Values | None = None
 ) -> dict[str, Answer]:
     """The lengths of the literature, with W (Pa/m) of Uenishi and Rice's."""
-    used = [one for one in LENGTHS if one.system != TWO_MATERIALS or _has_two_materials(fault)]
-    values = values_of(fault, weakening_rate, used)
-    return {
-        one.key: _literature_answer(
-            one,
-            values[one.key],
-            fault,
-        )
-        for one in used
-    }
-
-
-def _has_two_materials(fault: FaultLike) -> bool:
     second = fault.second_shear_modulus
     differ = (second != fault.shear_modulus) | (fault.second_poisson_ratio != fault.poisson_ratio)
-    return bool(np.any(np.isfinite(second) & differ))
+    of_two = bool(np.any(np.isfinite(second) & differ))
+    used = [one for one in LENGTHS if of_two or one.system != TWO_MATERIALS]
+    values = values_of(fault, weakening_rate, used)
+    return {one.key: _literature_answer(one, values[one.key], fault) for one in used}
 
 
 def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:
@@ -248,16 +248,10 @@ def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer
         return STABLE if zeta <= 0.0 else UNKNOWN
 
     reason = _elementwise(reason_of, length, *facts.values())
-    status = _elementwise(status_of, length, number(fault, "zeta"))
+    status = _elementwise(status_of, length, fault.zeta)
     if not labelled(status):
-        length, status, reason = (
-            x[()]
-            for x in np.broadcast_arrays(
-                length,
-                status,
-                reason,
-            )
-        )
+        alike = np.broadcast_arrays(length, status, reason)
+        length, status, reason = (x[()] for x in alike)
     return Answer(length, length, length, status, reason)
 
 

@@ -1,4 +1,4 @@
-"""Formulas of the nucleation lengths in use, which :mod:`.in_use` lists.
+"""A nucleation length of the literature, in words and as a formula; :mod:`.in_use` lists them.
 
 All lengths are full lengths (not half-lengths) in plane strain, with ``mu* = mu/(1 - nu)`` and
 ``zeta = b - a``; a and b are coefficients of **natural** logarithms. Values are in SI units;
@@ -10,10 +10,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from ..theory.values import Conditions, Numbers, where
+from ..model.material import ANTIPLANE, in_plane_ratio
+from ..theory.values import Conditions, FaultLike, Numbers, where
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""
@@ -36,6 +39,10 @@ FINITE_PATCH = 1.158
 NEGLIGIBLE = 0.1
 """Largest a/b at which the direct effect may be neglected, and largest ``f |beta|`` at which the
 coupling of slip to normal stress may be: a tenth of the terms that are kept."""
+
+TWO_MATERIALS = "two half-spaces of the two bodies' materials"
+HALF_SPACES = "two identical half-spaces of the first body's material"
+RIGID_BASE = "a layer of the first body's material and height on a rigid body"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,3 +126,80 @@ def valid(condition: Conditions, values: Numbers) -> Numbers:
 def nan0(values: Numbers) -> Numbers:
     """The values with NaN in place of zero, for use as a divisor."""
     return where(values != 0.0, values, np.nan)
+
+
+@dataclasses.dataclass(frozen=True)
+class Length:
+    """One length of the literature, in words and as a function."""
+
+    key: str
+    title: str
+    formula: str
+    source: str
+    validity: str
+    compute: Callable[[Any], Numbers]
+    """The length (m) from a Setting."""
+    needs: str = "zeta > 0"
+    """The condition on the parameters without which the length is NaN."""
+    beyond: str = ""
+    """Remark on faults that do not meet the condition."""
+    system: str = HALF_SPACES
+
+    def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
+        """The length (m) of a fault, NaN outside the validity; W in Pa/m."""
+        names = [field.name for field in dataclasses.fields(Setting)]
+        own: dict[str, Any] = {name: getattr(fault, name, None) for name in names}
+        own["weakening_rate"] = weakening_rate
+        own["poisson_ratio"] = in_plane_ratio(fault.poisson_ratio, fault.plane)
+        if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
+            own["height"] = 0.5 * fault.height  # mu H resists slip, 2 mu H/(1 - nu) in the plane
+        if self.system != TWO_MATERIALS:
+            return self.compute(Setting(**own))
+        own["shear_modulus"], coupling = of_two_materials(fault)
+        own["poisson_ratio"] = 0.0  # so that mu* = M
+        return valid(coupling < NEGLIGIBLE, self.compute(Setting(**own)))
+
+    def facts(self, fault: FaultLike) -> dict[str, Numbers]:
+        """The quantities of a fault that decide whether the length is valid, by name; H in m."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            known = {
+                "a/b": fault.a / nan0(fault.b),
+                "zeta": fault.zeta,
+                "b": fault.b,
+                "f |beta|": of_two_materials(fault)[1],
+                "H": fault.height,
+            }
+        return {name: known[name] for mark, name in _FACTS.items() if mark in self.needs}
+
+    def of_two(self) -> Length:
+        """The same length for two materials, with M in place of mu*."""
+        return dataclasses.replace(
+            self,
+            key=f"{self.key}_two_materials",
+            formula=self.formula.replace("mu*", "M"),
+            source=f"{self.source}; M of Aldam et al. (2017), Eq. (8)",
+            validity=f"{self.validity}; normal stress hardly changed by slip",
+            system=TWO_MATERIALS,
+            needs=f"{self.needs} and f |beta| < {NEGLIGIBLE}",
+        )
+
+    def words(self) -> dict[str, str]:
+        """Unit, title, formula, source, validity, system and condition, as attributes."""
+        names = ("title", "formula", "source", "validity", "system", "needs", "beyond")
+        return {"units": "m"} | {name: getattr(self, name) for name in names}
+
+
+_FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L": "H"}
+"""The quantity in a condition, by a part of :attr:`Length.needs`."""
+
+
+def of_two_materials(fault: FaultLike) -> tuple[Numbers, Numbers]:
+    """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
+    nu = in_plane_ratio(fault.poisson_ratio, fault.plane)
+    second_nu = in_plane_ratio(fault.second_poisson_ratio, fault.plane)
+    first, second = fault.shear_modulus, fault.second_shear_modulus
+    if fault.plane == ANTIPLANE:
+        softness = first / second
+        return 2.0 * first / (1.0 + softness), 0.0 * softness
+    modulus, beta = bimaterial(first, nu, second, second_nu)
+    return modulus, np.abs(beta) * (0.0 if fault.friction is None else fault.friction)

@@ -9,12 +9,13 @@ import math
 from collections.abc import Iterable
 from operator import methodcaller
 
+import numpy as np
+
 from ..theory.values import FaultLike, Numbers, Values, checked, where
 from . import formulas
 from .draws import WEAKENING_RATE
 from .finite_patch import NEAREST, loaded_patch_factor
-from .formulas import Setting, nan0, valid
-from .length import HALF_SPACES, RIGID_BASE, Length, number
+from .formulas import HALF_SPACES, RIGID_BASE, Length, Setting, nan0, valid
 
 
 def _crack(s: Setting) -> Numbers:
@@ -185,9 +186,37 @@ def values_of(
     ``a/b < 0.1``.
     """
     if weakening_rate is None:
-        b = number(fault, "b")
-        usual = b * number(fault, "normal_stress") / number(fault, "slip_distance")
-        rate = valid(number(fault, "a") < formulas.NEGLIGIBLE * b, usual)
+        usual = fault.b * fault.normal_stress / fault.slip_distance
+        rate = valid(fault.a < formulas.NEGLIGIBLE * fault.b, usual)
     else:
         rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
     return {length.key: length.evaluate(fault, rate) for length in lengths}
+
+
+def expanding_length(
+    fault: FaultLike,
+    slip_rate: float | Numbers,
+    far_slip_rate: float | Numbers,
+    far_state_ratio: float | Numbers,
+) -> Numbers:
+    """The full length (m) of Rubin and Ampuero's expanding zone at a finite slip rate (m/s).
+
+    NaN outside ``1/2 < a/b < 1``, where the slip rate does not exceed the one far ahead, and where
+    the stress does not drop.
+
+    Rubin and Ampuero (2005), with ``w = log(v/v_far)``:
+
+        (2 L_b/pi) [(w + log W)/((1 - a/b) w + log W)]^2
+
+    At the tip the strength decreases by ``b sigma0 (w + log W)`` over ``w + log W`` slip distances
+    D; within the zone the stress decreases by ``sigma0 [(b - a) w + b log W]``. For ``W = 1``, and
+    for any W in the limit of infinite slip rate, the length is that of ``rubin_ampuero_crack``.
+    """
+    (unbounded,) = (length for length in LENGTHS if length.key == "rubin_ampuero_crack")
+    asymptote = values_of(fault, lengths=[unbounded])["rubin_ampuero_crack"]
+    acceleration = np.log(slip_rate / far_slip_rate)
+    weakening = fault.zeta / nan0(fault.b)
+    strength_drop = acceleration + np.log(far_state_ratio)
+    stress_drop = weakening * acceleration + np.log(far_state_ratio)
+    length = asymptote * (weakening * strength_drop / nan0(stress_drop)) ** 2
+    return valid((acceleration > 0.0) & (stress_drop > 0.0), length)

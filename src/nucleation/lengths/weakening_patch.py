@@ -3,13 +3,21 @@
 The width W of the patch is compared with the smallest width with a growing mode, W_c
 (:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above W_c slip is unstable
 and grows into a limit cycle of slow slip or into an event. The transition between these two is
-known from simulations (:mod:`.patch_outcomes`), not from a theory.
+known from simulations, not from a theory.
+
+``patch_outcomes.csv`` has the simulated frictions, and the widths over W_c at which slow slip ends
+and events begin. `make reference` makes it from the study ``weakening_patches``. Between simulated
+frictions slow slip ends at the least width of the neighbours, and events begin at the greatest.
 """
 
 from __future__ import annotations
 
+import csv
+import functools
+import importlib.resources
 import math
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,13 +25,83 @@ from ..model.material import Material
 from ..theory.evaluation import bodies_differ
 from ..theory.values import FaultLike, Values
 from ..theory.weakening_patch import weakening_patch_values
-from . import patch_outcomes
-from .process_zone import process_zone
+from .answer import process_zone
+
+TABLE = "patch_outcomes.csv"
+
+OTHER_B = "zeta"
+OTHER_A = "a"
+"""How the surroundings of a simulated patch differ: zeta by another b, or a at the same b."""
+
+DYNAMIC = (705.0, 1.41e8)
+"""``2 a sigma0 c_s/(mu V)`` of the simulations, the slip rate from which it is an event, over V."""
+
+DENSITY = 1200.0
+"""Mass density (kg/m^3) of the simulated bodies."""
+
+SETTING = (
+    f"aging law, {DENSITY:g} kg/m^3, events above 2 a sigma0 c_s/mu = {DYNAMIC[0]:.3g} to "
+    f"{DYNAMIC[1]:.3g} V"
+)
+"""The simulations in words."""
+
+ROOM = 2.6
+"""Least height of the simulated bodies over the width of the patch."""
+
+_ROUNDING = 1e-6  # relative, of zeta/a and r
 
 NO_WIDTH = "no W_c: the patch is stable, or its surroundings are not"
 
 _CELLS = 3.0
 """Cells in a process zone that resolve it (Day and others, 2005)."""
+
+
+class Simulated(NamedTuple):
+    """Simulations with one friction: zeta/a of the patch, and r = -zeta_out/zeta."""
+
+    varies: str
+    zeta_over_a: float
+    strengthening: float
+    slow_slip_up_to: float  # W/W_c below which no event was simulated, at any V
+    events_from: float  # W/W_c above which all simulations had events, at any V
+
+
+@functools.cache
+def simulated() -> tuple[Simulated, ...]:
+    """All rows of the table."""
+    table = importlib.resources.files(__package__) / TABLE
+    with table.open(encoding="utf-8") as lines:
+        rows = list(csv.DictReader(lines))
+    return tuple(
+        Simulated(row["varies"], *(float(row[name]) for name in Simulated._fields[1:]))
+        for row in rows
+    )
+
+
+def bounds(varies: str, zeta_over_a: float, strengthening: float) -> tuple[float, float] | None:
+    """Widths over W_c at which slow slip ends and events begin; None beyond the simulations."""
+    corners: list[Simulated] = []
+    rows = [row for row in simulated() if row.varies == varies]
+    for ratio in _neighbours({row.zeta_over_a for row in rows}, zeta_over_a):
+        own = {row.strengthening: row for row in rows if row.zeta_over_a == ratio}
+        around = _neighbours(own, strengthening)
+        if not around:
+            return None
+        corners += [own[r] for r in around]
+    if not corners:
+        return None
+    slow = min(row.slow_slip_up_to for row in corners)
+    return slow, max(row.events_from for row in corners)
+
+
+def _neighbours(values: Iterable[float], wanted: float) -> set[float]:
+    """The nearest values below and above; none if one is missing."""
+    ordered = sorted(values)
+    below = [value for value in ordered if value <= wanted * (1.0 + _ROUNDING)]
+    above = [value for value in ordered if value >= wanted * (1.0 - _ROUNDING)]
+    if not below or not above:
+        return set()
+    return {below[-1], above[0]}
 
 
 def patch_answer(
@@ -32,28 +110,10 @@ def patch_answer(
     outside_a: Values | None = None,
     width: float | None = None,
 ) -> dict[str, Any]:
-    """The behaviour of a weakening patch among strengthening surroundings.
+    """The behaviour of a weakening patch of a width (m) among strengthening surroundings.
 
-    Parameters
-    ----------
-    fault : Fault
-        One fault, with the friction of the patch.
-    outside_zeta, outside_a : float
-        zeta and a of the surroundings; a is that of the patch by default.
-    width : float, optional
-        Width W (m) of the patch.
-
-    Returns
-    -------
-    dict
-        ``smallest_width``, W_c (m), NaN if no patch nucleates; ``width_ratio``, W/W_c, NaN without
-        a width; ``outcome``, the behaviour in words, empty without a width; ``cell_size``, the
-        largest cell (m) that resolves the process zone, NaN if there is none.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is outside its range.
+    W_c (m) and W/W_c, NaN if no patch nucleates or without a width; the behaviour in words; and the
+    largest cell (m) that resolves the process zone, NaN if there is none.
     """
     smallest = float(weakening_patch_values(fault, outside_zeta, outside_a))
     ratio = math.nan if width is None else width / smallest
@@ -77,7 +137,14 @@ def _outcome(ratio: float, untried: str, bounds: tuple[float, float] | None) -> 
         return "it creeps"
     if untried or bounds is None:
         return f"slow slip or events: {untried or 'such friction'} was not tried"
-    return patch_outcomes.outcome(ratio, bounds)
+    slow, event = bounds
+    if ratio <= slow:
+        return "slow slip; no event was simulated"
+    if ratio >= event:
+        return f"events, simulated from {event:.3g} W_c on"
+    if slow > 1.0:
+        return f"slow slip or events: either between {slow:.3g} and {event:.3g} W_c"
+    return f"slow slip or events: either below {event:.3g} W_c"
 
 
 def _bounds(
@@ -89,9 +156,9 @@ def _bounds(
     other_a = a if outside_a is None else float(np.asarray(outside_a))
     frictions = zeta / a, -other_zeta / zeta
     if math.isclose(other_a, a):
-        return patch_outcomes.bounds(patch_outcomes.OTHER_B, *frictions)
+        return bounds(OTHER_B, *frictions)
     if math.isclose(other_a + other_zeta, a + zeta):
-        return patch_outcomes.bounds(patch_outcomes.OTHER_A, *frictions)
+        return bounds(OTHER_A, *frictions)
     return None
 
 
@@ -102,8 +169,8 @@ def _untried(fault: FaultLike, width: float) -> str:
     if fault.zone_thickness is not None or np.any(bodies_differ(vars(fault))):
         return "a fault between different bodies"
     lowest = min(fault.single("height"), fault.single("second_height"))
-    if lowest < patch_outcomes.ROOM * width:
-        return f"a body lower than {patch_outcomes.ROOM:g} W"
+    if lowest < ROOM * width:
+        return f"a body lower than {ROOM:g} W"
     if fault.evolution != "aging":
         return f"the {fault.evolution} law"
     if fault.friction_law is not None and fault.friction_law.law != "dieterich_ruina":
@@ -116,7 +183,7 @@ def _untried(fault: FaultLike, width: float) -> str:
     )
     speed = Material(modulus, 0.0, fault.single("density")).shear_wave_speed
     rate = 2.0 * strength * speed / modulus / fault.single("velocity")
-    low, high = patch_outcomes.DYNAMIC
+    low, high = DYNAMIC
     if low <= rate <= high:
         return ""
     return f"2 a sigma0 c_s/(mu V) = {rate:.2g}, outside {low:.2g} to {high:.2g},"

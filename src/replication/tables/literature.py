@@ -15,14 +15,13 @@ import xarray as xr
 from nucleation.datasets.variables import declared, table
 from nucleation.extraction.measures import DEFINITIONS, far_ahead, zone_length
 from nucleation.fault import Fault
-from nucleation.lengths.expanding_zone import expanding_length
 from nucleation.lengths.formulas import (
     CRACK_LIMIT,
     LOCALISED_FACTOR,
     LOCALISED_LIMIT,
     between_localised_and_crack,
 )
-from nucleation.lengths.in_use import values_of
+from nucleation.lengths.in_use import expanding_length, values_of
 from nucleation.run.run import Run
 
 from .rows import SHARED, Row
