@@ -76,17 +76,17 @@ class Run:
         self._set(complete(fault, read(values)))
 
     @classmethod
-    def _of(cls, values: Mapping[str, Any]) -> Self:
-        """The run of a flat mapping of all parameters."""
+    def _of(cls, values: Mapping[str, Any], like: Self | None = None) -> Self:
+        """The run of a flat mapping of all parameters; equal parts of a run `like` it are kept."""
         run = object.__new__(cls)
-        run._set(values)
+        run._set(values, like)
         return run
 
     def completed(self, **values: Any) -> Self:
         """A run of the same fault and friction law in which only `values` are given."""
         return self._of(complete(self.fault, read(values), self.law))
 
-    def _set(self, values: Mapping[str, Any]) -> None:
+    def _set(self, values: Mapping[str, Any], like: Self | None = None) -> None:
         """Set the fields from a flat mapping of all parameters."""
         own = {name: values[name] for name in sections()["friction"] if name in values}
         law = Friction(law=own.pop("friction_law"), **own)
@@ -95,7 +95,10 @@ class Run:
         for group, cls in GROUPS.items():
             fields = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
             own = {field.name: values[name] for name, field in fields if name in values}
-            object.__setattr__(self, group, cls(**own))
+            part = getattr(like, group, None)
+            if part is None or own != {n: x for n, x in vars(part).items() if x is not None}:
+                part = cls(**own)
+            object.__setattr__(self, group, part)
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
@@ -159,7 +162,7 @@ class Run:
             changed.pop(name, None)
         for name, value in vars(law).items():
             changed[law.called.get(name, name)] = value
-        return self._of({name: value for name, value in changed.items() if value is not None})
+        return self._of({name: x for name, x in changed.items() if x is not None}, self)
 
     @property
     def upper(self) -> Body:
