@@ -74,7 +74,7 @@ from replication.pipeline.planning import Plan
 from replication.pipeline.store import others
 
 gc.freeze()  # searching all loaded objects takes a third of a second in all
-gc.set_threshold(50_000)  # of thousands of jobs nothing is garbage; the search takes a twelfth of a plan
+gc.set_threshold(50_000)  # of thousands of jobs nothing is garbage; this saves a twelfth of a plan
 
 ON_CTRL_C = signal.getsignal(signal.SIGINT)
 
