@@ -86,13 +86,6 @@ def digit(value):
     return "" if np.isnan(value) else f"{value:.0e}".replace("e-0", "e-")
 
 
-def test_all_declared_runs_are_refined_in_every_way():
-    own, found = sequences("normal_load")
-    assert all(rows.iloc[-1][refined] == REFINED[refined] for refined, rows in found)
-    ways = own.groupby(PERTURBED, dropna=False)["refinement"].agg(set)
-    assert len(ways) == 12 and all(names == set(REFINED) for names in ways)
-
-
 # ---- docs/creeping_patch.md
 
 

@@ -70,6 +70,23 @@ def test_onset_and_length_of_the_paper():
     )
 
 
+SERIES = {"paper": "paper's mesh", "converged": "declared"}
+
+
+@pytest.mark.parametrize("study", SERIES)
+def test_lengths_of_both_series(study):
+    """The table over heights; slip law and older interface change L by less than 10 % (Sect. 5)."""
+    cells = over_theory(study).map("{:.2f}".format)
+    says("results.md", f"| $L/L_c$, {SERIES[study]} | {' | '.join(cells)} |")
+    mean = of_study(study).groupby(["evolution", "height", "initial_state"])["length"].mean()
+    changes = [
+        100.0 * (mean[changed] / mean["aging", changed[1], 1.0] - 1.0)
+        for changed in (("slip", 0.01, 1.0), ("slip", 0.05, 1.0), ("aging", 0.1, 1000.0))
+    ]
+    assert max(map(abs, changes)) < 10.0
+    says("results.md", "{:+.1f}, {:+.1f} and {:+.1f} %".format(*changes))
+
+
 def test_agreement_with_the_theory():
     paper, declared = over_theory("paper"), over_theory("converged")
     own = 0.15 / of_study("paper", height=SHOWN)["critical_length"].iloc[0]
