@@ -238,7 +238,11 @@ def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.i
     if frames.size <= number:
         return frames
     lengths = length[frames]
-    wanted = np.linspace(lengths[0], lengths[-1], number)
+    wanted = np.linspace(
+        lengths[0],
+        lengths[-1],
+        number,
+    )
     nearest = np.searchsorted(lengths, wanted)
     nearest = nearest.clip(0, frames.size - 1)
     return frames[np.unique(nearest)]

@@ -62,7 +62,11 @@ def _beside_nodes(values: Array) -> tuple[Array, Array]:
 def product(matrix: Array, values: Array) -> Array:
     """Product of a tridiagonal matrix with an array along its first axis, (n, ...)."""
     further_axes = [1] * (values.ndim - 1)
-    lower, diagonal, upper = matrix.reshape(3, -1, *further_axes)
+    lower, diagonal, upper = matrix.reshape(
+        3,
+        -1,
+        *further_axes,
+    )
     out = diagonal * values
     out[1:] += lower[1:] * values[:-1]
     out[:-1] += upper[:-1] * values[1:]
@@ -115,7 +119,13 @@ class Body:
                     f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
                     f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
                 )
-            self.layers.append(Layer(*lower, self.modes, far_side))
+            self.layers.append(
+                Layer(
+                    *lower,
+                    self.modes,
+                    far_side,
+                )
+            )
         self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
         # kg/m, that moves with the driven edge
         self.total_mass = material.density * self.grid.length * self.grid.height

@@ -17,7 +17,20 @@ from .compiling import compiled_loop
 
 @compiled_loop
 def factorise(
-    kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, held, pivot, inverse, lower
+    kxx,
+    mxx,
+    kyy,
+    myy,
+    cxy,
+    mass,
+    stiff,
+    deriv,
+    lame,
+    shear,
+    held,
+    pivot,
+    inverse,
+    lower,
 ):
     """Eliminate from the top down; fill P[0] (xx, xy, yy), Q in the levels 1..n_y, and T.
 

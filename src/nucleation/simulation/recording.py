@@ -94,7 +94,11 @@ class Recorder:
         )
         self._rows.append(row)
         fast = self._bursts.at(state.time, fastest, position)
-        dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
+        dropped = self._watch.dropped(
+            state.time,
+            abs(report.driving_force),
+            fast,
+        )
         if dropped and np.isinf(self._event_time):
             # it is the event if the patch was long enough when the drop began
             onset = self._watch.since
@@ -250,7 +254,11 @@ class _Energy:
     def _stored(self, state: State) -> Array:
         """Elastic and kinetic energy (J/m)."""
         body, imposed = self._body, self._drive.at(state.time)
-        parts = zip(body.layers, body.parts(state.displacement), strict=True)
+        parts = zip(
+            body.layers,
+            body.parts(state.displacement),
+            strict=True,
+        )
         elastic = sum(elastic_energy(layer, part) for layer, part in parts)
         return np.array([elastic, body.kinetic_energy(state.velocity, imposed.velocity)])
 
@@ -259,7 +267,13 @@ class _Energy:
         elastic, kinetic = self._stored(self._state) - self._start
         work, by_friction = self._works
         values = (elastic, kinetic, work, -by_friction)
-        return dict(zip(ENERGIES, map(float, values), strict=True))
+        return dict(
+            zip(
+                ENERGIES,
+                map(float, values),
+                strict=True,
+            )
+        )
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""
