@@ -123,16 +123,36 @@ def read_samples(path: Path | str) -> dict[str, Array]:
     ]
     places = [f"{path}, line {number}" for number in lines]
     labels = cells[0]
-    rows = [_numbers(place, labels, row) for place, row in zip(places[1:], cells[1:], strict=True)]
+    rows = [
+        _numbers(
+            place,
+            labels,
+            row,
+        )
+        for place, row in zip(
+            places[1:],
+            cells[1:],
+            strict=True,
+        )
+    ]
     found: dict[str, Array] = {}
-    for label, values in zip(labels, np.array(rows).T, strict=True):
+    for label, values in zip(
+        labels,
+        np.array(rows).T,
+        strict=True,
+    ):
         if label.lower() in ("", "index"):
             continue  # numbers of rows
         name, unit = _column(places[0], label)
         if name in found:
             raise ParameterError(f"{places[0]}: column {name} is there twice")
         try:
-            found[name] = rescaled(name, values, unit, SAMPLED[name])
+            found[name] = rescaled(
+                name,
+                values,
+                unit,
+                SAMPLED[name],
+            )
         except ParameterError as error:
             raise ParameterError(f"{places[0]}: {error}") from None
     return found

@@ -211,7 +211,15 @@ def _resolution(run: Run, critical: float) -> Iterator[Advice]:
             "drops that follow a declared perturbation and not the mesh",
         )
     for prefix, own in {"": run.upper, "second_": run.below}.items():
-        across = element_height(own.height, own.n_y, own.grading) if own else 0.0
+        across = (
+            element_height(
+                own.height,
+                own.n_y,
+                own.grading,
+            )
+            if own
+            else 0.0
+        )
         if own and across > zone / _ELEMENTS_PER_ZONE:
             yield (
                 COARSE_Y,

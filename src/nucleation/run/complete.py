@@ -31,7 +31,15 @@ USUAL_LENGTH = 6.0
 
 _ELEMENTS = 6.0  # to a process zone, twice as many as resolve the front
 _ROWS = (16, 24, 32, 48, 64, 96)  # of elements, that are tried for the mesh of a half-space
-_GRADINGS = np.geomspace(1.0, 300.0, 60).round(1).tolist()  # of these meshes
+_GRADINGS = (
+    np.geomspace(
+        1.0,
+        300.0,
+        60,
+    )
+    .round(1)
+    .tolist()
+)  # of these meshes
 
 _LATEST_END = 1.5  # end of a run over the estimated time until the critical length
 _AFTER_EVENT = 10.0  # time after the event over D/V

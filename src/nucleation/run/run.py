@@ -84,7 +84,13 @@ class Run:
 
     def completed(self, **values: Any) -> Self:
         """A run of the same fault and friction law in which only `values` are given."""
-        return self._of(complete(self.fault, read(values), self.law))
+        return self._of(
+            complete(
+                self.fault,
+                read(values),
+                self.law,
+            )
+        )
 
     def _set(self, values: Mapping[str, Any], like: Self | None = None) -> None:
         """Set the fields from a flat mapping of all parameters."""
@@ -93,7 +99,11 @@ class Run:
         object.__setattr__(self, "law", law)
         object.__setattr__(self, "fault", _fault_of(values, law))
         for group, cls in GROUPS.items():
-            fields = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
+            fields = zip(
+                OF_GROUPS[group],
+                dataclasses.fields(cls),
+                strict=True,
+            )
             own = {field.name: values[name] for name, field in fields if name in values}
             part = getattr(like, group, None)
             if part is None or own != {n: x for n, x in vars(part).items() if x is not None}:
@@ -157,7 +167,11 @@ class Run:
         of_law = {name: x for name, x in given.items() if name in law_entries()}
         if "friction_law" in of_law:
             of_law["law"] = of_law.pop("friction_law")
-        law = with_constants(self.law.changed(of_law), changed["velocity"], given)
+        law = with_constants(
+            self.law.changed(of_law),
+            changed["velocity"],
+            given,
+        )
         for name in (*law_entries(), *CONSTANTS):
             changed.pop(name, None)
         for name, value in vars(law).items():
@@ -168,7 +182,12 @@ class Run:
     def upper(self) -> Body:
         """The first block."""
         fault, block = self.fault, self.block
-        material = Material(fault.shear_modulus, fault.poisson_ratio, fault.density, fault.plane)
+        material = Material(
+            fault.shear_modulus,
+            fault.poisson_ratio,
+            fault.density,
+            fault.plane,
+        )
         return Body(
             material,
             block.length,
