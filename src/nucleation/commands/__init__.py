@@ -80,11 +80,13 @@ def main() -> None:
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command line, without its name, and return the exit code."""
     from ..datasets import DatasetError
-    from ..datasets.provenance import moment
     from ..model.quantities import ParameterError
 
     try:
-        moment()  # a wrong SOURCE_DATE_EPOCH would stop the import of NumPy
+        if os.environ.get("SOURCE_DATE_EPOCH"):  # a wrong one would stop the import of NumPy
+            from ..datasets.provenance import moment
+
+            moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
         if isinstance(error, click.NoSuchOption) and error.ctx:

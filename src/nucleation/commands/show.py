@@ -18,6 +18,7 @@ from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
 from .given import json_option
+from .simulate import event_lines, outcome, parameter_lines, require_writable
 
 _OF_SIMULATION = ("slip_rate", "driving_force", "step_time")
 """Variables that other datasets lack."""
@@ -48,7 +49,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         require("figures")
         if plot.suffix not in (".png", ".pdf"):
             raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
-        text.require_writable(plot, force)
+        require_writable(plot, force)
         if not is_simulation:
             raise ParameterError("there is a plot of simulations alone, and this is none")
     try:
@@ -58,7 +59,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         if not as_json:
             lines = _lines(dataset, kind)
         elif is_simulation:
-            found |= text.outcome(dataset)
+            found |= outcome(dataset)
         event = extract(dataset) if plot else {}
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         reason = f"{error} is missing" if isinstance(error, KeyError) else error
@@ -116,10 +117,10 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     seconds, megabytes = (float(attributes[key]) for key in ("wall_seconds", "peak_megabytes"))
     steps, rejected = (int(attributes[key]) for key in ("steps", "rejected_steps"))
     return [
-        *text.parameter_lines(run),
+        *parameter_lines(run),
         f"status: {attributes['status']}",
         f"steps: {steps}, {rejected} rejected, {seconds:.4g} s of wall time, {megabytes:.0f} MB",
         f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points",
         f"theory: {theory_text}",
-        *text.event_lines(extract(dataset), theory),
+        *event_lines(extract(dataset), theory),
     ]

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
+import re
 import shlex
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -15,22 +17,15 @@ from ..installed import require
 from ..model.quantities import ParameterError, declared
 from ..run.advice import advice
 from ..run.checks import contradictions, estimated_megabytes, memory_problem
-from ..run.names import GROUPS, OF_GROUPS, parameters
+from ..run.names import GROUPS, OF_GROUPS, parameters, sections
 from ..run.run import PAPER_RUN, Run
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
 from .given import NOTES, given_run, json_option, option, options_of, source_options
 from .system import printed_warnings, system_of_fault
-from .text import (
-    event_lines,
-    in_unit,
-    outcome,
-    parameter_lines,
-    require_writable,
-    show,
-    warn,
-    with_unit,
-    wrapped,
-)
+from .text import Row, in_unit, show, table, warn, with_unit, wrapped
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _MEMORY = declared("memory of one simulation", "(100.0, 1e7) MB")
 _LIMIT = 2000.0  # MB
@@ -172,3 +167,59 @@ def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) 
     ]
     show(as_json, {"output": str(output), **outcome(dataset), **described}, lines)
     return DONE
+
+
+def parameter_lines(run: Run) -> list[str]:
+    """The parameters of a run, one in a line, with unit and meaning."""
+    values = run.to_dict()
+    rows: list[Row] = []
+    for section, names in sections().items():
+        rows.append(f"{section}:")
+        for name in names:
+            if name in values:
+                entry = parameters()[name]
+                meaning = re.split("[;:,]", entry.description)[0]
+                rows.append((name, with_unit(values[name], entry), meaning))
+    return table(rows)
+
+
+def event_lines(found: dict[str, float], critical_length: float) -> list[str]:
+    """Onset of the event and length of the patch then, with their ranges over the definitions.
+
+    `critical_length` is L_c (m) of the theory; NaN if homogeneous sliding is stable.
+    """
+    if math.isnan(found["onset_time"]):
+        return ["no event: the force has not dropped"]
+    onset, length = (
+        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
+        for name in ("onset_time", "length")
+    )
+    over_theory = ""
+    if not math.isnan(critical_length):
+        over_theory = f", {found['length'] / critical_length:.3g} L_c"
+    return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
+
+
+def outcome(dataset: xr.Dataset) -> dict[str, Any]:
+    """The status and the event of a simulation, for JSON, in SI units."""
+    from ..extraction.extraction import extract
+
+    return {
+        "status": dataset.attrs["status"],
+        "steps": int(dataset.attrs["steps"]),
+        "wall_seconds": float(dataset.attrs["wall_seconds"]),
+        "simulated_time": float(dataset["step_time"][-1]),
+        "event": extract(dataset),
+    }
+
+
+def require_writable(path: Path, force: bool) -> None:
+    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
+    if path.exists() and not force:
+        raise ParameterError(f"{path} exists already; --force replaces it")
+    folder = path.absolute().parent
+    if not folder.exists():
+        make = shlex.join(["mkdir", "-p", str(folder)])
+        raise ParameterError(f"{path} can't be written: there is no directory {folder}; {make}")
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        raise ParameterError(f"{path} can't be written: {folder} is no writable directory")

@@ -4,23 +4,17 @@ import json
 import math
 import os
 import re
-import shlex
 import shutil
 import sys
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ..installed import DISTRIBUTION
-from ..model.quantities import ParameterError, Quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from ..run.run import Run
+from ..model.quantities import Quantity
 
 Row = Sequence[str] | str
 """The cells of a row of a table, or a line between the rows."""
@@ -132,61 +126,3 @@ def table(rows: Sequence[Row], right: Collection[int] = ()) -> list[str]:
             line += "  " + (cell.rjust(width) if number in right else cell.ljust(width))
         lines += wrapped(line.rstrip(), indent=last)
     return lines
-
-
-def parameter_lines(run: "Run") -> list[str]:
-    """The parameters of a run, one in a line, with unit and meaning."""
-    from ..run.names import parameters, sections
-
-    values = run.to_dict()
-    rows: list[Row] = []
-    for section, names in sections().items():
-        rows.append(f"{section}:")
-        for name in names:
-            if name in values:
-                entry = parameters()[name]
-                meaning = re.split("[;:,]", entry.description)[0]
-                rows.append((name, with_unit(values[name], entry), meaning))
-    return table(rows)
-
-
-def event_lines(found: dict[str, float], critical_length: float) -> list[str]:
-    """Onset of the event and length of the patch then, with their ranges over the definitions.
-
-    `critical_length` is L_c (m) of the theory; NaN if homogeneous sliding is stable.
-    """
-    if math.isnan(found["onset_time"]):
-        return ["no event: the force has not dropped"]
-    onset, length = (
-        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
-        for name in ("onset_time", "length")
-    )
-    over_theory = ""
-    if not math.isnan(critical_length):
-        over_theory = f", {found['length'] / critical_length:.3g} L_c"
-    return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
-
-
-def outcome(dataset: "xr.Dataset") -> dict[str, Any]:
-    """The status and the event of a simulation, for JSON, in SI units."""
-    from ..extraction.extraction import extract
-
-    return {
-        "status": dataset.attrs["status"],
-        "steps": int(dataset.attrs["steps"]),
-        "wall_seconds": float(dataset.attrs["wall_seconds"]),
-        "simulated_time": float(dataset["step_time"][-1]),
-        "event": extract(dataset),
-    }
-
-
-def require_writable(path: Path, force: bool) -> None:
-    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
-    if path.exists() and not force:
-        raise ParameterError(f"{path} exists already; --force replaces it")
-    folder = path.absolute().parent
-    if not folder.exists():
-        make = shlex.join(["mkdir", "-p", str(folder)])
-        raise ParameterError(f"{path} can't be written: there is no directory {folder}; {make}")
-    if not folder.is_dir() or not os.access(folder, os.W_OK):
-        raise ParameterError(f"{path} can't be written: {folder} is no writable directory")

@@ -177,14 +177,7 @@ class Fault:
         return self.registry.Quantity(value, QUANTITIES[name].unit)
 
     def replace(self, **changes: Any) -> Self:
-        """The fault with other parameters; ``b`` replaces ``zeta``, and the other way round.
-
-        Examples
-        --------
-        >>> from nucleation.api import PAPER
-        >>> round(PAPER.replace(height="5cm").critical_length(), 3)
-        0.519
-        """
+        """The fault with other parameters; ``b`` replaces ``zeta``, and the other way round."""
         kept = {name: self[name] for name in self.keys() if name not in changes}
         if "b" in changes:
             kept.pop("zeta", None)
@@ -355,15 +348,6 @@ class Fault:
             By key: ``critical_length`` L_c, ``stability_length`` L_s, ``runaway_length`` L_run,
             ``drop_length`` L, ``process_zone``, and those of the literature. ``dataset()`` makes a
             Dataset of it.
-
-        Examples
-        --------
-        >>> granite = Fault(
-        ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.015, b=0.010,
-        ...     slip_distance=5e-6,
-        ... )
-        >>> granite.lengths()["critical_length"].status
-        'stable'
         """
         from ..lengths import answer
 
@@ -407,12 +391,6 @@ class Fault:
         -------
         Fit
 
-        Examples
-        --------
-        >>> from nucleation.api import PAPER
-        >>> fit = PAPER.replace(height="10cm").specimen("normal_stress", "20cm")
-        >>> [[f"{value:.3g}" for value in interval] for interval in fit.intervals]
-        [['3.58e+06', '1e+10']]
         """
         from ..lengths.specimen import specimen_fit
 

@@ -134,9 +134,7 @@ class Perturbation(Checked):
         state            d log(phi)/dt = g + eps (V/D) xi(x, t)    evolution of the state variable
 
     The correlation time is a multiple of D/V, because friction averages over faster changes. The
-    correlation length is in metres, a property of the surfaces; the mesh must resolve it. The
-    frequency of the patch's own mode perturbs the front most; with the paper's parameters that is
-    a wavelength of about 0.01 m.
+    correlation length is in metres, a property of the surfaces; the mesh must resolve it.
 
     Examples
     --------

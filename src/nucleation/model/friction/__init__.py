@@ -197,19 +197,12 @@ class Friction(Checked):
     def coefficient_and_slopes(
         self, slip_rate: ArrayLike, log_state: ArrayLike
     ) -> tuple[Array, Array, Array]:
-        """The friction coefficient and its slopes.
+        """The friction coefficient, and its slopes by slip rate (s/m) and logarithm of the state.
 
         Parameters
         ----------
-        slip_rate : array_like
-            v (m/s).
-        log_state : array_like
-            psi, the logarithm of the state (s); broadcasts with `slip_rate`.
-
-        Returns
-        -------
-        coefficient, by_rate, by_log_state : ndarray
-            ``f(v, psi)``, df/dv (s/m) and df/dpsi, of the broadcast shape.
+        slip_rate, log_state : array_like
+            v (m/s) and psi, the logarithm of the state (s); they broadcast.
         """
         v = np.asarray(slip_rate, dtype=float)
         psi = np.asarray(log_state, dtype=float)
@@ -225,51 +218,29 @@ class Friction(Checked):
 
         Parameters
         ----------
-        slip_rate : array_like
-            v (m/s).
-        state : array_like
-            phi (s); broadcasts with `slip_rate`.
-
-        Returns
-        -------
-        ndarray
-            f, of the broadcast shape.
+        slip_rate, state : array_like
+            v (m/s) and phi (s); they broadcast.
         """
         return self.coefficient_and_slopes(slip_rate, np.log(state))[0]
 
     def derivatives(self, slip_rate: ArrayLike, state: ArrayLike) -> tuple[Array, Array]:
-        """Exact derivatives of the friction coefficient.
+        """``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate, exactly.
 
         Parameters
         ----------
-        slip_rate : array_like
-            v (m/s).
-        state : array_like
-            phi (s); broadcasts with `slip_rate`.
-
-        Returns
-        -------
-        by_rate, by_state : ndarray
-            ``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate, of the
-            broadcast shape.
+        slip_rate, state : array_like
+            v (m/s) and phi (s); they broadcast.
         """
         _, by_rate, by_log_state = self.coefficient_and_slopes(slip_rate, np.log(state))
         return by_rate, by_log_state / np.asarray(state, dtype=float)
 
     def state_rate(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
-        """Rate of the state variable by the evolution law.
+        """``dphi/dt``, dimensionless, by the evolution law.
 
         Parameters
         ----------
-        slip_rate : array_like
-            v (m/s).
-        state : array_like
-            phi (s); broadcasts with `slip_rate`.
-
-        Returns
-        -------
-        ndarray
-            ``dphi/dt``, dimensionless, of the broadcast shape.
+        slip_rate, state : array_like
+            v (m/s) and phi (s); they broadcast.
         """
         omega = np.asarray(state) * self.slip_speed(slip_rate) / self.slip_distance
         return self.evolution_law.growth(omega)
