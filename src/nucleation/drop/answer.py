@@ -98,5 +98,12 @@ def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    drop = Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts))
+    drop = Answer(
+        known.length,
+        known.low,
+        known.high,
+        VALUE,
+        "",
+        "; ".join(doubts),
+    )
     return runaway, drop

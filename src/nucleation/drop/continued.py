@@ -50,7 +50,11 @@ def complex_trend(
     """Complex values as a function of patch length (m): a polynomial, continued as a constant."""
     last = history.length[-1]
     powers = np.vander(history.length / last - 1.0, DEGREE + 1)
-    fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
+    fitted, *_ = np.linalg.lstsq(
+        powers.astype(complex),
+        values,
+        rcond=None,
+    )
 
     def at(lengths: Array | float) -> ComplexArray:
         within = np.atleast_1d(np.minimum(lengths, last))
@@ -128,7 +132,13 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     longest = history.length[-1] * BEYOND
     behind = np.arange(-longest, 4.0 * dx, 0.5 * dx)
     rows = [
-        np.interp(behind + length, history.x, weights, left=0.0, right=0.0)
+        np.interp(
+            behind + length,
+            history.x,
+            weights,
+            left=0.0,
+            right=0.0,
+        )
         for length, weights in zip(history.length, history.strength, strict=True)
     ]
     fitted = complex_trend(history, np.array(rows))

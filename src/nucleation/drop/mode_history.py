@@ -91,7 +91,16 @@ def mode_history(
             "long enough around it to determine its growth"
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
-    rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
+    rows = [
+        _weights(
+            patches,
+            found,
+            int(i),
+            complex(rates[i]),
+            x,
+        )
+        for i in known
+    ]
     columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
     load, drive, strength, state = columns
     memory = patches.memory

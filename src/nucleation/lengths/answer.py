@@ -225,7 +225,14 @@ def answers_of_literature(
     of_two = bool(np.any(np.isfinite(second) & differ))
     used = [one for one in LENGTHS if of_two or one.system != TWO_MATERIALS]
     values = values_of(fault, weakening_rate, used)
-    return {one.key: _literature_answer(one, values[one.key], fault) for one in used}
+    return {
+        one.key: _literature_answer(
+            one,
+            values[one.key],
+            fault,
+        )
+        for one in used
+    }
 
 
 def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:

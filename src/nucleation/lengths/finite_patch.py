@@ -62,7 +62,14 @@ def marginal_loaded_patches(a_over_b: Array) -> Array:
     def compliance(frequency: Array, index: NDArray) -> Array:
         rate = 1j * frequency[:, None]
         answer = rate * sine / (rate + sine) - rate * a_over_b[index, None]
-        values = np.linalg.eigvals((answer @ products).reshape(-1, n.size, n.size) / n[:, None])
+        values = np.linalg.eigvals(
+            (answer @ products).reshape(
+                -1,
+                n.size,
+                n.size,
+            )
+            / n[:, None]
+        )
         softest = np.argmax(values.real, axis=1)
         return values[np.arange(softest.size), softest]
 

@@ -148,7 +148,14 @@ class Length:
     def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length (m) of a fault, NaN outside the validity; W in Pa/m."""
         names = [field.name for field in dataclasses.fields(Setting)]
-        own: dict[str, Any] = {name: getattr(fault, name, None) for name in names}
+        own: dict[str, Any] = {
+            name: getattr(
+                fault,
+                name,
+                None,
+            )
+            for name in names
+        }
         own["weakening_rate"] = weakening_rate
         own["poisson_ratio"] = in_plane_ratio(fault.poisson_ratio, fault.plane)
         if fault.plane == ANTIPLANE and self.system == RIGID_BASE:

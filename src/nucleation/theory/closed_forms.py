@@ -160,10 +160,24 @@ def thin_limit(
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
 
     def negative(frequency: Array, _: NDArray) -> Array:
-        return np.array([-_longest_wave(zeta_over_a, at, degree).imag for at in frequency])
+        return np.array(
+            [
+                -_longest_wave(
+                    zeta_over_a,
+                    at,
+                    degree,
+                ).imag
+                for at in frequency
+            ]
+        )
 
     homogeneous = np.sqrt([zeta_over_a])  # the frequency of homogeneous sliding
-    (frequency,) = roots(negative, np.array([LOWEST]), homogeneous, PRECISION)
+    (frequency,) = roots(
+        negative,
+        np.array([LOWEST]),
+        homogeneous,
+        PRECISION,
+    )
     found = _longest_wave(zeta_over_a, frequency, degree)
     ratio = 1.0 / (2.0 * np.pi * np.sqrt(found.real))
     return _ThinLimit(float(ratio), float(frequency))

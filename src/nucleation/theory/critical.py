@@ -105,11 +105,19 @@ def at_each(
     """
 
     def points(systems: Systems, *values: Array) -> NDArray:
-        found = np.full((rows, systems.a.size), np.nan, dtype=object)
+        found = np.full(
+            (rows, systems.a.size),
+            np.nan,
+            dtype=object,
+        )
         for i, length in enumerate(2.0 * np.pi / largest_crossings(systems)):
             try:
                 own = (float(array[i]) for array in values)
-                found[:, i] = answer(systems.at(np.array([i])), float(length), *own)
+                found[:, i] = answer(
+                    systems.at(np.array([i])),
+                    float(length),
+                    *own,
+                )
             except NoLength as none:
                 found[-2:, i] = none.status, str(none)
         return found
@@ -142,13 +150,27 @@ def _refined(systems: Systems) -> Array:
     def margins(log_ratio: Array, index: NDArray) -> Array:
         return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
 
-    return low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
+    return low * np.exp(
+        roots(
+            margins,
+            0.0 * low,
+            np.log(high / low),
+            ROUND_OFF,
+        )
+    )
 
 
 def _brackets(systems: Systems) -> Array:
     """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
     heights = systems.pair.thicknesses
-    finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
+    finite = [
+        np.where(
+            np.isfinite(height),
+            height,
+            np.nan,
+        )
+        for height in heights
+    ]
     bottom = LONG_WAVES * systems.pair.contrast / np.fmax.reduce(finite)  # all layers are thin
     high = SATURATION / np.fmin.reduce(finite)
     top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])  # stable beyond
@@ -157,8 +179,16 @@ def _brackets(systems: Systems) -> Array:
     margin = _margins(systems, k)
     unstable = margin < 0.0
     has_any = unstable.any(axis=1)
-    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
-    bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
+    last = np.where(
+        has_any,
+        POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1),
+        0,
+    )
+    bracket = np.where(
+        has_any,
+        [k[rows, last], k[rows, last + 1]],
+        np.nan,
+    )
 
     before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
     dips = (middle > 0.0) & (middle < before) & (middle < after)
@@ -174,7 +204,11 @@ def _brackets(systems: Systems) -> Array:
         growing = _margins(systems.at(missing), k) < 0.0
         rows, first = np.arange(missing.size), np.argmax(growing, axis=1)
         found = np.stack([k[rows, first], k[rows, first - 1]])
-        bracket[:, missing] = np.where(growing.any(axis=1), found, np.nan)
+        bracket[:, missing] = np.where(
+            growing.any(axis=1),
+            found,
+            np.nan,
+        )
     return bracket
 
 

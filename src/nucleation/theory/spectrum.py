@@ -139,4 +139,11 @@ def marginal_frequencies(systems: Systems, k: Array) -> Array:
     small = -zeta / (a * large)
 
     misfits = [np.abs(b * w**2 / (1.0 + w**2) - g) for w in (large, small)]
-    return np.where(misfits[0] <= misfits[1], large, small) * systems.rate
+    return (
+        np.where(
+            misfits[0] <= misfits[1],
+            large,
+            small,
+        )
+        * systems.rate
+    )

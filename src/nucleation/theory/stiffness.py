@@ -245,7 +245,12 @@ def _antiplane_terms(numerator: Array, denominator: Array) -> StiffnessTerms:
     )
 
 
-def layer_stiffness(w: Waves, nu: Array, far_side: str, antiplane: bool) -> Stiffness:
+def layer_stiffness(
+    w: Waves,
+    nu: Array,
+    far_side: str,
+    antiplane: bool,
+) -> Stiffness:
     """Dimensionless stiffness A of a layer; in antiplane shear ``tanh q`` or ``coth q``."""
     if antiplane:
         squared = w.sinh_squared if OF_ANTIPLANE[far_side] else w.cosh_squared

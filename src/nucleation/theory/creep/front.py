@@ -139,7 +139,14 @@ class _Front:
             speed = 0.5 * (speeds[:, j] + speeds[:, j + 1])
             log_state = _stepped(law, log_state, steps[:, j], speed)
             along.append(log_state)
-        rows = [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
+        rows = [
+            np.interp(
+                own.theta,
+                theta,
+                of_length,
+            )
+            for of_length in np.transpose(along)
+        ]
         self.log_states = np.array(rows)
         slip_rate = self._slip_rate(own.values)
         self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)

@@ -99,7 +99,13 @@ def edge_slip(
     near = response.modes.values[:NEAR]
     squares = response.modes.theta[:NEAR] ** 2
     ratio = (near @ held) / (near @ rates)
-    loaded = -float(np.polyfit(squares, ratio, NEAR - 1)[-1])
+    loaded = -float(
+        np.polyfit(
+            squares,
+            ratio,
+            NEAR - 1,
+        )[-1]
+    )
     smoothing = response.modes.smoothing
     return EdgeSlip(
         rates=smoothing * rates,

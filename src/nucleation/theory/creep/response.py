@@ -98,7 +98,11 @@ def mirror_modes(number: int, even: bool = False) -> MirrorModes:
     angles = np.outer(theta, orders) if even else 2.0 * np.outer(theta, n)
     values = np.sin(angles)
     values[:, 0] = 0.0 if even else 2.0 * theta / np.pi
-    weights = np.where(n == 0, 0.0 if even else 2.0 / np.pi, orders)
+    weights = np.where(
+        n == 0,
+        0.0 if even else 2.0 / np.pi,
+        orders,
+    )
     return MirrorModes(
         theta=theta,
         values=values,
@@ -117,7 +121,14 @@ def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array,
 
     modes = mirror_modes(number, even)
     edges = np.append(0.0, np.geomspace(FINEST, WIDTH, GRADED))
-    edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * reach + WIDTH, WIDTH))
+    edges = np.append(
+        edges,
+        np.arange(
+            edges[-1] + WIDTH,
+            CUT * reach + WIDTH,
+            WIDTH,
+        ),
+    )
     points, shares = np.polynomial.legendre.leggauss(POINTS)
     half = 0.5 * np.diff(edges)[:, None]
     kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
@@ -233,7 +244,14 @@ def _mirror_response(
     first = _thickened(one, length, number, even, SLIMMEST, known)
     second = _thickened(one, length, number, even, 0.5 * SLIMMEST, known)
     beyond = SLIMMEST / slim - 1.0
-    shear, normal = (one + beyond * (two - one) for one, two in zip(first, second, strict=True))
+    shear, normal = (
+        one + beyond * (two - one)
+        for one, two in zip(
+            first,
+            second,
+            strict=True,
+        )
+    )
     return shear, normal
 
 
