@@ -20,7 +20,7 @@ def test_every_law_has_a_look_of_its_own():
         "aging law", "slip law", "slip law", "halfway law", "my law law"
     ]  # fmt: skip
     assert [kind.old for kind in found] == [False, False, True, False, False]
-    assert len({(kind.look.marker, kind.look.colour) for kind in found}) == 5
+    assert len({(kind.marker, kind.colour) for kind in found}) == 5
 
 
 @pytest.mark.parametrize(

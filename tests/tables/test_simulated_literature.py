@@ -99,9 +99,7 @@ def test_by_the_slip_law_a_zone_shrinks_as_the_logarithm_of_its_slip_rate_grows(
 def test_the_figure_draws_every_simulated_length():
     table = xr.Dataset({name: ("run", FRAME[name]) for name in FRAME})
     left, right = theory.figure_literature(table).axes
-    assert [line.get_label() for line in left.lines[:4]] == [
-        kind[0] for kind in theory.KINDS.values()
-    ]
+    assert [line.get_label() for line in left.lines[:4]] == [*theory.KINDS.values()]
     assert len(right.lines) > 8
 
 

@@ -1,6 +1,7 @@
 """Picture of a run: shear stress in space and time, and the driving force."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -34,8 +35,13 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     (s), ``length``, ``length_low`` and ``length_high`` (m); `symbol` is the length's.
     """
     Record(simulation).require("slip", "shear_stress")
-    shape: style.Options = {"rows": 2, "columns": 2, "width_ratios": (2.1, 1.0)}
-    figure, panels = style.panels(10.2, sharex="col", **shape)
+    figure, panels = style.panels(
+        10.2,
+        rows=2,
+        columns=2,
+        sharex="col",
+        width_ratios=(2.1, 1.0),
+    )
     (image, zoom), (force, last) = panels
     style.letters(*panels.flat)
     zoom.sharey(image)
@@ -49,32 +55,36 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
         float(ratio.quantile(0.999)),
     )
     time = simulation["time"].values
+    scale, unit = prefixed(
+        float(np.abs(simulation["driving_force"]).max()),
+        "N/m",
+    )
+    force.set_ylabel(f"Applied force $-f_d$ ({unit})")
     onset = float(row["onset_time"])
     start, peak, end = event_window(simulation, onset)
-    unit = _draw_span(
-        image,
-        force,
-        simulation,
-        row,
-        ratio,
-        norm,
-        (time[0], time[-1], 0.0),
+    for column, span, label in (
+        (panels[:, 0], (time[0], time[-1], 0.0), "Time $t$"),
+        (panels[:, 1], (start, end, peak), "Time from the highest slip rate"),
+    ):
+        unit = _draw_span(
+            column,
+            simulation,
+            scale,
+            row,
+            ratio,
+            norm,
+            span,
+        )
+        column[1].set_xlabel(f"{label} ({unit})")
+    colours = image.collections[0]
+    figure.colorbar(
+        colours,
+        ax=panels[0],
+        label=r"$\tau/\sigma_0$",
+        pad=0.01,
+        extend="both",
     )
-    force.set_xlabel(f"Time $t$ ({unit})")
-    unit = _draw_span(
-        zoom,
-        last,
-        simulation,
-        row,
-        ratio,
-        norm,
-        (start, end, peak),
-    )
-    last.set_xlabel(f"Time from the highest slip rate ({unit})")
-    look: style.Options = {"label": r"$\tau/\sigma_0$", "pad": 0.01, "extend": "both"}
-    figure.colorbar(image.collections[0], ax=[image, zoom], **look)
     image.set_ylabel("Position $x$ (m)")
-    force.set_ylabel(f"Applied force $-f_d$ ({_force_unit(simulation)[1]})")
     zoom.tick_params(labelleft=False)
     last.yaxis.set_ticks_position("both")
     last.tick_params(labelleft=False, labelright=True)
@@ -85,35 +95,30 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
             top=False,
             right=False,
         )
-    beside: style.Options = {"textcoords": "offset points", "va": "bottom"}
-    if np.isfinite(row["length"]):
-        place = image.get_yaxis_transform()
-        image.annotate(
-            symbol,
-            (0.0, row["length"]),
-            (5.0, 1.0),
-            place,
-            color="white",
-            **beside,
-        )
     if np.isfinite(onset):
-        place = force.get_xaxis_transform()
-        at = onset * time_unit(time[-1])[0]
-        beside |= {"color": style.GUIDE, "ha": "right"}
-        force.annotate(
+        across = {"xycoords": image.get_yaxis_transform(), "color": "white", "fontsize": 9.0}
+        style.note(
+            image,
+            symbol,
+            (0.0, float(row["length"])),
+            (5.0, 2.5),
+            **across,
+        )
+        up = {"xycoords": force.get_xaxis_transform(), "ha": "right", "fontsize": 9.0}
+        style.note(
+            force,
             "onset",
-            (at, 0.0),
-            (-4.0, 5.0),
-            place,
-            **beside,
+            (onset * time_unit(time[-1])[0], 0.0),
+            (-4.0, 6.5),
+            **up,
         )
     return figure
 
 
 def _draw_span(
-    image: Axes,
-    below: Axes,
+    column: Sequence[Axes],
     record: xr.Dataset,
+    factor: float,
     row: xr.Dataset,
     ratio: xr.DataArray,
     norm: Normalize,
@@ -121,8 +126,9 @@ def _draw_span(
 ) -> str:
     """Stress, force and event over a span: start, end, and zero of its axis (s); its time unit.
 
-    The force is positive in compression; the axis of the whole run has its zero.
+    The force, by a factor from N/m, is positive in compression; the axis of the whole run has zero.
     """
+    image, below = column
     start, end, origin = span
     scale, unit = time_unit(max(end - origin, origin - start))
     part = ratio.isel(
@@ -134,26 +140,29 @@ def _draw_span(
         )
     )
     edges = (_edges(part["time"].values) - origin) * scale, _edges(part["x"].values)
-    image.pcolormesh(*edges, part.values, norm=norm, rasterized=True)
+    image.pcolormesh(
+        *edges,
+        part.values,
+        norm=norm,
+        rasterized=True,
+    )
 
     onset = (float(row["onset_time"]) - origin) * scale
     length = float(row["length"])
     bars = [[length - float(row["length_low"])], [float(row["length_high"]) - length]]
-    white: style.Options = {"color": "white"}
-    image.axhline(length, ls="--", lw=0.9, **white)
-    image.axvline(onset, ls=":", lw=0.9, **white)
+    image.axhline(length, ls="--", lw=0.9, color="white")
+    image.axvline(onset, ls=":", lw=0.9, color="white")
     image.errorbar(
         [onset],
         [length],
         bars,
         marker="o",
-        ms=3.5,
-        elinewidth=0.9,
-        **white,
+        lw=0.9,
+        color="white",
     )
 
     time = record["step_time"].values
-    force = -_force_unit(record)[0] * record["driving_force"].values
+    force = -factor * record["driving_force"].values
     below.plot(
         (time - origin) * scale,
         force,
@@ -171,11 +180,6 @@ def _draw_span(
     if end > start:
         below.set_xlim((start - origin) * scale, (end - origin) * scale)
     return unit
-
-
-def _force_unit(record: xr.Dataset) -> tuple[float, str]:
-    """Factor and name of the unit of a record's driving force, from N/m."""
-    return prefixed(float(np.abs(record["driving_force"]).max()), "N/m")
 
 
 def _edges(centres: Array) -> Array:
@@ -214,12 +218,7 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     return start - margin, peak, end + margin
 
 
-def thin(
-    time: Array,
-    start: float,
-    end: float,
-    columns: int,
-) -> NDArray[np.intp]:
+def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
     """Indices of the times (s) that are drawn, at most one for each column of pixels.
 
     The first time in a column is kept, so that a fast event stays a step at its true time. One time
@@ -236,17 +235,7 @@ def thin(
         - 1,
         0,
     )
-    last = min(
-        int(
-            np.searchsorted(
-                time,
-                end,
-                side="left",
-            )
-        )
-        + 1,
-        time.size,
-    )
+    last = int(np.searchsorted(time, end)) + 1
     column = np.floor((time[first:last] - start) / (end - start) * columns)
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
 

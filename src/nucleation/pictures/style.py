@@ -47,7 +47,7 @@ RIGID_BODY = "#8C8C8C"
 MARKERS = "osD^vP*X"
 COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE, OLD_AGE, FULL_LAW)
 
-SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
+SEQUENCE = "viridis"  # matplotlib's own: ordered families of curves, monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
 
 STYLE: dict[Any, Any] = {
@@ -62,7 +62,6 @@ STYLE: dict[Any, Any] = {
     "legend.title_fontsize": 8.5,
     "legend.labelspacing": 0.35,
     "axes.linewidth": 0.7,
-    "axes.unicode_minus": True,
     "axes.formatter.use_mathtext": True,
     "xtick.major.pad": 4.5,
     "ytick.major.pad": 4.0,
@@ -76,13 +75,10 @@ STYLE: dict[Any, Any] = {
     "legend.frameon": False,
     "legend.handlelength": 2.0,
     "legend.borderaxespad": 0.6,
-    "figure.dpi": 100.0,
     "savefig.dpi": 300.0,
     "figure.constrained_layout.w_pad": 0.03,
     "figure.constrained_layout.h_pad": 0.03,
-    "image.cmap": SEQUENCE,
     "pdf.fonttype": 42,  # TrueType, embedded: text stays text
-    "pdf.compression": 6,
 }
 for _ticks in ("xtick", "ytick"):
     STYLE[f"{_ticks}.labelsize"] = 8.5

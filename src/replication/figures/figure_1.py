@@ -62,14 +62,14 @@ def _draw_long_bodies(axes: Axes) -> None:
 
 def _draw_block_on_rigid_base(axes: Axes) -> None:
     """The right panel: the finite block, pushed at its left edge over a rigid body."""
-    look: style.Options = {"edgecolor": style.BLACK, "linewidth": 0.9}
+    tint = _tint(style.UPPER_BODY)
     axes.add_patch(
         Rectangle(
             (-3.7, 0.0),
             7.7,
             2.3,
-            facecolor=_tint(style.UPPER_BODY),
-            **look,
+            facecolor=tint,
+            edgecolor=style.BLACK,
         )
     )
     _draw_body(axes, -1.1, 0.0, style.RIGID_BODY)
@@ -144,10 +144,7 @@ def _draw_band(axes: Axes, low: float, high: float, colour: ArrayLike, zorder: f
 
 
 def _draw_arrows(
-    axes: Axes,
-    *ends: Iterable[float],
-    colour: str = style.BLACK,
-    kind: str = "-|>",
+    axes: Axes, *ends: Iterable[float], colour: str = style.BLACK, kind: str = "-|>"
 ) -> None:
     """Arrows, each from the first point (x, y) to the second."""
     look: style.Options = {"arrowstyle": f"{kind},head_length=0.35,head_width=0.17"}

@@ -64,10 +64,9 @@ def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: st
     means = over_realisations(lengths)
     drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
     for kind in laws.kinds(drawn):
-        look = kind.look
-        aside = ScaledTranslation(look.aside / 72.0, 0.0, figure.dpi_scale_trans)
-        marks: style.Options = {"marker": look.marker, "ms": look.size, "color": look.colour}
-        marks |= {"transform": axes.transData + aside, "zorder": 4.0 - 0.1 * look.size}
+        aside = ScaledTranslation(kind.aside / 72.0, 0.0, figure.dpi_scale_trans)
+        marks: style.Options = {"marker": kind.marker, "ms": kind.size, "color": kind.colour}
+        marks |= {"transform": axes.transData + aside, "zorder": 4.0 - 0.1 * kind.size}
         for same in laws.groups(kind.runs.sortby("initial_state"), "initial_state"):
             label = f"FEM, {kind.name}"
             if kind.old:
@@ -175,12 +174,12 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
             ha="center",
             fontsize=8.5,
         )
-    small: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
+    place: style.Options = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
     axes.legend(
         title="time $t$",
-        loc="center left",
-        bbox_to_anchor=(1.0, 0.5),
-        **small,
+        fontsize=style.SMALL,
+        title_fontsize=style.SMALL,
+        **place,
     )
 
 
@@ -240,7 +239,7 @@ def draw_extended(
         marks += right.plot(
             [],
             [],
-            kind.look.marker,
+            kind.marker,
             label=kind.name + older,
         )
     right.set(
@@ -304,7 +303,7 @@ def _draw_lengths(
     ):
         label = text
         for kind in laws.kinds(laws.where(own, np.isfinite(own[column]))):
-            marks: style.Options = {"marker": kind.look.marker, "color": kind.look.colour}
+            marks: style.Options = {"marker": kind.marker, "color": kind.colour}
             laws.draw(
                 axes,
                 "height",

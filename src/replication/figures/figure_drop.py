@@ -43,15 +43,14 @@ def draw(table: xr.Dataset) -> Figure:
     found = ensembles(table)
     _draw_ratios(ratio, found)
     _draw_distributions(spread, found)
-    small: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
+    above: style.Options = {"loc": "outside upper center", "ncols": 4}
     style.legend(
         figure,
         load,
         state,
-        loc="outside upper center",
-        ncols=4,
         title="(a, b)",
-        **small,
+        fontsize=style.SMALL,
+        **above,
     )
     return figure
 
@@ -96,13 +95,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         label=f"{label}: mean and range",
     )
     stability = fault["stability_length"].values[0] / theory
-    axes.axhline(
-        stability,
-        ls=":",
-        lw=1.0,
-        color=style.STABILITY,
-        label="unstable patch, $L_s$",
-    )
+    axes.axhline(stability, ls=":", lw=1.0, color=style.STABILITY, label="unstable patch, $L_s$")
     axes.set_title(f"fluctuating {label}", loc="center")
     axes.set(ylim=(0.45, 0.87), **_STRENGTH)
 
@@ -125,16 +118,15 @@ def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> 
             lw=0.0,
             label="law: 16 to 84 %",
         )
-        look: style.Options = {"color": style.THEORY}
-        axes.plot(strength, law["curve_length"] / theory, label="law: median", **look)
-        closed = law["curve_closed_form"] / theory
+        median, closed = law["curve_length"] / theory, law["curve_closed_form"] / theory
+        axes.plot(strength, median, color=style.THEORY, label="law: median")
         axes.plot(
             strength,
             closed,
             "--",
+            color=style.THEORY,
             lw=0.9,
             label="law in one line",
-            **look,
         )
 
 
@@ -146,17 +138,17 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
         marker, colour, label = _KINDS[kind]
         ratio = float(runs["length"].mean() / first["law_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
-        look: style.Options = {"color": colour, "alpha": 0.8}
-        if first["evolution"] != USUAL_EVOLUTION:
-            look["mfc"] = "white"
-        axes.plot(strength, ratio, marker, label=label, **look)
-    axes.plot(
-        [],
-        [],
-        "o",
-        mfc="white",
-        label="open: slip law",
-    )
+        face = colour if first["evolution"] == USUAL_EVOLUTION else "white"
+        axes.plot(
+            strength,
+            ratio,
+            marker,
+            color=colour,
+            alpha=0.8,
+            mfc=face,
+            label=label,
+        )
+    axes.plot([], [], "o", mfc="white", label="open: slip law")
     close = f"within {100 * _GOAL:g} %"
     axes.axhspan(
         1.0 - _GOAL,
@@ -182,14 +174,14 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
             theory = float(first["critical_length"])
             lengths = np.sort(runs["length"].values) / theory
             parts = (np.arange(lengths.size) + 0.5) / lengths.size
-            look: style.Options = {"color": colour, "linewidth": 1.1}
             axes.step(
                 lengths,
                 parts,
                 dashes,
                 where="mid",
+                color=colour,
+                lw=1.1,
                 label=label,
-                **look,
             )
             law = [float(first[name]) / theory for name in _QUANTILES]
             axes.plot(

@@ -15,13 +15,6 @@ from .figure_studies import Curves
 from .theory import HANDLE
 from .theory import looks as curve_looks
 
-_SIDES = (
-    ("free", "o", style.VERMILLION),
-    ("clamped", "s", style.BLUE),
-    ("roller", "^", style.PURPLE),
-)
-"""Boundary conditions of the second body's far side, with marker and colour."""
-
 _HALF_SPACES = (
     (1.0, "--", r"half-spaces, $\eta=\pi/(1-\nu)$"),
     (0.5, ":", "half of it"),
@@ -29,7 +22,6 @@ _HALF_SPACES = (
 )
 """Part of the half-spaces' length, line and name."""
 
-_UNSTABLE = "patch turns unstable, $L_s$"
 _CONTRAST = np.linspace(-0.42, 0.42, 169)
 _PANELS = (("length_ratio", "(a) at the drop"), ("stability_ratio", "(b) patch turns unstable"))
 _UNKNOWN = 0.14  # ordinate of runs without the length
@@ -45,7 +37,8 @@ def draw(table: xr.Dataset, theory: Curves) -> Figure:
     weakening = table["zeta_over_a"].values / np.median(table["zeta_over_a"])
     similar = laws.where(table, np.abs(weakening - 1.0) < 0.1)
     similar["thickness"] = similar["second_height"] / similar["critical_length"]
-    for side, marker, colour in _SIDES:
+    for i, side in enumerate(("free", "clamped", "roller")):
+        marker, colour = style.look(i)
         own = laws.where(similar, far_side=side)
         look: style.Options = {"color": colour, "marker": marker, "linestyle": "none"}
         laws.draw(
@@ -94,13 +87,15 @@ def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     laws.draw(
         axes, "height", rows, "length", marker="o", color=style.VERMILLION, label="at the drop"
     )
-    look: style.Options = {"color": style.STABILITY, "mfc": "none"}
+    stability = rows["stability_length"]
+    label = "patch turns unstable, $L_s$"
     axes.plot(
         height,
-        rows["stability_length"],
+        stability,
         "D",
-        label=_UNSTABLE,
-        **look,
+        color=style.STABILITY,
+        mfc="none",
+        label=label,
     )
     if height.size:
         for part, line, label in _HALF_SPACES:
@@ -110,12 +105,7 @@ def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
                 lw=0.8,
                 label=label,
             )
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Height of each block $H$ (m)",
-        ylabel="Length (m)",
-    )
+    axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
     style.plain_numbers(axes.yaxis)
     axes.set_title("(a) identical blocks")
     axes.legend(fontsize=style.SMALL, loc="lower right")
@@ -168,8 +158,13 @@ def _draw_weakening(axes: Axes, own: xr.Dataset, name: str, look: style.Options)
     ratio = float(own["zeta_over_a"][0])
     weakening = rf"$\zeta/a={ratio:.3g}$"
     curve = bimaterial_length_ratio(np.abs(_CONTRAST), ratio)
-    line: style.Options = look | {"marker": "", "linewidth": 1.1}
-    axes.plot(_CONTRAST, curve, label=f"Eq. (9), {weakening}", **line)
+    axes.plot(
+        _CONTRAST,
+        curve,
+        label=f"Eq. (9), {weakening}",
+        lw=1.1,
+        **look | {"marker": ""},
+    )
     # the theory's length for blocks of this height without contrast
     unit = 1.0 / own["half_space_ratio"]
     own = own.assign({key: own[key] / unit for key in own if str(key).startswith(name)})

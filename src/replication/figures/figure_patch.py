@@ -171,12 +171,12 @@ def draw_theory(table: xr.Dataset) -> Figure:
     own = laws.where(table, f_beta=0.0)
     theory = own["critical_length"]
     points = own["zeta_over_a"], own["stability_length"] / theory
-    look: style.Options = {"norm": "log", "cmap": style.SEQUENCE, "label": "simulated"}
     drawn = ratio.scatter(
         *points,
         c=own["height"] / theory,
         s=7.0,
-        **look,
+        norm="log",
+        label="simulated",
     )
     figure.colorbar(drawn, ax=ratio, label="$H/L_c$")
     ratio.axhline(0.5, ls=":", lw=0.6, label="one half")
@@ -195,11 +195,9 @@ def draw_theory(table: xr.Dataset) -> Figure:
             ms=2.8,
             label=label,
         )
-    agreed: style.Options = {"color": style.GUIDE, "alpha": 0.15, "lw": 0.0}
-    parity.axhspan(-_BAND, _BAND, label=f"within {_BAND:g} %", **agreed)
+    parity.axhspan(-_BAND, _BAND, color="0.9", label=f"within {_BAND:g} %")
     parity.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
-    below: style.Options = {"loc": "outside lower center", "ncols": 5, "columnspacing": 1.0}
-    below |= {"fontsize": style.SMALL, "handletextpad": 0.2}
+    below: style.Options = {"loc": "outside lower center", "ncols": 5, "fontsize": style.SMALL}
     style.legend(figure, parity, title="Studies in (b)", **below)
     if "shown_beta" in table:
         for i, shade in enumerate(style.shades(table.sizes["case"])):

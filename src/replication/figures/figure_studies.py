@@ -1,5 +1,6 @@
 """Any study's lengths: simulations against theory over the varied parameters."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -22,22 +23,7 @@ _DASHES = ("-", "--", "-.", ":")  # of the theory's curves, so that equal ones a
 _FEW = 8  # so many kinds are in the legend, more are shaded by a number
 _WIDE = 4.0  # ratio of the largest to the smallest value above which an axis is logarithmic
 
-_SYMBOLS = {
-    "rho": r"\rho",
-    "mu": r"\mu",
-    "nu": r"\nu",
-    "sigma0": r"\sigma_0",
-    "tau0": r"\tau_0",
-    "phi0": r"\phi_0",
-    "L": "",  # the measured length here
-    "zeta/a": r"\zeta/a",
-    "zeta": r"\zeta",
-    "phi*": r"\phi_*",
-    "theta": r"\theta",
-    "v*": "v_*",
-    "v0": "v_0",
-    "xi": r"\xi",
-}
+_GREEK = "epsilon|mu|nu|phi|rho|sigma|tau|theta|xi|zeta"
 
 _WORDS = {
     "initial_state": "initial state",
@@ -84,7 +70,7 @@ def draw(
 
     names = list(dict.fromkeys(kinds))
     figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
-    colours = ScalarMappable(cmap=style.SEQUENCE)
+    colours = ScalarMappable()
     colours.set_array(rows["shade"])
     if _is_wide(rows["shade"].values):
         colours.set_norm(LogNorm())
@@ -133,12 +119,13 @@ def draw(
         if not known.all():
             lost = own["x"].values[~known]
             label = f"no event ({np.isnan(rows['length'].values).sum()} of {len(kinds)})"
-            edge: style.Options = {"transform": axes.get_xaxis_transform(), "label": label}
+            edge = axes.get_xaxis_transform()
             axes.plot(
                 lost,
                 np.full(lost.size, 0.03),
                 "x",
-                **edge,
+                transform=edge,
+                label=label,
                 **look,
             )
     if shade:
@@ -152,7 +139,11 @@ def draw(
     axes.set_ylabel("Length at the drop $L$ (m)")
     axes.set_title(title, fontsize=style.SMALL, wrap=True)
     _scale(axes, "x", rows["x"].values)
-    _scale(axes, "y", np.r_[rows["length"], rows["critical_length"]])
+    _scale(
+        axes,
+        "y",
+        np.r_[rows["length"], rows["critical_length"]],
+    )
     style.legend(figure, axes, loc="outside lower center", fontsize=style.SMALL)
     return figure
 
@@ -170,7 +161,7 @@ def _kinds(
     ]
     for name in names:
         entry = declared[name]
-        symbol = _SYMBOLS.get(entry.symbol, entry.symbol)
+        symbol = _symbol(entry)
         shown = f"${symbol}={{:.4g}}$" if symbol else _named(name) + " {:.4g}"
         shown += "" if entry.unit == "1" else f" {entry.unit}"
         own = []
@@ -189,6 +180,12 @@ def _kinds(
     ]
 
 
+def _symbol(entry: Quantity) -> str:
+    """The TeX of a symbol; empty if there is none, or for the block's L, as L is measured here."""
+    greek = re.sub(_GREEK, r"\\\g<0>", entry.symbol.replace("eps", "epsilon"))
+    return "" if greek == "L" else re.sub("[0*]$", r"_\g<0>", greek)
+
+
 def _named(name: str) -> str:
     """A parameter's name in words, as within a sentence."""
     words = _WORDS.get(
@@ -201,7 +198,7 @@ def _named(name: str) -> str:
 def _label(name: str, entry: Quantity) -> str:
     """The label of an axis."""
     words = _named(name)
-    symbol = _SYMBOLS.get(entry.symbol, entry.symbol)
+    symbol = _symbol(entry)
     text = words[0].upper() + words[1:] + (f" ${symbol}$" if symbol else "")
     return text if entry.unit == "1" else f"{text} ({entry.unit})"
 

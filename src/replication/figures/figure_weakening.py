@@ -5,7 +5,6 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
@@ -62,8 +61,14 @@ def draw(table: xr.Dataset) -> Figure:
             simulated = (fault["length"] / fault["critical_length"]).values
             dropped = simulated[np.isfinite(simulated)]
             if dropped.size:
-                look: style.Options = {"color": style.BLACK, "marker": "o"}
-                laws.draw_range(axes, fault["zeta_over_a"].values[0], dropped, **look)
+                at = fault["zeta_over_a"].values[0]
+                laws.draw_range(
+                    axes,
+                    at,
+                    dropped,
+                    color=style.BLACK,
+                    marker="o",
+                )
         height = f"$H$ = {float(system['height'][0]):g} m"
         text = f"{_BASES[str(system['below'].values[0])]}, {height}"
         if curves["curve_half_spaces"]:
@@ -147,8 +152,7 @@ def draw_patches(table: xr.Dataset) -> Figure:
 
 _STEPS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0)  # of the colours
 _NOTHING = "#D9D9D9"
-_WEAKENINGS = ("o", style.VERMILLION), ("s", style.BLUE), ("^", style.BLACK)
-"""Marks of the weakenings in the panel over height."""
+_SLICES = 3  # weakenings in the panel over height
 
 
 @style.styled()
@@ -166,25 +170,23 @@ def draw_map(grid: xr.Dataset) -> Figure:
         exponent = np.log10(grid["strength"].values[i])
         title = rf"({letter}) drop, load $10^{{{exponent:.0f}}}$, $L/L_c$"
         shown.append((title, drop.isel(strength=i)))
-    look: style.Options = {
-        "cmap": style.SEQUENCE,
-        "norm": BoundaryNorm(_STEPS, colormaps[style.SEQUENCE].N, extend="both"),
-        "rasterized": True,
-    }
+    norm = BoundaryNorm(_STEPS, 256, extend="both")
     for axes, (title, ratio) in zip(panels.flat, shown, strict=False):
         x, y = _edges(ratio["height"].values), _edges(ratio["zeta_over_a"].values)
-        image = axes.pcolormesh(x, y, ratio.transpose("zeta_over_a", "height"), **look)
+        values = ratio.transpose("zeta_over_a", "height")
+        image = axes.pcolormesh(
+            x,
+            y,
+            values,
+            norm=norm,
+            rasterized=True,
+        )
         axes.set(facecolor=_NOTHING, xscale="log", yscale="log", title=title)
         axes.set(xlabel="Block height $H$ (m)", ylabel=r"Weakening $\zeta/a$")
         style.plain_numbers(axes.yaxis, (1.5, 2.0, 3.0, 4.0, 6.0))
         axes.tick_params(which="both", direction="out", top=False, right=False)
     figure.colorbar(image, ax=panels[:, 1], label="(a) to (c): length over theory")
-    _draw_heights(
-        panels[1, 1],
-        grid,
-        stability,
-        drop.isel(strength=0),
-    )
+    _draw_heights(panels[1, 1], grid, stability, drop.isel(strength=0))
     return figure
 
 
@@ -202,13 +204,10 @@ def _draw_heights(
     """Theory, stability and drop over height for a few weakenings."""
     weakenings = grid["zeta_over_a"].values
     height = grid["height"].values
-    places = np.linspace(
-        0,
-        weakenings.size - 1,
-        len(_WEAKENINGS) + 2,
-    )[1:-1]
+    places = np.linspace(0, weakenings.size - 1, _SLICES + 2)[1:-1]
     shown = np.unique(places.round().astype(int))
-    for i, (marker, colour) in zip(shown, _WEAKENINGS, strict=False):
+    for number, i in enumerate(shown):
+        marker, colour = style.look(number)
         theory = grid["critical_length"].values[:, i]
         axes.plot(height, theory, color=colour)
         axes.plot(
@@ -254,9 +253,4 @@ def _draw_heights(
     for axis, room in ((axes.xaxis, 0.3), (axes.yaxis, 0.15)):  # for the labels and the legend
         low, high = axis.get_view_interval()
         axis.set_view_interval(low, high * (high / low) ** room, ignore=True)
-    axes.legend(
-        ncols=3,
-        fontsize=style.SMALL,
-        loc="upper left",
-        columnspacing=1.2,
-    )
+    axes.legend(ncols=3, fontsize=style.SMALL, loc="upper left", columnspacing=1.2)

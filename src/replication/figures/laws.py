@@ -17,77 +17,65 @@ from nucleation.types import Array
 USUAL_AGE = 1.0  # s: the initial state of all simulations that declare no other
 
 
-class Look(NamedTuple):
-    """The marks of one kind of simulation."""
-
-    marker: str
-    size: float  # points; the usual kind is the smallest, as it is drawn over the others
-    colour: str
-    aside: float = 0.0  # points (1/72 inch) by which Figure 3 moves it to the right
-
-
 PAPERS = {
-    ("aging", False): Look(
-        "o",
-        4.6,
-        style.AGING,
-    ),
-    ("slip", False): Look(
-        "^",
-        7.2,
-        style.SLIP,
-        -4.0,
-    ),
-    ("aging", True): Look(
-        "s",
-        6.6,
-        style.OLD_AGE,
-        4.0,
-    ),
-    ("slip", True): Look(
-        "v",
-        7.2,
-        style.SLIP,
-        8.0,
-    ),
+    ("aging", False): ("o", 4.6, style.AGING, 0.0),
+    ("slip", False): ("^", 7.2, style.SLIP, -4.0),
+    ("aging", True): ("s", 6.6, style.OLD_AGE, 4.0),
+    ("slip", True): ("v", 7.2, style.SLIP, 8.0),
 }
-"""Marks by evolution law, and whether the initial state is another than :data:`USUAL_AGE`."""
+"""Marks by evolution law, and whether the initial state is another than :data:`USUAL_AGE`.
+
+The usual kind is the smallest, as it is drawn over the others.
+"""
 
 _OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
 
 
 class Kind(NamedTuple):
-    """The runs of one law and either the usual or another initial state."""
+    """The runs of one law with either the usual or another initial state, and their marks."""
 
     name: str
     old: bool
-    look: Look
+    marker: str
+    size: float  # points (1/72 inch)
+    colour: str
+    aside: float  # points by which Figure 3 moves them to the right
     runs: xr.Dataset
 
 
 def kinds(table: xr.Dataset) -> Iterator[Kind]:
     """The kinds of simulation in a table: those of the paper first, then the others by name."""
     laws = table["evolution"].values.astype(str)
-    aged = ~np.isclose(table["initial_state"].values, USUAL_AGE)
+    aged = ~np.isclose(
+        table["initial_state"].values,
+        USUAL_AGE,
+    )
     looks = dict(PAPERS)
     for i, law in enumerate(sorted(set(laws) - {law for law, _ in PAPERS})):
         marker, colour = _OTHERS[i % len(_OTHERS)]
-        looks[law, False] = Look(marker, 6.6, colour)
-        looks[law, True] = Look(
-            marker,
-            6.6,
-            style.OLD_AGE,
-        )
+        looks[law, False] = (marker, 6.6, colour, 0.0)
+        looks[law, True] = (marker, 6.6, style.OLD_AGE, 0.0)
     for (law, old), look in looks.items():
-        runs = where(table, (laws == law) & (aged == old))
+        runs = where(
+            table,
+            (laws == law) & (aged == old),
+        )
         if runs.sizes["run"]:
-            yield Kind(f"{law.replace('_', ' ')} law", old, look, runs)
+            yield Kind(
+                f"{law.replace('_', ' ')} law",
+                old,
+                *look,
+                runs,
+            )
 
 
 def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.Dataset:
     """The chosen rows of a table, those whose columns have the values of `labels`."""
     found = np.broadcast_to(
-        np.asarray(chosen, dtype=bool),
+        np.asarray(
+            chosen,
+            dtype=bool,
+        ),
         table.sizes["run"],
     )
     for name, value in labels.items():
@@ -98,7 +86,12 @@ def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.D
 def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
     """The rows that agree in some columns, group by group, in the order of the table."""
     columns = [table[name].values.tolist() for name in names]
-    keys = list(zip(*columns, strict=True))
+    keys = list(
+        zip(
+            *columns,
+            strict=True,
+        )
+    )
     for key in dict.fromkeys(keys):
         yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
 
@@ -109,8 +102,14 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
     A bar is left out if an end is NaN or not in the table.
     """
     middle = table[name].values
-    low = table.get(f"{name}_low", table[name]).values
-    high = table.get(f"{name}_high", table[name]).values
+    low = table.get(
+        f"{name}_low",
+        table[name],
+    ).values
+    high = table.get(
+        f"{name}_high",
+        table[name],
+    ).values
     bars = np.nan_to_num([middle - low, high - middle]).clip(0.0)
     usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
     axes.errorbar(

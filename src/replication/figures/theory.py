@@ -4,7 +4,6 @@ import csv
 import io
 from fractions import Fraction
 from itertools import cycle
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -104,29 +103,6 @@ def figure_s1(theory: xr.Dataset) -> Figure:
     return figure
 
 
-class Parameter(NamedTuple):
-    """One row of the table: the paper's symbol, value in SI units, unit and description."""
-
-    symbol: str
-    value: float
-    unit: str
-    description: str
-
-
-def rows(friction: Friction) -> list[Parameter]:
-    """The rows of the table for a friction law; ``-`` is the unit of dimensionless numbers."""
-    entries = declarations(type(friction))
-    found = []
-    for name in _ORDER if set(_ORDER) <= set(entries) else entries:
-        entry = entries[name]
-        if not entry.choices:
-            symbol = _PRINTED.get(entry.symbol, entry.symbol)
-            unit = "-" if entry.unit == "1" else entry.unit
-            value = float(getattr(friction, name))
-            found.append(Parameter(symbol, value, unit, entry.description))
-    return found
-
-
 def value_text(value: float) -> str:
     """A value as the paper writes it: ``5e-07`` as 5×10⁻⁷, 0.2777... as 5/18, 0.075 as is."""
     fraction = Fraction(value).limit_denominator(100)
@@ -141,26 +117,34 @@ def value_text(value: float) -> str:
 
 
 def table_s1(friction: Friction) -> dict[str, str]:
-    """The table as CSV and Markdown, by suffix (rule ``table_s1``)."""
-    found = rows(friction)
+    """The parameters of a friction law as CSV and Markdown, by suffix (rule ``table_s1``).
+
+    ``-`` is the unit of dimensionless numbers.
+    """
+    entries = declarations(type(friction))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Parameter._fields)
-    writer.writerows(found)
+    writer.writerow(("symbol", "value", "unit", "description"))
     lines = ["| Parameter | Value | Units | Description |", "|---|---|---|---|"]
-    for row in found:
-        symbol = row.symbol.replace("*", r"\*")
-        lines.append(f"| {symbol} | {value_text(row.value)} | {row.unit} | {row.description} |")
+    for name in _ORDER if set(_ORDER) <= set(entries) else entries:
+        entry = entries[name]
+        if not entry.choices:
+            symbol = _PRINTED.get(entry.symbol, entry.symbol)
+            unit = "-" if entry.unit == "1" else entry.unit
+            value = float(getattr(friction, name))
+            writer.writerow((symbol, value, unit, entry.description))
+            cells = symbol.replace("*", r"\*"), value_text(value), unit, entry.description
+            lines.append(f"| {' | '.join(cells)} |")
     return {".csv": text.getvalue(), ".md": "\n".join(lines) + "\n"}
 
 
 KINDS = {
-    "rubin_ampuero_localised": ("fixed length", "o", style.VERMILLION),
-    "rubin_ampuero_crack": ("expanding", "s", style.BLUE),
-    "thin_layer": ("thin layer", "^", style.GREEN),
-    "state_evolution": (r"slip law, over $L_b$", "D", style.BLACK),
+    "rubin_ampuero_localised": "fixed length",
+    "rubin_ampuero_crack": "expanding",
+    "thin_layer": "thin layer",
+    "state_evolution": r"slip law, over $L_b$",
 }
-"""Label, marker and colour of each simulated length of the literature."""
+"""Label of each simulated length of the literature."""
 
 _SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
 
@@ -170,7 +154,8 @@ def figure_literature(table: xr.Dataset) -> Figure:
     """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate."""
     figure, (left, right) = style.panels(7.6, columns=2, sharey=True)
     table = laws.where(table, np.isfinite(table["simulated_length"]))
-    for name, (label, marker, colour) in KINDS.items():
+    for i, (name, label) in enumerate(KINDS.items()):
+        marker, colour = style.look(i)
         rows = laws.where(table, name=name)
         at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
         look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
@@ -196,14 +181,14 @@ def figure_literature(table: xr.Dataset) -> Figure:
             )
             if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
                 ratio = float(same["ratio"][0])
-                place: style.Options = {"va": "bottom" if ratio < 0.5 else "top"}
+                place = "bottom" if ratio < 0.5 else "top"
                 style.note(
                     right,
                     f"{ratio:.2g}",
                     (x[-1], y[-1]),
                     (5, 0),
                     color=colour,
-                    **place,
+                    va=place,
                 )
     left.axvspan(
         LOCALISED_LIMIT,
