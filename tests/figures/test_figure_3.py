@@ -58,33 +58,29 @@ def test_all_points_lie_within_the_axes_and_outside_the_inset(axes, lengths):
         assert drawn_layout.points_inside(axes, usable["height"], usable[name], box) == 0
 
 
-def test_inset_shows_the_slip_rate_at_the_times_of_its_legend(axes, thick, thick_row):
+def test_inset_shows_the_slip_rate_from_creep_to_just_after_the_onset(axes, thick, thick_row):
     (inset,) = axes.child_axes
-    creep, event = figure_3.choose_times(thick, float(thick_row["onset_time"]))
+    onset = float(thick_row["onset_time"])
+    creep, event = figure_3.choose_times(thick, onset)
+    times = thick["time"].values
+    np.testing.assert_allclose(times[creep] / onset, [0.25, 0.5, 0.75, 1.0], atol=0.01)
+    assert (times[event] > onset).all() and (times[event] < onset + 0.01).all()
+    largest = thick["slip_rate"].max("x").values[[creep[-1], *event]]
+    assert (np.diff(largest) > 0).all() and largest[-1] > 100 * largest[0]
     curves = [line for line in inset.get_lines() if len(line.get_xdata()) > 2]
     assert len(curves) == creep.size + event.size == 6
     for line, i in zip(curves, [*creep, *event], strict=True):
         np.testing.assert_array_equal(line.get_xdata(), thick["x"])
         np.testing.assert_array_equal(line.get_ydata(), thick["slip_rate"].isel(time=i))
     assert inset.get_yscale() == "log" and "(m/s)" in inset.get_ylabel()
-    onset = float(thick["time"][creep[-1]])
-    later = [1e3 * (float(thick["time"][i]) - onset) for i in event]
+    onset = times[creep[-1]]
+    later = [1e3 * (times[i] - onset) for i in event]
     texts = [text.get_text() for text in inset.get_legend().get_texts()]
     length = float(thick_row["length"])
     assert any(set(line.get_xdata()) == {length} for line in inset.get_lines())
     (arrow,) = [a for a in inset.texts if getattr(a, "arrow_patch", None) is not None]
     assert (arrow.xy[0], arrow.xyann[0]) == (length, 0.0)
     assert texts[3:] == [f"$t_c={onset:.1f}$ s"] + [f"$t_c+{t:.3g}$ ms" for t in later]
-
-
-def test_snapshots_go_from_creep_to_just_after_the_onset(thick, thick_row):
-    onset = float(thick_row["onset_time"])
-    creep, event = figure_3.choose_times(thick, onset)
-    times = thick["time"].values
-    np.testing.assert_allclose(times[creep] / onset, [0.25, 0.5, 0.75, 1.0], atol=0.01)
-    assert (times[event] > onset).all() and (times[event] < onset + 0.01).all()
-    largest = thick["slip_rate"].max("x").values
-    assert (np.diff(largest[event]) > 0).all() and largest[event[-1]] > 100 * largest[creep[-1]]
 
 
 def test_a_run_without_an_event_is_drawn_without_marks(theory, lengths, thick):
