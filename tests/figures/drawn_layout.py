@@ -39,31 +39,6 @@ def boxes(figure: Figure) -> list[tuple[str, Bbox]]:
     return [(text, box) for text, box in found if box.width > 0]
 
 
-def overlaps(figure: Figure) -> list[tuple[str, str]]:
-    """Pairs of texts whose boxes overlap by more than the blank margin of a line of type."""
-    margin = 1.5 * figure.dpi / 72.0
-    return [
-        (first, second)
-        for (first, a), (second, b) in combinations(boxes(figure), 2)
-        if min(a.x1, b.x1) - max(a.x0, b.x0) > margin and min(a.y1, b.y1) - max(a.y0, b.y0) > margin
-    ]
-
-
-def cut_off(figure: Figure) -> list[str]:
-    """Texts that reach beyond the figure's edge."""
-    width, height = figure.get_size_inches() * figure.dpi
-    return [
-        text
-        for text, box in boxes(figure)
-        if box.x0 < -0.5 or box.y0 < -0.5 or box.x1 > width + 0.5 or box.y1 > height + 0.5
-    ]
-
-
-def sizes(figure: Figure) -> np.ndarray:
-    """Type sizes (points) of all visible text."""
-    return np.array([t.get_fontsize() for t in visible_texts(figure)])
-
-
 def points_inside(axes: Axes, x: np.ndarray, y: np.ndarray, box: Bbox) -> int:
     """How many of the data points lie within a box given in pixels."""
     pixels = axes.transData.transform(np.column_stack([x, y]))
@@ -72,6 +47,13 @@ def points_inside(axes: Axes, x: np.ndarray, y: np.ndarray, box: Bbox) -> int:
 
 def require_legible(figure: Figure) -> None:
     """Fail unless all text of a figure is large enough, whole and free of other text."""
-    assert overlaps(figure) == []
-    assert cut_off(figure) == []
-    assert sizes(figure).min() >= 7.5  # points
+    found = boxes(figure)
+    margin = 1.5 * figure.dpi / 72.0  # the blank margin of a line of type
+    for (first, a), (second, b) in combinations(found, 2):
+        shared = Bbox.intersection(a, b)
+        apart = shared is None or min(shared.width, shared.height) <= margin
+        assert apart, f"{first} and {second} overlap"
+    width, height = figure.get_size_inches() * figure.dpi + 0.5
+    for text, box in found:
+        assert min(box.x0, box.y0) >= -0.5 and box.x1 <= width and box.y1 <= height, text
+    assert min(text.get_fontsize() for text in visible_texts(figure)) >= 7.5  # points

@@ -100,20 +100,12 @@ def test_a_record_without_an_onset_is_drawn(thin):
 
 
 @pytest.mark.parametrize(
-    ("largest", "scale", "name"),
-    [(7.2e4, 1e-3, "kN/m"), (5.0, 1.0, "N/m"), (3e7, 1e-6, "MN/m"), (1e-30, 1e9, "nN/m"),
-     (0.0, 1.0, "N/m")],
+    ("unit_of", "largest", "shown", "name"),
+    [("force", 7.2e4, 72.0, "kN/m"), ("force", 5.0, 5.0, "N/m"), ("force", 3e7, 30.0, "MN/m"),
+     ("force", 1e-30, 1e-21, "nN/m"), ("force", 0.0, 0.0, "N/m"), ("time", 2e-3, 2.0, "ms"),
+     ("time", 16.0, 16.0, "s"), ("time", 10800.0, 3.0, "h"), ("time", 864000.0, 10.0, "days"),
+     ("time", 3.15576e8, 10.0, "years")],
 )  # fmt: skip
-def test_prefixes_of_a_force(largest, scale, name):
-    found, unit = run.prefixed(largest, "N/m")
-    assert found == pytest.approx(scale) and unit == name
-
-
-@pytest.mark.parametrize(
-    ("longest", "shown", "name"),
-    [(2e-3, 2.0, "ms"), (16.0, 16.0, "s"), (10800.0, 3.0, "h"), (864000.0, 10.0, "days"),
-     (3.15576e8, 10.0, "years")],
-)  # fmt: skip
-def test_units_of_time(longest, shown, name):
-    scale, unit = run.time_unit(longest)
-    assert scale * longest == pytest.approx(shown) and unit == name
+def test_units_follow_the_size_of_the_data(unit_of, largest, shown, name):
+    scale, unit = run.prefixed(largest, "N/m") if unit_of == "force" else run.time_unit(largest)
+    assert scale * largest == pytest.approx(shown) and unit == name

@@ -6,6 +6,7 @@ import drawn_layout
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.mathtext import MathTextParser
 
 from nucleation.run.names import parameters
 from replication.figures import figure_studies
@@ -121,6 +122,13 @@ def test_runs_without_an_event_are_crosses_at_the_edge(numbers):
     assert lost.get_label() == "no event (1 of 3)"
     labels = draw([1, 2], [np.nan, np.nan], height=[1, 2]).axes[0].get_legend_handles_labels()[1]
     assert labels == ["theory", "no event (2 of 2)"]
+
+
+def test_every_symbol_can_be_typeset():
+    found = {entry.symbol: figure_studies._symbol(entry) for entry in parameters().values()}
+    for symbol in filter(None, found.values()):
+        MathTextParser("path").parse(f"${symbol}$")
+    assert (found["sigma0"], found["zeta/a"], found["L"]) == (r"\sigma_0", r"\zeta/a", "")
 
 
 @pytest.mark.slow
