@@ -56,29 +56,6 @@ def test_equals_assembled_matrix(grids, bottom, s):
     assert relative(response.normal, left[assembled.y[0]]) < bound
 
 
-@pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
-@pytest.mark.parametrize("bottom", BOTTOMS)
-def test_condensed_operator(bottom, s):
-    """apply() is the response of respond(), tangent() and diagonal are its matrix, D is SPD."""
-    rng = np.random.default_rng(4)
-    body = pair_of(GRIDS[0], bottom)
-    operator, n = Operator(body, s), body.grid.n_x
-    w = rng.normal(size=n)
-    response = operator.respond(body.zero_field(), w)
-    p, reaction = operator.apply(w)
-    assert relative(p, response.tangential) < 1e-11
-    assert relative(reaction, response.normal) < 1e-10
-    columns = [operator.apply(unit) for unit in np.eye(n)]
-    d, c = (np.array([column[i] for column in columns]).T for i in (0, 1))
-    nodes = np.array([1, 2, 5, n - 1, n])
-    stiffness, coupling = operator.tangent(nodes)
-    assert relative(stiffness, d[np.ix_(nodes - 1, nodes - 1)]) < 1e-7
-    assert relative(coupling, c[np.ix_(nodes, nodes - 1)]) < 1e-7
-    assert relative(operator.diagonal, np.diag(d)) < 1e-11
-    assert relative(d, d.T) < 1e-11
-    assert np.linalg.eigvalsh(d).min() > 0.0
-
-
 @pytest.mark.parametrize("bottom", BOTTOMS)
 def test_one_sweep_with_the_right_edge_values_is_two_solves(bottom):
     rng = np.random.default_rng(5)

@@ -1,5 +1,6 @@
-"""Levels of recording: what stands in the record of a run, and that less of it gives the same."""
+"""Levels of recording: less of a record gives the same; frames and remarks of a recorder."""
 
+import dataclasses
 import os
 
 import numpy as np
@@ -11,7 +12,10 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import follow_patch
 from nucleation.run.run import PAPER_RUN
+from nucleation.simulation import recording
+from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import simulate
+from nucleation.simulation.start import at_rest, composed
 
 ONE = PAPER_RUN.replaced(
     height=0.02, block_length=1.83, n_x=80, n_y=4, grading=6.0, tolerance=5e-2, longest_step=0.5,
@@ -52,3 +56,64 @@ def test_what_was_not_recorded_is_said(records):
         Record(records["lengths"]).require("slip", "shear_stress")
     Record(records["interface"]).require("slip", "shear_stress")
     Record(records["lengths"]).require("slip_rate")
+
+
+PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=0.4, n_x=16, n_y=4)
+V = PARAMETERS.fault.velocity
+MEMORY = PARAMETERS.memory_time
+
+
+@pytest.fixture(scope="module")
+def start():
+    dynamics = composed(PARAMETERS)
+    return dynamics, *at_rest(dynamics, PARAMETERS)
+
+
+def recorded(start, times, rates):
+    """The record of some instants (s), with one slip rate (m/s) at all nodes."""
+    dynamics, state, report = start
+    recorder = Recorder(PARAMETERS, dynamics)
+    for time, rate in zip(times, rates, strict=True):
+        slip_rate = np.full_like(report.interface.slip_rate, rate)
+        interface = dataclasses.replace(report.interface, slip_rate=slip_rate)
+        recorder.record(
+            dataclasses.replace(state, past_times=np.array([time])),
+            dataclasses.replace(report, interface=interface),
+        )
+    return recorder.dataset()
+
+
+def test_a_frame_every_forty_steps(start):
+    times = 1e-6 * MEMORY * np.arange(100)
+    record = recorded(start, times, np.full(100, V))
+    np.testing.assert_array_equal(record["time"], times[[0, 40, 80]])
+
+
+def test_a_frame_every_four_tenths_of_the_memory_time(start):
+    times = 0.05 * MEMORY * np.arange(25) * (1 + 1e-9)
+    record = recorded(start, times, np.full(25, V))
+    np.testing.assert_array_equal(record["time"], times[[0, 8, 16, 24]])
+
+
+def test_a_frame_when_a_slip_rate_has_changed_by_half_its_logarithm(start):
+    """For fast slip asinh(v / V) grows as log(v)."""
+    rates = 1e4 * V * np.exp(0.1001 * np.arange(21))
+    times = 1e-6 * MEMORY * np.arange(21)
+    record = recorded(start, times, rates)
+    np.testing.assert_array_equal(record["time"], times[[0, 5, 10, 15, 20]])
+
+
+@pytest.mark.parametrize(
+    ("width", "remarks"),
+    [(1.2, ["not resolved: at the onset the front is 1.2 elements wide"]), (1.3, [])],
+)
+def test_a_front_within_an_element_and_a_quarter_is_not_resolved(
+    start, monkeypatch, width, remarks
+):
+    monkeypatch.setattr(recording, "front_width", lambda *_: width)
+    dynamics, state, report = start
+    recorder = Recorder(PARAMETERS, dynamics)
+    recorder.record(state, report)
+    assert recorder.remarks() == []  # no event yet
+    recorder._onset_time = 0.0
+    assert recorder.remarks() == remarks
