@@ -13,9 +13,13 @@ ANTIPLANE = "antiplane"
 def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
     """Poisson's ratio of the plane-strain material with the same in-plane response.
 
-    In-plane elasticity has two moduli, mu and ``kappa``: ``3 - 4 nu`` in plane strain and
-    ``(3 - nu)/(1 + nu)`` in plane stress (Muskhelishvili, 1953), which is ``3 - 4 nu/(1 + nu)``.
-    In antiplane shear nu has no effect, and mu replaces ``mu/(1 - nu)``: zero.
+    Parameters
+    ----------
+    poisson_ratio : array_like
+        nu. Beside mu, in-plane elasticity has kappa, ``3 - 4 nu`` in plane strain and ``(3 - nu)/(1
+        + nu)`` in plane stress (Muskhelishvili, 1953), which is ``3 - 4 nu/(1 + nu)``.
+    plane : {"strain", "stress", "antiplane"}
+        In antiplane shear nu has no effect, and mu replaces ``mu/(1 - nu)``: zero.
     """
     if plane == ANTIPLANE:
         return 0.0 * poisson_ratio

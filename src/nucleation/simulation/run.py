@@ -157,11 +157,17 @@ def simulate(
 ) -> xr.Dataset:
     """Run one simulation to its end and return its record.
 
-    `progress` is called with every accepted step. `keep` is called after every step with a function
-    that returns all arrays of the run at this instant, to be stored
-    (:mod:`nucleation.simulation.checkpoints`); given these arrays as `start`, a run
-    with the same parameters resumes there, with the same result to the last bit as if it had never
-    stopped.
+    Parameters
+    ----------
+    run : Run
+        The run.
+    progress : callable
+        Called with every accepted step.
+    start : dict
+        Arrays of `keep`: the run resumes there, with the same bits as if it had never stopped.
+    keep : callable
+        Called after every step with a function that returns all arrays of the run at this instant,
+        to be stored (:mod:`nucleation.simulation.checkpoints`).
 
     The record has the interface's fields on (time, x), the driving force and the step sizes on
     (step), see :data:`nucleation.simulation.recorded.RECORDED`. Its attribute ``status`` says how
