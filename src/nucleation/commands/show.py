@@ -71,7 +71,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     if plot:
         from ..pictures import run, style
 
-        style.save(run.draw(dataset, xr.Dataset(event)), plot)
+        style.save_one(run.draw(dataset, xr.Dataset(event)), plot)
         click.echo(f"plot: {plot}", err=as_json)
     return DONE
 

@@ -156,7 +156,7 @@ def note(axes: Axes, text: str, point: Point, offset: Point, **options: Any) -> 
     axes.annotate(text, point, offset, **usual | options)
 
 
-def save(figure: Figure, path: Path, key: str = "") -> None:
+def save_one(figure: Figure, path: Path, key: str = "") -> None:
     """Write a figure as PDF or PNG by the name of `path`, completely or not at all.
 
     The same figure gives the same bytes: there is neither date nor version of a program in them.
@@ -177,6 +177,6 @@ def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[P
     """Write a figure as ``stem.pdf`` and ``stem.png``, then clear it."""
     pdf, png = Path(f"{os.fspath(stem)}.pdf"), Path(f"{os.fspath(stem)}.png")
     for path in (pdf, png):
-        save(figure, path, key)
+        save_one(figure, path, key)
     figure.clear()
     return pdf, png
