@@ -1,6 +1,6 @@
 """The evolution laws of the state variable, one file each; its name is the law's name.
 
-Each file has three functions of ``omega = phi w / D`` and ``rate = w / D`` (1/s)::
+Each file has three functions of ``omega = phi w / D`` and ``rate = w / D`` (1/s):
 
     growth(omega)     dphi/dt = g(omega), with g(1) = 0 and g'(1) = -1
     slope(omega)      g'(omega)
