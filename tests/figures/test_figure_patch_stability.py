@@ -59,7 +59,7 @@ def extended(theory, lengths, table):
     return figure_3.draw_extended(theory, lengths, table)
 
 
-def test_growth_and_frequency_of_the_converged_runs(drawn):
+def test_growth_frequency_and_modulus_of_the_mode_of_the_converged_runs(drawn):
     for axes, first in zip(drawn.axes[:2], (-3.0, 17.0), strict=True):
         clouds = [line for line in axes.lines if line.get_marker() == "."]
         late = [li for li in axes.lines if li.get_marker() == "x" and li.get_xdata().size]
@@ -69,28 +69,21 @@ def test_growth_and_frequency_of_the_converged_runs(drawn):
             x = np.append(line.get_xdata(), last.get_xdata())
             np.testing.assert_allclose(x, np.linspace(0.1, 0.9, 30))
             assert line.get_ydata()[0] == first
-
-
-def test_ranges_follow_the_memory_time(drawn, table, patches):
-    slower = PAPER_RUN.replaced(velocity=1e-6).to_json()  # D/V is ten times as long
-    slow = figure_patch.draw_stability(
-        table, [patch.assign_attrs(parameters=slower) for patch in patches]
-    )
-    for axes, other in zip(drawn.axes[:2], slow.axes[:2], strict=True):
-        np.testing.assert_allclose(axes.get_ylim(), 10.0 * np.array(other.get_ylim()))
-
-
-def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches):
-    drawn = figure_patch.draw_stability(table.isel(run=slice(0, 5)), patches[:5])
-    assert sum(line.get_marker() == "." for line in drawn.axes[0].lines) == 3
-
-
-def test_shape_of_the_mode_is_its_modulus_over_the_patch(drawn):
     modes = [line for line in drawn.axes[2].lines if len(line.get_xdata()) == X.size]
     assert len(modes) == 3
     for line in modes:
         x, y = line.get_data()
         np.testing.assert_allclose(y[x < 1], np.sin(np.pi * x[x < 1]), atol=1e-12)
+
+
+def test_ranges_follow_the_memory_time_and_the_papers_runs_stand_in(drawn, table, patches):
+    slower = PAPER_RUN.replaced(velocity=1e-6).to_json()  # D/V is ten times as long
+    slow = figure_patch.draw_stability(
+        table.isel(run=slice(5)), [patch.assign_attrs(parameters=slower) for patch in patches[:5]]
+    )
+    assert sum(line.get_marker() == "." for line in slow.axes[0].lines) == 3
+    for axes, other in zip(drawn.axes[:2], slow.axes[:2], strict=True):
+        np.testing.assert_allclose(axes.get_ylim(), 10.0 * np.array(other.get_ylim()))
 
 
 def test_extended_figure_has_all_lengths(extended, theory, lengths, table):

@@ -86,7 +86,6 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     )
     image.set_ylabel("Position $x$ (m)")
     zoom.tick_params(labelleft=False)
-    last.yaxis.set_ticks_position("both")
     last.tick_params(labelleft=False, labelright=True)
     for axes in (image, zoom):  # ticks inside are invisible on the dark image
         axes.tick_params(

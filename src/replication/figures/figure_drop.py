@@ -72,16 +72,6 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     theory = float(fault["critical_length"].values[0])
     if own.sizes["run"]:
         _draw_law(axes, table, own, theory)
-        ratio = own["length"] / theory
-        axes.plot(
-            own["strength"],
-            ratio,
-            ".",
-            color=colour,
-            alpha=0.35,
-            ms=3.0,
-            mew=0.0,
-        )
     look: style.Options = {"marker": marker, "color": colour, "mfc": "white", "elinewidth": 0.9}
     for same in ensembles(own):
         simulated = same["length"].values / theory
@@ -95,7 +85,13 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         label=f"{label}: mean and range",
     )
     stability = fault["stability_length"].values[0] / theory
-    axes.axhline(stability, ls=":", lw=1.0, color=style.STABILITY, label="unstable patch, $L_s$")
+    axes.axhline(
+        stability,
+        ls=":",
+        lw=1.0,
+        color=style.STABILITY,
+        label="unstable patch, $L_s$",
+    )
     axes.set_title(f"fluctuating {label}", loc="center")
     axes.set(ylim=(0.45, 0.87), **_STRENGTH)
 
