@@ -12,7 +12,6 @@ import pytest
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
-from nucleation.model.friction import Friction
 from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.checkpoints import simulation_code
@@ -101,21 +100,6 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
     assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
 
 
-def test_constants_of_friction_set_the_law(nucleation, tmp_path):
-    """By options beside the law of a file, a run or the defaults; the expansion has them."""
-    words = ["simulate", tmp_path / "run.nc", "--paper", *SMALL, "--a", "0.008"]
-    nucleation(*words, "--zeta-over-a", "2", "--velocity", "2e-5")
-    friction = parameters_of(tmp_path / "run.nc").law
-    f, a, zeta = friction.expansion(2e-5)
-    assert (a, zeta) == pytest.approx((0.008, 0.016))
-    assert f == pytest.approx(Friction().expansion(2e-5).f0)
-    again = ["simulate", tmp_path / "more.nc", "--parameters", tmp_path / "run.nc"]
-    nucleation(*again, "--friction", "0.5")
-    more = parameters_of(tmp_path / "more.nc")
-    assert more.law.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
-    assert more.block == PARAMETERS.block
-
-
 def test_every_parameter_has_an_option(nucleation):
     help = nucleation("simulate", "--help").out
     text = " ".join(help.split())
@@ -166,19 +150,6 @@ def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tm
     )
     assert ended.code == 0 and "critical length 0.3" in ended.out
     assert "it may have an event all the same" in " ".join(ended.err.split())
-
-
-def test_end_time_is_found_from_the_theory(nucleation, tmp_path):
-    words = ["--height", "5mm", "--n-x", "16", "--n-y", "2", "--dry-run", "--json",
-             "--second-body", "rigid"]  # fmt: skip
-    found = json.loads(nucleation("simulate", tmp_path / "a.nc", *words).out)
-    end, after = (found["parameters"][n] for n in ("end_time", "time_after_event"))
-    critical = found["theory"]["critical_length"]
-    assert end == pytest.approx(1.5 * PAPER_RUN.growth_time(critical), rel=0.05)
-    assert after == pytest.approx(10.0 * 0.05)
-    given = [*words, "--end-time", "3 s"]
-    kept = json.loads(nucleation("simulate", tmp_path / "a.nc", *given).out)["parameters"]
-    assert kept["end_time"] == 3.0
 
 
 @pytest.mark.slow

@@ -86,10 +86,3 @@ def test_a_simulated_event_is_not_denied(nucleation, length, verdict, criterion)
     ended = nucleation("specimen", "--length", length, *PLATES, "--criterion", criterion)
     assert ended.code == 0 and "does not nucleate" not in ended.out
     assert verdict in " ".join(ended.out.split())
-
-
-def test_what_is_refused(nucleation):
-    ended = nucleation(*WORDS, "--find", "shear_modulus")
-    assert ended.code == 2 and "normal_stress is missing" in ended.err
-    ended = nucleation(*WORDS[:2], "20 Pa", *WORDS[3:])
-    assert ended.code == 2 and "length of the specimen" in ended.err and "m is needed" in ended.err

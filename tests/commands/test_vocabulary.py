@@ -131,12 +131,3 @@ def test_one_file_for_all_commands(nucleation, tmp_path):
         assert theory(ended) == pytest.approx(expected(), rel=1e-3), ended.err
     doubled = nucleation("length", "--parameters", file, "--normal-stress", "100MPa", "--json")
     assert theory(doubled) < 0.9 * expected()  # an option is stronger
-
-
-def test_lengths_of_half_spaces_are_not_called_valid_of_layers(nucleation):
-    same = alone(FAULT)
-    out = nucleation("length", *words(same)).out
-    part = out.partition("two identical half-spaces of")[2].partition("in use, for a layer")[0]
-    assert "for half-spaces (here H = 2 m)" in part and " valid:" not in part
-    high = {k: v for k, v in same.items() if k != "--height"}
-    assert "valid: velocity weakening" in nucleation("length", *words(high)).out

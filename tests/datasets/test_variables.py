@@ -104,12 +104,6 @@ def test_annotating_leaves_the_original_and_the_others_alone():
     require_annotated(found.drop_vars("other"))
 
 
-def test_joined_tables_say_what_their_columns_are():
-    first, second = (table([{"id": name, "length": 1.0}], COLUMNS) for name in "ab")
-    joined = lengths.join([first.assign_attrs(key="1"), second])
-    assert joined["length"].attrs == first["length"].attrs and joined.attrs == {}
-
-
 def test_columns_of_the_table_of_lengths_have_a_unit_and_a_meaning():
     files = lengths.of_studies([table([], COLUMNS)])
     described = pd.read_csv(io.StringIO(files[".columns.csv"])).set_index("column")

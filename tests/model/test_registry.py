@@ -9,7 +9,6 @@ from nucleation.model.friction import (
     USUAL_LAW,
     Friction,
     law_class,
-    law_declarations,
     module,
     plugins,
 )
@@ -24,12 +23,6 @@ def test_each_class_bears_the_name_of_its_file():
         assert law_class(name)().law == name
         assert Friction(law=name) == law_class(name)()
     assert Friction() == Friction(law=USUAL_LAW)
-
-
-def test_parameters_of_the_same_name_are_the_same():
-    """Two laws may share a parameter, not its name alone: `law_declarations` refuses that."""
-    found = law_declarations()
-    assert found["aging_coefficient"].description == "aging coefficient (friction law product)"
 
 
 def test_code_of_a_run_is_that_of_its_own_laws():

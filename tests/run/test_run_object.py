@@ -6,7 +6,6 @@ import pytest
 
 from nucleation.fault import PAPER, Fault
 from nucleation.model.quantities import ParameterError
-from nucleation.run.names import parameters, sections
 from nucleation.run.run import PAPER_RUN, Run
 
 GRANITE = Fault(
@@ -14,12 +13,6 @@ GRANITE = Fault(
     slip_distance="5um", normal_stress="50MPa", velocity="1um/s", height="2m",
 )  # fmt: skip
 PAIR = PAPER_RUN.replaced(second_body="deformable", second_shear_modulus=6.2e9, second_n_y=9)
-
-
-def test_each_parameter_is_in_one_section():
-    names = [name for section in sections().values() for name in section]
-    assert len(names) == len(set(names)) and set(PAIR.to_dict()) <= set(names)
-    assert all(parameters()[name].description for name in names)
 
 
 @pytest.mark.parametrize(
