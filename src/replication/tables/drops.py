@@ -211,15 +211,12 @@ def expected(parameters: Run) -> Row:
     except NoLength as error:
         none = dict.fromkeys(EXPECTED, float("nan"))
         return none | {"runaway_status": error.status, "doubt": str(error)}
-    return {
-        "stability_length": known.stability_length,
-        "runaway_length": known.runaway_length,
-        "runaway_status": known.runaway_status,
+    names = ("stability_length", "runaway_length", "runaway_status", "doubt")
+    return {name: getattr(known, name) for name in names} | {
         "law_length": known.law.length,
         "expected_length": known.length,
         "expected_low": known.low,
         "expected_high": known.high,
-        "doubt": known.doubt,
     }
 
 
@@ -251,33 +248,29 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
         base = "rigid" if parameters.below is None else "deformable"
         systems.setdefault((run["study"], base, parameters.fault.height), []).append(run)
     ratios = list(ratios)
-    high = []
-    lengths = np.empty((3, len(systems), len(ratios)))
-    for i, ((_, _, height), own) in enumerate(systems.items()):
+    rows = []
+    for (study, base, height), own in systems.items():
         parameters = Run.from_dict(own[0]["parameters"])
         below = parameters.below
         is_high = below is not None and height > max(run["critical_length"] for run in own)
-        high.append(is_high)
         if below is not None and is_high:
-            heights = {"height": height, "second_height": below.height}
-            much = {name: AS_HALF_SPACES * value for name, value in heights.items()}
-            parameters = parameters.replaced(**much)
-        for j, ratio in enumerate(ratios):
+            parameters = parameters.replaced(
+                height=AS_HALF_SPACES * height,
+                second_height=AS_HALF_SPACES * below.height,
+            )
+        lengths = []
+        for ratio in ratios:
             weaker = parameters.replaced(zeta_over_a=ratio)
             known = expected(weaker)
-            for k, name in enumerate(("stability_length", "runaway_length", "law_length")):
-                lengths[k, i, j] = known[name] / weaker.critical_length
-    names = ("curve_study", "curve_below", "curve_height")
-    columns = {
-        name: ("system", list(values))
-        for name, values in zip(names, zip(*systems, strict=True), strict=True)
-    }
-    along = ("system", "curve")
-    lines = {
-        name: (along, line) for name, line in zip(list(WEAKENING_CURVES)[5:], lengths, strict=True)
-    }
-    columns |= {"curve_half_spaces": ("system", high), "curve_ratio": ("curve", ratios)}
-    return annotate(xr.Dataset(columns | lines), WEAKENING_CURVES)
+            names = ("stability_length", "runaway_length", "law_length")
+            lengths.append([known[name] / weaker.critical_length for name in names])
+        rows.append((study, base, height, is_high, *np.transpose(lengths)))
+    columns: dict[str, Any] = {"curve_ratio": ("curve", ratios)}
+    drawn = [name for name in WEAKENING_CURVES if name not in columns]
+    for name, values in zip(drawn, zip(*rows, strict=True), strict=True):
+        along = ("system", "curve")[: np.ndim(values)]
+        columns[name] = (along, np.array(values))
+    return annotate(xr.Dataset(columns), WEAKENING_CURVES)
 
 
 def gather_other_faults(drops: xr.Dataset, runs: Iterable[Row]) -> xr.Dataset:

@@ -107,23 +107,19 @@ def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
         return {}
     different = list({round(row["f_beta"], 6): row for row in known}.values())
     evenly = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
-    contrasts, places, rates, stresses = [], [], [], []
+    found = []
     for i in dict.fromkeys(evenly.tolist()):
         row = different[i]
         parameters = Run.from_dict(runs[row["id"]]["parameters"])
         start = parameters.fault.initial_state
         made = advance(parameters.patches, [row["front_length"]], start, number=_SHOWN_MODES)
         (creep,) = made.creeps
-        contrasts.append(row["f_beta"])
         theta = creep.response.modes.theta
         angles = np.linspace(theta[0], theta[-1], PLACES)
-        places.append(np.cos(angles))
-        rates.append(CubicSpline(theta, creep.slip_rate)(angles))
-        stresses.append(CubicSpline(theta, creep.normal_stress)(angles))
-    at = "case", "place"
-    return {
-        "shown_beta": ("case", contrasts),
-        "shown_x": (at, np.array(places)),
-        "shown_rate": (at, np.array(rates)),
-        "shown_stress": (at, np.array(stresses)),
-    }
+        rate, stress = (
+            CubicSpline(theta, values)(angles) for values in (creep.slip_rate, creep.normal_stress)
+        )
+        found.append((row["f_beta"], np.cos(angles), rate, stress))
+    names = ("shown_beta", "shown_x", "shown_rate", "shown_stress")
+    columns = dict(zip(names, map(np.array, zip(*found, strict=True)), strict=True))
+    return {name: (("case", "place")[: own.ndim], own) for name, own in columns.items()}
