@@ -80,14 +80,27 @@ class Evidence:
         wanted = {"role": role, **labels}
         found = self._own
         for name, value in wanted.items():
-            low, high = (value, value) if isinstance(value, str) else (value * _LESS, value / _LESS)
+            low, high = (
+                (value, value)
+                if isinstance(
+                    value,
+                    str,
+                )
+                else (value * _LESS, value / _LESS)
+            )
             found = [row for row in found if low <= row[name] <= high]
         if not found:
             which = ", ".join(f"{name} {value}" for name, value in wanted.items())
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(self, role: str, law: str, height: float, age: float = 1.0) -> Row:
+    def row(
+        self,
+        role: str,
+        law: str,
+        height: float,
+        age: float = 1.0,
+    ) -> Row:
         """The fault of a role with an evolution law, height (m) and initial age (s)."""
         found = self.rows(
             role,
@@ -99,11 +112,22 @@ class Evidence:
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
-        return self.rows(role, evolution="aging", initial_state=1.0)
+        return self.rows(
+            role,
+            evolution="aging",
+            initial_state=1.0,
+        )
 
     def each(self, role: str, **labels: str | float) -> list[Row]:
         """The rows of all realisations of the faults that :meth:`rows` gives."""
-        return [run for row in self.rows(role, **labels) for run in row["members"]]
+        return [
+            run
+            for row in self.rows(
+                role,
+                **labels,
+            )
+            for run in row["members"]
+        ]
 
     def stability_length(self, row: Row) -> float:
         """The length (m) at which the patch of a fault becomes unstable; Missing without it."""
@@ -121,11 +145,20 @@ class Evidence:
         for table in self.lengths:
             runs = [_LengthsRow(row) for row in rows_of(table)]
             faults = rows_of(over_realisations(table))
-            for row, members in zip(faults, realisations(table), strict=True):
+            for row, members in zip(
+                faults,
+                realisations(table),
+                strict=True,
+            ):
                 names = "evolution", "initial_state", "height"
                 own = self.base.replaced(**{name: row[name] for name in names})
                 if row["fault"] == fault(own):
-                    found.append(_LengthsRow(row, members=[runs[i] for i in members]))
+                    found.append(
+                        _LengthsRow(
+                            row,
+                            members=[runs[i] for i in members],
+                        )
+                    )
         return found
 
 
@@ -145,7 +178,11 @@ def on_both(numbers: Callable[[Evidence, str], Found]) -> Computation:
             papers = numbers(evidence, PAPERS)
         except Missing:
             return Result(found)
-        return Result(found, papers=papers, mesh=mesh(evidence.each(PAPERS)))
+        return Result(
+            found,
+            papers=papers,
+            mesh=mesh(evidence.each(PAPERS)),
+        )
 
     return of_both
 
@@ -156,7 +193,15 @@ def of_runs(
     **labels: str,
 ) -> Computation:
     """The claim's function for a column of every run with some labels, over a unit."""
-    return on_both(lambda e, role: [run[column] / unit(e) for run in e.each(role, **labels)])
+    return on_both(
+        lambda e, role: [
+            run[column] / unit(e)
+            for run in e.each(
+                role,
+                **labels,
+            )
+        ]
+    )
 
 
 def mesh(rows: Iterable[Mapping[str, Any]]) -> str:
@@ -191,5 +236,13 @@ def span(values: Iterable[float], form: str | Callable[[float], str]) -> str:
     if not known:
         return ""
     ends = min(known), max(known)
-    low, high = (form(end) if callable(form) else format(end, form) for end in ends)
+    low, high = (
+        form(end)
+        if callable(form)
+        else format(
+            end,
+            form,
+        )
+        for end in ends
+    )
     return low if low == high else f"{low} to {high}"

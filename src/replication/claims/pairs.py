@@ -94,7 +94,12 @@ def _lengths(rows: pd.DataFrame, unit: pd.Series | float = 1.0) -> list[Estimate
 def _response(evidence: Tables, component: int) -> Array:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
     modes = evidence["modes"]
-    high = modes.isel(run=np.char.startswith(modes["id"].values.astype(str), "half-spaces"))
+    high = modes.isel(
+        run=np.char.startswith(
+            modes["id"].values.astype(str),
+            "half-spaces",
+        )
+    )
     if not high.sizes["run"]:
         raise Missing("No modes between half-spaces were simulated")
     ratio = high["second_shear_modulus"] / high["shear_modulus"]
@@ -130,7 +135,16 @@ def _decreasing(evidence: Tables) -> Array:
     """Slopes of the length over L_c^M against ``|f beta|``, for each zeta/a and sense."""
     contrast, identical, *senses = _both_senses(_settled(evidence))
     steps = np.diff(contrast, prepend=0.0)
-    return np.stack([np.diff(lengths, prepend=identical) / steps for lengths in senses])
+    return np.stack(
+        [
+            np.diff(
+                lengths,
+                prepend=identical,
+            )
+            / steps
+            for lengths in senses
+        ]
+    )
 
 
 NUMBERS: dict[str, Computation] = {

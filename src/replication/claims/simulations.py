@@ -38,7 +38,13 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
 
 
 def _height_dependence(evidence: Evidence, role: str) -> list[float]:
-    ratios = [row["length"] / row["critical_length"] for row in _heights(evidence, role)]
+    ratios = [
+        row["length"] / row["critical_length"]
+        for row in _heights(
+            evidence,
+            role,
+        )
+    ]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
@@ -68,7 +74,11 @@ def _linear_stage(evidence: Evidence) -> list[float]:
     changes = []
     for varied in evidence.rows(JUDGED):
         if varied["evolution"] != "aging" or varied["initial_state"] != 1.0:
-            base = evidence.row(JUDGED, "aging", varied["height"])
+            base = evidence.row(
+                JUDGED,
+                "aging",
+                varied["height"],
+            )
             ratio = evidence.stability_length(varied) / evidence.stability_length(base)
             changes.append(ratio - 1.0)
     if not changes:
@@ -138,11 +148,34 @@ def _shortest_step(evidence: Evidence) -> Estimate:
 
 
 NUMBERS: dict[str, Computation] = {
-    "onset-time": on_both(lambda e, role: _with_range(e.row(role, "aging", _SHOWN), "onset_time")),
-    "length-shown": on_both(lambda e, role: _with_range(e.row(role, "aging", _SHOWN), "length")),
+    "onset-time": on_both(
+        lambda e, role: _with_range(
+            e.row(
+                role,
+                "aging",
+                _SHOWN,
+            ),
+            "onset_time",
+        )
+    ),
+    "length-shown": on_both(
+        lambda e, role: _with_range(
+            e.row(
+                role,
+                "aging",
+                _SHOWN,
+            ),
+            "length",
+        )
+    ),
     "theory-agreement": on_both(
         lambda e, role: [
-            _with_range(row, "length", row["critical_length"]) for row in e.series(role)
+            _with_range(
+                row,
+                "length",
+                row["critical_length"],
+            )
+            for row in e.series(role)
         ]
     ),
     "height-dependence": on_both(_height_dependence),
@@ -159,7 +192,14 @@ NUMBERS: dict[str, Computation] = {
     "slip-law-approximation": of_runs("state_rate_share_patch", evolution="slip"),
     "slip-law-approximation-ahead": on_both(_strengthened),
     "slip-rate-blows-up": on_both(
-        lambda e, role: e.row(role, "aging", _INSET)["largest_rate"] / e.velocity
+        lambda e, role: (
+            e.row(
+                role,
+                "aging",
+                _INSET,
+            )["largest_rate"]
+            / e.velocity
+        )
     ),
     "instability-faster-than-creep": on_both(_instability_over_creep),
     "abrupt-drop": on_both(
@@ -169,7 +209,14 @@ NUMBERS: dict[str, Computation] = {
     "slow-creep": of_runs("front_speed", lambda e: e.material.shear_wave_speed),
     "no-radiation": of_runs("onset_rate", _damped_rate),
     "characteristic-slip-rate": on_both(
-        lambda e, role: [_with_range(row, "patch_rate", e.velocity) for row in e.series(role)]
+        lambda e, role: [
+            _with_range(
+                row,
+                "patch_rate",
+                e.velocity,
+            )
+            for row in e.series(role)
+        ]
     ),
     "contact-kept": lambda e: [
         run["largest_normal_stress_ever"] / e.base.fault.normal_stress for run in e.each(PAPERS)

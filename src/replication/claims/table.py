@@ -54,7 +54,14 @@ def stated() -> dict[str, dict[str, Mapping[str, Any]]]:
 def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason."""
     return [
-        {"subject": subject, **evaluate_one(id, entry, evidence)}
+        {
+            "subject": subject,
+            **evaluate_one(
+                id,
+                entry,
+                evidence,
+            ),
+        }
         for subject, entries in statements.items()
         for id, entry in entries.items()
     ]
@@ -111,7 +118,11 @@ def to_csv(rows: list[Row]) -> str:
     """The rows as comma-separated text; numbers to six digits, missing ones empty."""
     flat = pd.DataFrame(rows)
     flat[["ours_low", "ours_high"]] = [row["uncertainty"] or (None, None) for row in rows]
-    return flat.to_csv(columns=COLUMNS, index=False, float_format="%.6g")
+    return flat.to_csv(
+        columns=COLUMNS,
+        index=False,
+        float_format="%.6g",
+    )
 
 
 def to_markdown(rows: list[Row]) -> str:
@@ -137,7 +148,14 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
+    parts[::2] = [
+        re.sub(
+            r"([|*_])",
+            r"\\\1",
+            part,
+        )
+        for part in parts[::2]
+    ]
     return "$".join(parts)
 
 
@@ -161,10 +179,27 @@ def of_paper(
     tables = list(lengths)
     if len(longer):
         tables.append(lengths_table(longer_runs, longer, settings))
-    by_id = dict(zip(patch_ids, patches, strict=True))
-    evidence = Evidence(base, theory, dispersion, tuple(tables), by_id)
+    by_id = dict(
+        zip(
+            patch_ids,
+            patches,
+            strict=True,
+        )
+    )
+    evidence = Evidence(
+        base,
+        theory,
+        dispersion,
+        tuple(tables),
+        by_id,
+    )
     rows = evaluate(statements, evidence)
-    listed = json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False)
+    listed = json.dumps(
+        rows,
+        indent=1,
+        ensure_ascii=False,
+        allow_nan=False,
+    )
     return {".csv": to_csv(rows), ".md": to_markdown(rows), ".json": listed + "\n"}
 
 
@@ -182,7 +217,14 @@ def write_article(
 ) -> dict[str, str]:
     """The step ``article``: its text from the template, the claims as JSON and the lengths."""
     rows = json.loads(claims.read_text("utf-8"))
-    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
+    return {
+        ".md": render(
+            template.read_text("utf-8"),
+            rows,
+            lengths,
+            beyond,
+        )
+    }
 
 
 def render(
@@ -210,7 +252,13 @@ def render(
         "percent": lambda value, places=0: (
             "–" if value is None else f"{100.0 * value:.{places}f} %"
         ),
-        "span": lambda values, number: span(values, lambda value: digits(value, number)),
+        "span": lambda values, number: span(
+            values,
+            lambda value: digits(
+                value,
+                number,
+            ),
+        ),
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}

@@ -51,7 +51,11 @@ def main_text(evidence: Evidence, **changes: Any) -> Fault:
 
 def block(evidence: Evidence, height: float | Array) -> Fault:
     """A block of a height (m) on a rigid base, with the main text's friction."""
-    return main_text(evidence, height=height, second_shear_modulus=math.inf)
+    return main_text(
+        evidence,
+        height=height,
+        second_shear_modulus=math.inf,
+    )
 
 
 def _coupling(evidence: Evidence, q: float) -> float:
@@ -68,7 +72,12 @@ def _logarithmic(evidence: Evidence) -> Array:
     law, velocity = evidence.friction, evidence.velocity
     factors = np.geomspace(0.1, 10.0, 41)
     v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
-    return logarithmic_friction(law, v, phi, velocity) / law.coefficient(v, phi)
+    return logarithmic_friction(
+        law,
+        v,
+        phi,
+        velocity,
+    ) / law.coefficient(v, phi)
 
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -89,7 +98,12 @@ def _decades_of_agreement(evidence: Evidence) -> float:
     law, velocity = evidence.friction, evidence.velocity
     first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
     v = _SLIP_RATES[first:after]
-    logarithmic = logarithmic_friction(law, v, law.slip_distance / v, velocity)
+    logarithmic = logarithmic_friction(
+        law,
+        v,
+        law.slip_distance / v,
+        velocity,
+    )
     off = np.flatnonzero(np.abs(logarithmic / law.steady_coefficient(v) - 1.0) >= 0.02)
     middle = int(np.abs(np.log(v / velocity)).argmin())
     lowest = off[off < middle].max(initial=-1) + 1
@@ -125,7 +139,11 @@ def _eta_over_largest(evidence: Evidence) -> Result:
         f"{without:.4g} (results: The factor pi)."
     )
     expected = formula(math.pi, r"$\pi$")
-    return Result(0.75 * _eta(evidence), expected, explained=(without, sentence))
+    return Result(
+        0.75 * _eta(evidence),
+        expected,
+        explained=(without, sentence),
+    )
 
 
 def _uncoupled_frequency(evidence: Evidence) -> Result:
@@ -154,8 +172,18 @@ def _zero_of_growth(modes: xr.Dataset) -> float:
 
 def _short_waves(evidence: Evidence) -> float:
     """The largest growth of waves shorter than the critical one over V/ell, at Fig. 3's heights."""
-    curve = evidence.theory.isel(height=slice(None, None, 10))
-    ratios = np.geomspace(1.001, 100.0, 60)[:, None]
+    curve = evidence.theory.isel(
+        height=slice(
+            None,
+            None,
+            10,
+        )
+    )
+    ratios = np.geomspace(
+        1.001,
+        100.0,
+        60,
+    )[:, None]
     wavenumbers = ratios * curve["critical_wavenumber"].values
     rates = block(evidence, curve["height"].values).spectrum(wavenumbers)
     return float(rates.real.max() * evidence.interface.slip_distance / evidence.velocity)
@@ -198,7 +226,15 @@ def _strengthening_length(evidence: Evidence) -> list[float]:
     """L_c over Eq. (9) above the threshold, for zeta < 0."""
     cases = itertools.product(STRENGTHENING, (1.2, 2.0))
     return _over_printed(
-        (factor * printed.strengthening_threshold(a, zeta), zeta / a) for (a, zeta), factor in cases
+        (
+            factor
+            * printed.strengthening_threshold(
+                a,
+                zeta,
+            ),
+            zeta / a,
+        )
+        for (a, zeta), factor in cases
     )
 
 
@@ -222,7 +258,12 @@ def _thin_length(evidence: Evidence) -> Estimate:
 
 def _response_error(q: float, nu: float, expected: ComplexArray) -> float:
     """Difference of the matrix M of a layer from `expected`, over its largest entry."""
-    layer = Layers(np.array(1.0), np.array(nu), np.array(q), "velocity")
+    layer = Layers(
+        np.array(1.0),
+        np.array(nu),
+        np.array(q),
+        "velocity",
+    )
     found = layer.stiffness(1.0)
     stiffness = np.array([[found.xx, 1j * found.xy], [-1j * found.xy, found.yy]])
     difference = np.abs(-np.linalg.inv(stiffness) - expected)
@@ -236,7 +277,11 @@ def _block_field(evidence: Evidence) -> list[float]:
     differences = []
     for q in LAYER_NUMBERS[1:]:
         y = np.array([-step, 0.0, step])
-        below, at, above = printed.block_field(q, y, nu).T
+        below, at, above = printed.block_field(
+            q,
+            y,
+            nu,
+        ).T
         u, w = at[0].real, at[1].imag
         du, dw = (above - below) / (2.0 * step * q)
         g1, g2 = block(evidence, q).transfer_functions(1.0)
@@ -255,7 +300,11 @@ NUMBERS: dict[str, Computation] = {
     "weakening-at-v": lambda e: e.at_v.zeta,
     "slip-rate-over-v0": lambda e: math.log10(e.velocity / e.friction.regularisation_slip_rate),
     "friction-vanishes": lambda e: (
-        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / e.at_v.f0
+        e.friction.coefficient(
+            1e-5 * e.friction.regularisation_slip_rate,
+            1.0,
+        )
+        / e.at_v.f0
     ),
     "logarithmic-law": _logarithmic,
     "steady-agreement": _decades_of_agreement,
@@ -263,7 +312,13 @@ NUMBERS: dict[str, Computation] = {
     "weakening-branch": lambda e: e.velocity / steady_extremes(e)[0],
     "state-rate-at-v": lambda e: e.friction.slip_speed(e.velocity) / e.velocity,
     "evolution-slope": _slopes,
-    "spring-stiffness": lambda e: marginal_stiffness(0.0, *e.at_v[1:])[1] / e.at_v.zeta,
+    "spring-stiffness": lambda e: (
+        marginal_stiffness(
+            0.0,
+            *e.at_v[1:],
+        )[1]
+        / e.at_v.zeta
+    ),
     "half-spaces-g1": lambda e: Result(
         main_text(e).transfer_functions(1.0)[0], formula(1.0 / (2.0 * (1.0 - e.nu)))
     ),
@@ -274,7 +329,13 @@ NUMBERS: dict[str, Computation] = {
     "half-spaces-wavenumber": lambda e: Result(
         main_text(e).critical_mode().wavenumber, formula(2.0 * (1.0 - e.nu) / _softness(e))
     ),
-    "eta": lambda e: Result(_eta(e), formula(math.pi / (1.0 - e.nu), r"$\pi/(1 - \nu)$")),
+    "eta": lambda e: Result(
+        _eta(e),
+        formula(
+            math.pi / (1.0 - e.nu),
+            r"$\pi/(1 - \nu)$",
+        ),
+    ),
     "eta-over-literature": _eta_over_largest,
     "eta-larger": lambda e: 0.75 * _eta(e) - 1.0,
     "uncoupled-frequency": _uncoupled_frequency,
@@ -306,7 +367,11 @@ NUMBERS: dict[str, Computation] = {
     "block-g1": lambda e: _block(e, 0),
     "block-g2": lambda e: _block(e, 1),
     "block-high-limit": lambda e: Result(
-        _coupling(e, HALF_SPACE), formula((1.0 - 2.0 * e.nu) / (2.0 * (1.0 - e.nu)))
+        _coupling(
+            e,
+            HALF_SPACE,
+        ),
+        formula((1.0 - 2.0 * e.nu) / (2.0 * (1.0 - e.nu))),
     ),
     "block-thin-g1": lambda e: Result(
         block(e, 1e-6).transfer_functions(1.0)[0] / 2e-6,
@@ -319,7 +384,12 @@ NUMBERS: dict[str, Computation] = {
         (e.theory["thin_limit_length"] / e.theory["critical_length"]).interp(height=0.1) - 1.0
     ),
     "response-matrix": lambda e: [
-        _response_error(q, e.nu, printed.response_matrix(q, e.nu)) for q in LAYER_NUMBERS[1:]
+        _response_error(
+            q,
+            e.nu,
+            printed.response_matrix(q, e.nu),
+        )
+        for q in LAYER_NUMBERS[1:]
     ],
     "response-matrix-limit": lambda e: _response_error(
         HALF_SPACE, e.nu, printed.half_space_response(e.nu)

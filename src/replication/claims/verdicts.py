@@ -123,7 +123,13 @@ def formula(value: float, text: str = "") -> Expected:
     """A formula's value, exact except for round-off, and the formula as Markdown."""
     margin = FORMULA_TOLERANCE * (abs(value) or 1.0)
     low, high = value - margin, value + margin
-    return Expected("formula", low, high, text or f"{value:.6g}", value)
+    return Expected(
+        "formula",
+        low,
+        high,
+        text or f"{value:.6g}",
+        value,
+    )
 
 
 def read(entry: Mapping[str, Any]) -> Expected:
@@ -133,19 +139,47 @@ def read(entry: Mapping[str, Any]) -> Expected:
             printed = Decimal(text)
             half = Decimal(1).scaleb(int(printed.as_tuple().exponent)) / 2
             low, high = float(printed - half), float(printed + half)
-            return Expected("number", low, high, text, float(printed))
+            return Expected(
+                "number",
+                low,
+                high,
+                text,
+                float(printed),
+            )
         case {"formula": [value, text]}:
             return formula(value, text)
         case {"below": bound}:
-            return Expected("bound", -math.inf, bound, f"< {bound:g}")
+            return Expected(
+                "bound",
+                -math.inf,
+                bound,
+                f"< {bound:g}",
+            )
         case {"above": bound}:
-            return Expected("bound", bound, math.inf, f"> {bound:g}")
+            return Expected(
+                "bound",
+                bound,
+                math.inf,
+                f"> {bound:g}",
+            )
         case {"words": text}:
             low, high, reading = WORDS[text]
             chosen = text not in REASONED
-            return Expected("words", low, high, f"{text}: {reading}", chosen=chosen)
+            return Expected(
+                "words",
+                low,
+                high,
+                f"{text}: {reading}",
+                chosen=chosen,
+            )
         case {"reading": text}:
-            return Expected("reading", -math.inf, math.inf, text, 1.0)
+            return Expected(
+                "reading",
+                -math.inf,
+                math.inf,
+                text,
+                1.0,
+            )
     raise ValueError(f"expected = {entry} has no known kind")
 
 
@@ -154,7 +188,15 @@ def _listed(found: Found) -> Array:
     if isinstance(found, Estimate):
         return np.array([found])
     several = found if isinstance(found, list) else np.ravel(found).tolist()
-    rows = [one if isinstance(one, Estimate) else (one, math.nan, math.nan) for one in several]
+    rows = [
+        one
+        if isinstance(
+            one,
+            Estimate,
+        )
+        else (one, math.nan, math.nan)
+        for one in several
+    ]
     return np.array(rows, float).reshape(-1, 3)
 
 
@@ -181,7 +223,11 @@ def worst(expected: Expected, found: Found) -> Estimate:
         return between(value, *ends)
     if expected.kind == "formula":
         return between(value)
-    return between(value, values.min(), values.max())
+    return between(
+        value,
+        values.min(),
+        values.max(),
+    )
 
 
 def holds(expected: Expected, ours: Estimate) -> bool | None:
@@ -239,7 +285,12 @@ def _near_one(found: Found) -> str:
     return f"within {widths} % of one are {', '.join(near)} of {differences.size}"
 
 
-def _comparison(expected: Expected, ours: Estimate, held: bool, inside: bool) -> str:
+def _comparison(
+    expected: Expected,
+    ours: Estimate,
+    held: bool,
+    inside: bool,
+) -> str:
     """Sentences that compare our number with the paper's."""
     value = expected.value or 0.0
     if expected.kind == "formula":
@@ -251,7 +302,10 @@ def _comparison(expected: Expected, ours: Estimate, held: bool, inside: bool) ->
         return f"{ours.value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
     bound = expected.text.partition(": ")[2] or expected.text
     reason = f"{ours.value:.4g} is {'' if held else 'not '}{bound}."
-    nearest = min((expected.low, expected.high), key=lambda end: abs(end - ours.value))
+    nearest = min(
+        (expected.low, expected.high),
+        key=lambda end: abs(end - ours.value),
+    )
     if ours.low <= nearest <= ours.high:
         reason += f" Its range reaches across the bound, {nearest:g}."
     return reason

@@ -106,7 +106,11 @@ def measured_runs(
     """
 
     def measured(i: int, record: xr.Dataset) -> xr.Dataset:
-        row = lengths_table([runs[i]], [record], settings)
+        row = lengths_table(
+            [runs[i]],
+            [record],
+            settings,
+        )
         if measure == "stability":
             found = follow_patch(record, settings)["stability_length"]
             row["stability_length"] = ("run", found.values[None], found.attrs)
@@ -130,7 +134,11 @@ def lengths_table(
     """Extract the lengths of simulations into a table."""
     by_theory: dict[str, Row] = {}  # by fault
     rows = []
-    for run, simulation in zip(runs, simulations, strict=True):
+    for run, simulation in zip(
+        runs,
+        simulations,
+        strict=True,
+    ):
         row = _row(run, simulation, settings)
         own_fault = row["fault"]
         if own_fault not in by_theory:
@@ -161,7 +169,11 @@ def _stability(run: Row) -> Row:
 
 def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
     """One table of the rows of several."""
-    joined = xr.concat(list(tables), dim="run", combine_attrs="override")
+    joined = xr.concat(
+        list(tables),
+        dim="run",
+        combine_attrs="override",
+    )
     return joined.drop_attrs(deep=False)
 
 
@@ -170,7 +182,13 @@ def realisations(table: xr.Dataset) -> list[list[int]]:
     studies = table["study"].values.tolist()
     ensembles = table["ensemble"].values.tolist()
     rows: dict[tuple[str, str], list[int]] = {}
-    for i, key in enumerate(zip(studies, ensembles, strict=True)):
+    for i, key in enumerate(
+        zip(
+            studies,
+            ensembles,
+            strict=True,
+        )
+    ):
         rows.setdefault(key, []).append(i)
     return list(rows.values())
 
@@ -208,7 +226,13 @@ def description(run: Row) -> Row:
     quiet = values["perturbation"] == "none"
     return {
         **{name: values.get(name) for name in COLUMNS if name in known_parameters()},
-        **dict(zip(_OF_SECOND_BODY, second, strict=True)),
+        **dict(
+            zip(
+                _OF_SECOND_BODY,
+                second,
+                strict=True,
+            )
+        ),
         "kind": values["perturbation"],
         "below": values["second_body"],
         **{name: run[name] for name in ("id", "study", "role", "critical_length")},

@@ -85,14 +85,32 @@ def length_of(parameters: Run) -> str:
 def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
     """Simulated lengths beside their formulas: a row for each run and slip rate."""
     rows = []
-    for run, simulation in zip(runs, simulations, strict=True):
+    for run, simulation in zip(
+        runs,
+        simulations,
+        strict=True,
+    ):
         parameters = Run.from_dict(run["parameters"])
         described, fault, definition = _described(parameters)
         is_crack = described["name"] == "rubin_ampuero_crack"
         for slip_rate in SLIP_RATES:
             found = zone_length(simulation, slip_rate, definition)
-            far = far_ahead(simulation, slip_rate, parameters.law.slip_distance)
-            expanding = float(expanding_length(fault, slip_rate, *far)) if is_crack else math.nan
+            far = far_ahead(
+                simulation,
+                slip_rate,
+                parameters.law.slip_distance,
+            )
+            expanding = (
+                float(
+                    expanding_length(
+                        fault,
+                        slip_rate,
+                        *far,
+                    )
+                )
+                if is_crack
+                else math.nan
+            )
             row = {
                 **described,
                 "id": run["id"],

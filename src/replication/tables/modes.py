@@ -61,7 +61,12 @@ def sliding_period(run: Run) -> Dynamics:
     load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
     interface = Interface(law, NEWTON_TOLERANCE)
     drive = Steady(fault.velocity, load)
-    return Dynamics(body, interface, drive, BDF(body.crossing_time))
+    return Dynamics(
+        body,
+        interface,
+        drive,
+        BDF(body.crossing_time),
+    )
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
@@ -78,7 +83,13 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     rates = np.full(n + 1, velocity)
     steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
-    return State((motion,), np.zeros(1), rates[None], log_state[None], response.w[None])
+    return State(
+        (motion,),
+        np.zeros(1),
+        rates[None],
+        log_state[None],
+        response.w[None],
+    )
 
 
 def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
@@ -89,7 +100,15 @@ def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
     if run.below is not None:
         bodies["second_"] = changes["second_height"] = run.below.height
     for body, height in bodies.items():
-        changes[f"{body}n_y"] = round(min(max(height * nodes / length, ROWS[0]), ROWS[1]))
+        changes[f"{body}n_y"] = round(
+            min(
+                max(
+                    height * nodes / length,
+                    ROWS[0],
+                ),
+                ROWS[1],
+            )
+        )
         changes[f"{body}grading"] = GRADING if height > GRADED * length else 1.0
     return run.replaced(**changes)
 
@@ -111,8 +130,15 @@ def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexAr
         first_mode = np.fft.rfft(log_rate)[1]
         amplitudes.append(np.conj(first_mode) * 2.0 / nodes)
     samples = np.array(amplitudes[SKIPPED::INTERVAL])
-    past = np.stack([samples[1:-1], samples[:-2]], axis=1)
-    (p, q), *_ = np.linalg.lstsq(past, samples[2:], rcond=None)
+    past = np.stack(
+        [samples[1:-1], samples[:-2]],
+        axis=1,
+    )
+    (p, q), *_ = np.linalg.lstsq(
+        past,
+        samples[2:],
+        rcond=None,
+    )
     growth = np.roots([1.0, -p, -q])
     rates = np.log(growth) / (dynamics.scheme.steady_step(rung) * INTERVAL)
     return rates[np.argsort(-rates.real)]
@@ -182,8 +208,18 @@ THIN_LAYERS = {
 HALF_SPACES = {
     "half-spaces, stiff below": _pair(SOFT, STIFF),
     "half-spaces, stiff above": _pair(STIFF, SOFT),
-    "half-spaces, ten times, below": _pair(SOFT, 10.0 * SOFT, 0.0, 0.0),
-    "half-spaces, ten times, above": _pair(10.0 * SOFT, SOFT, 0.0, 0.0),
+    "half-spaces, ten times, below": _pair(
+        SOFT,
+        10.0 * SOFT,
+        0.0,
+        0.0,
+    ),
+    "half-spaces, ten times, above": _pair(
+        10.0 * SOFT,
+        SOFT,
+        0.0,
+        0.0,
+    ),
 }
 """Layers without a height have one at which their far sides do not matter."""
 
@@ -236,14 +272,28 @@ def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MOD
     for height in heights:
         own = run.replaced(height=height)
         critical = _critical(own)
-        rows += [{"height": height, **mode_row(own, ratio, critical)} for ratio in ratios]
+        rows += [
+            {
+                "height": height,
+                **mode_row(
+                    own,
+                    ratio,
+                    critical,
+                ),
+            }
+            for ratio in ratios
+        ]
     return _table(rows)
 
 
 def dispersion_files(base: Run) -> dict[str, Any]:
     """The same for the configuration's fault; its heights have the paper's ratios to the L_c."""
     own, papers = (
-        on_rigid_base(one.fault, math.inf).critical_length() for one in (base, PAPER_RUN)
+        on_rigid_base(
+            one.fault,
+            math.inf,
+        ).critical_length()
+        for one in (base, PAPER_RUN)
     )
     heights = [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
     found = dispersion(base, heights)
@@ -265,7 +315,14 @@ def pair_modes(
         for ratio in ratios:
             height = DEEP * 2.0 * np.pi / (ratio * critical)
             run = base.replaced(**{"height": height, "second_height": height} | pair)
-            rows.append(_described(name, run) | mode_row(run, ratio, critical))
+            rows.append(
+                _described(name, run)
+                | mode_row(
+                    run,
+                    ratio,
+                    critical,
+                )
+            )
     return _table(rows)
 
 

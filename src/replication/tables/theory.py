@@ -57,7 +57,13 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
     known: dict[str, float] = {}
     for measured in tables:
         lengths = measured["stability_length"].values.tolist()
-        known |= dict(zip(measured["id"].values.tolist(), lengths, strict=True))
+        known |= dict(
+            zip(
+                measured["id"].values.tolist(),
+                lengths,
+                strict=True,
+            )
+        )
     faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:
         if math.isfinite(known.get(run["id"], math.nan)):
@@ -76,7 +82,13 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
         }
     )
     listed = table(rows, COLUMNS)
-    return {".nc": annotate(listed.merge(drawn), DRAWN), ".csv": to_csv(listed)}
+    return {
+        ".nc": annotate(
+            listed.merge(drawn),
+            DRAWN,
+        ),
+        ".csv": to_csv(listed),
+    }
 
 
 def _row(run: Row) -> Row:
@@ -96,7 +108,12 @@ def _row(run: Row) -> Row:
     stress = parameters.start.initial_shear_stress / own.normal_stress
     with contextlib.suppress(NoLength):
         row["creep_length"] = stability_point(replace(patches, law=None), critical).length
-        row["front_length"] = first_growing(patches, critical, own.initial_state, stress)
+        row["front_length"] = first_growing(
+            patches,
+            critical,
+            own.initial_state,
+            stress,
+        )
     return row
 
 
@@ -105,21 +122,52 @@ def _profiles(rows: list[Row], runs: dict[str, Row]) -> Row:
     known = sorted((row for row in rows if row["front_length"] > 0.0), key=itemgetter("f_beta"))
     if not known:
         return {}
-    different = list({round(row["f_beta"], 6): row for row in known}.values())
-    evenly = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
+    different = list(
+        {
+            round(
+                row["f_beta"],
+                6,
+            ): row
+            for row in known
+        }.values()
+    )
+    evenly = (
+        np.linspace(
+            0,
+            len(different) - 1,
+            PROFILES,
+        )
+        .round()
+        .astype(int)
+    )
     found = []
     for i in dict.fromkeys(evenly.tolist()):
         row = different[i]
         parameters = Run.from_dict(runs[row["id"]]["parameters"])
         start = parameters.fault.initial_state
-        made = advance(parameters.patches, [row["front_length"]], start, number=_SHOWN_MODES)
+        made = advance(
+            parameters.patches,
+            [row["front_length"]],
+            start,
+            number=_SHOWN_MODES,
+        )
         (creep,) = made.creeps
         theta = creep.response.modes.theta
-        angles = np.linspace(theta[0], theta[-1], PLACES)
+        angles = np.linspace(
+            theta[0],
+            theta[-1],
+            PLACES,
+        )
         rate, stress = (
             CubicSpline(theta, values)(angles) for values in (creep.slip_rate, creep.normal_stress)
         )
         found.append((row["f_beta"], np.cos(angles), rate, stress))
     names = ("shown_beta", "shown_x", "shown_rate", "shown_stress")
-    columns = dict(zip(names, map(np.array, zip(*found, strict=True)), strict=True))
+    columns = dict(
+        zip(
+            names,
+            map(np.array, zip(*found, strict=True)),
+            strict=True,
+        )
+    )
     return {name: (("case", "place")[: own.ndim], own) for name, own in columns.items()}
