@@ -129,11 +129,13 @@ def draw(
                 **look,
             )
     if shade:
-        figure.colorbar(
+        bar = figure.colorbar(
             colours,
             ax=axes,
             label=_label(shade, declared[shade]),
         )
+        if _is_wide(rows["shade"].values):
+            style.plain_numbers(bar.ax.yaxis)
     label = "Theory's critical length $L_c$ (m)"
     axes.set_xlabel(_label(numbers[0], declared[numbers[0]]) if numbers else label)
     axes.set_ylabel("Length at the drop $L$ (m)")
@@ -144,7 +146,12 @@ def draw(
         "y",
         np.r_[rows["length"], rows["critical_length"]],
     )
-    style.legend(figure, axes, loc="outside lower center", fontsize=style.SMALL)
+    style.legend(
+        figure,
+        axes,
+        loc="outside lower center",
+        fontsize=style.SMALL,
+    )
     return figure
 
 
