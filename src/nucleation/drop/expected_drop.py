@@ -192,7 +192,11 @@ def _doubts_of_law(
     if not np.isfinite([drop.length, drop.low, drop.high]).all():
         yield "the drop is beyond the lengths to which the mode's trends are continued"
         return
-    grown = _growth_in_period(history, drop.length)
+    at = np.array([drop.length])
+    rate, frequency = (
+        float(trend(history, values)(at)[0]) for values in (history.rate.real, history.rate.imag)
+    )
+    grown = float(np.exp(2.0 * np.pi * rate / frequency)) if frequency > 0.0 else math.inf
     if grown < SLOWEST_GROWTH:
         yield (
             f"the mode grows by a factor of {grown:.2g} in a period where it is as large as the "
@@ -232,16 +236,3 @@ def feels_far_end(length: float, block: Block) -> bool:
     """
     is_thick = block.height > THICK * length
     return is_thick and length + block.height > THICK_REACH * block.length
-
-
-def _growth_in_period(
-    history: ModeHistory,
-    length: float,
-) -> float:
-    """The mode's growth in one of its periods at a patch length (m), by the trends."""
-    at = np.array([length])
-    rate = float(trend(history, history.rate.real)(at)[0])
-    frequency = float(trend(history, history.rate.imag)(at)[0])
-    if not frequency > 0.0:
-        return math.inf
-    return float(np.exp(2.0 * np.pi * rate / frequency))

@@ -122,11 +122,8 @@ class Lengths(Mapping[str, Answer]):
             rows.append(tuple(shown))
         return rows
 
-    def _is_single(self) -> bool:
-        return all(np.size(answer.value) == 1 for answer in self.values())
-
     def __repr__(self) -> str:
-        if not self._is_single():
+        if any(np.size(answer.value) != 1 for answer in self.values()):
             return repr(self.dataset())
         rows = self._rows()
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)][:-1]
@@ -135,15 +132,6 @@ class Lengths(Mapping[str, Answer]):
             padded = map(str.ljust, cells, widths)
             lines.append("  ".join([*padded, last]).rstrip())
         return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        if not self._is_single():
-            return self.dataset()._repr_html_()
-        from html import escape
-
-        head = "<tr><th>length<th>value<th>range<th>doubt, or why there is none</tr>"
-        rows = ["<tr><td>" + "<td>".join(map(escape, row)) + "</tr>" for row in self._rows()]
-        return f"<table>{head}{''.join(rows)}</table>"
 
 
 def _with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:

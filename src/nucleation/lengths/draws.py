@@ -75,14 +75,10 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     value = parse(key, median.strip(), entry)
     number = NUMBER.fullmatch(median)
     unit = number[3] if number else ""
-    low, high = (
-        parse(
-            key,
-            _with_default_unit(end, unit),
-            entry,
-        )
-        for end in ends
-    )
+    for i, end in enumerate(ends):
+        own = NUMBER.fullmatch(end)
+        ends[i] = f"{end} {unit}" if own is not None and not own[3] else end
+    low, high = (parse(key, end, entry) for end in ends)
     in_order = low <= value <= high and low < high
     if not in_order or not np.isfinite([low, high]).all():
         raise ParameterError(
@@ -90,12 +86,6 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
             "the quantiles of 5 and 95 %, all finite"
         )
     return Range(value, low, high)
-
-
-def _with_default_unit(text: str, unit: str) -> str:
-    number = NUMBER.fullmatch(text)
-    lacks_unit = number is not None and not number[3]
-    return f"{text} {unit}" if lacks_unit else text
 
 
 class Draws(NamedTuple):

@@ -25,25 +25,6 @@ def _crack(s: Setting) -> Numbers:
     return valid(within, length)
 
 
-def _localised(s: Setting) -> Numbers:
-    within = s.a < formulas.LOCALISED_LIMIT * s.b
-    return valid(within, formulas.LOCALISED_FACTOR * s.state_evolution())
-
-
-def _uenishi_rice(s: Setting) -> Numbers:
-    length = formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
-    return valid(s.weakening_rate > 0.0, length)
-
-
-def _thin_layer(s: Setting) -> Numbers:
-    length = valid(s.a < 0.5 * s.b, s.state_evolution())
-    return s.thin(2.0 * s.height * length)
-
-
-def _thin_limit(s: Setting) -> Numbers:
-    return s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi)
-
-
 def _loaded_patch(s: Setting) -> Numbers:
     within = (s.a > 0.0) & (s.a < NEAREST * s.b)
     ratio = where(within, s.a / nan0(s.b), 0.5)
@@ -105,7 +86,10 @@ _OF_ONE_MATERIAL = (
         validity="aging law, far above steady state; a/b < 0.3781",
         needs=f"a/b < {formulas.LOCALISED_LIMIT}",
         beyond=_GAP,
-        compute=_localised,
+        compute=lambda s: valid(
+            s.a < formulas.LOCALISED_LIMIT * s.b,
+            formulas.LOCALISED_FACTOR * s.state_evolution(),
+        ),
     ),
     Length(
         key="rubin_ampuero_crack",
@@ -124,7 +108,10 @@ _OF_ONE_MATERIAL = (
         source="Uenishi and Rice (2003)",
         validity="strength falls linearly with slip, without direct effect",
         needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
-        compute=_uenishi_rice,
+        compute=lambda s: valid(
+            s.weakening_rate > 0.0,
+            formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate),
+        ),
     ),
     Length(
         key="creeping_asperity",
@@ -153,7 +140,7 @@ _OF_ONE_MATERIAL = (
         validity=f"{_STEADY}; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"zeta > 0 and 2 pi H/L < {formulas.THIN}",
-        compute=_thin_limit,
+        compute=lambda s: s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi),
     ),
     Length(
         key="thin_layer",
@@ -163,7 +150,9 @@ _OF_ONE_MATERIAL = (
         validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
-        compute=_thin_layer,
+        compute=lambda s: s.thin(
+            2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution()),
+        ),
     ),
 )
 _OF_TWO_MATERIALS = tuple(

@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -184,28 +184,3 @@ def _of_shortest(
     best = np.nanargmin(found)
     shortest = f"{found[best]:.4g} m at least, at {unknown} = {values[best]:.4g} {unit}"
     return f"{NAMES[criterion]} is {shortest}"
-
-
-def at_share(
-    fits: Sequence[Fit],
-    share: float,
-) -> tuple[Interval, ...]:
-    """Values at which the length fits in a share of several faults, or in more; rising."""
-    starts = np.sort([first for fit in fits for first, _ in fit.intervals])
-    ends = np.sort([last for fit in fits for _, last in fit.intervals])
-    bounds = np.unique(np.concatenate([starts, ends]))
-    if bounds.size < 2:
-        return ()
-    middles = np.sqrt(bounds[1:] * bounds[:-1])
-    number = np.searchsorted(starts, middles) - np.searchsorted(ends, middles)
-    enough = number >= max(share * len(fits), 1.0) - 1e-9
-    edges = np.diff(np.concatenate([[0], enough.astype(int), [0]]))
-    first = bounds[np.flatnonzero(edges > 0)]
-    last = bounds[np.flatnonzero(edges < 0)]
-    return tuple(
-        zip(
-            first.tolist(),
-            last.tolist(),
-            strict=True,
-        )
-    )

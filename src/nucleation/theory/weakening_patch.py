@@ -90,7 +90,9 @@ def patch_basis(number: int) -> _PatchBasis:
     octaves = [_octave(number, power) for power in range(*OCTAVES)]
     wavenumber = np.concatenate([points for points, _ in octaves])
     weights = np.concatenate([own for _, own in octaves])
-    beyond, share = _beyond()
+    nodes, share = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
+    beyond = 2.0 ** OCTAVES[1] / (0.5 * (nodes + 1.0))  # in Q integral_Q^inf F dq/q^2
+    share = 0.5 * share
     n = np.arange(number)
     power = np.subtract.outer(n, n).T  # n - m
     missing = 0.5 * np.eye(number).ravel() - weights.sum(axis=0)
@@ -122,7 +124,12 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
 
     begin, end = 2.0**power, 2.0 ** (power + 1)
     nodes, _ = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
-    q, weight = _gauss(begin, end)
+    edges = np.linspace(begin, end, 1 + max(1, round((end - begin) / SPACING)))
+    half = 0.5 * np.diff(edges)[:, None]
+    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
+    gauss, share = np.polynomial.legendre.leggauss(GAUSS)  # dense enough for Bessel functions
+    q = (middle + half * gauss).ravel()
+    weight = (half * share).ravel()
     polynomials = np.polynomial.legendre.legvander
     position = 2.0 * (np.log2(q) - power) - 1.0
     interpolation = polynomials(position, OCTAVE_POINTS - 1) @ np.linalg.inv(
@@ -133,25 +140,6 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
     products = bessel[:, None] * bessel[None]
     weights = products.reshape(-1, q.size) @ (weight[:, None] * interpolation)
     return 2.0 ** (power + 0.5 * (nodes + 1.0)), 2.0 / np.pi * weights.T
-
-
-def _beyond() -> tuple[Array, Array]:
-    """Points beyond the last octave, at Q, and their weights in ``Q integral_Q^inf F dq/q^2``."""
-    nodes, weights = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
-    return 2.0 ** OCTAVES[1] / (0.5 * (nodes + 1.0)), 0.5 * weights
-
-
-def _gauss(begin: float, end: float) -> tuple[Array, Array]:
-    """Points and weights of an integral over an interval, dense enough for Bessel functions."""
-    edges = np.linspace(
-        begin,
-        end,
-        1 + max(1, round((end - begin) / SPACING)),
-    )
-    half = 0.5 * np.diff(edges)[:, None]
-    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
-    nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
-    return (middle + half * nodes).ravel(), (half * weights).ravel()
 
 
 @dataclasses.dataclass(frozen=True)

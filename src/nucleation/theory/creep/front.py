@@ -98,18 +98,15 @@ class _Front:
 
     def update_slip(self) -> None:
         """Slip in balance with the strength, time and speed; each at three neighbouring lengths."""
-        self.slips = [self._slips(row) for row in self.responses]
+        strength = self.friction - self.initial_stress
+        self.slips = [
+            [edge_slip(*one) for one in zip(row, self.friction, strength, strict=True)]
+            for row in self.responses
+        ]
         before, at, after = (_column(row, "loaded") for row in self.slips)
         self.by_length = (after - before) / (2.0 * STEP * self.length)
         self.time = at * self.distance / self.velocity
         self.speed = self.velocity / (self.by_length * self.distance)
-
-    def _slips(self, row: list) -> list[EdgeSlip]:
-        """Slip of patches of given strength, loaded from a uniform stress."""
-        return [
-            edge_slip(one, friction, friction - self.initial_stress)
-            for one, friction in zip(row, self.friction, strict=True)
-        ]
 
     def update_rates(self) -> None:
         """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x.
