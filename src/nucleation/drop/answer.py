@@ -69,13 +69,25 @@ def _answer(rows: Any) -> Answer:
 
 
 def _none(status: str, reason: str) -> Answer:
-    return Answer(math.nan, math.nan, math.nan, status, reason)
+    return Answer(
+        math.nan,
+        math.nan,
+        math.nan,
+        status,
+        reason,
+    )
 
 
 def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
     """The same answer about both lengths of all faults."""
 
-    found = _answer(at_each(fault, lambda *_: answer, rows=FIELDS))
+    found = _answer(
+        at_each(
+            fault,
+            lambda *_: answer,
+            rows=FIELDS,
+        )
+    )
     return {"runaway_length": found, "drop_length": found}
 
 
@@ -83,7 +95,13 @@ def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
     """L_run and L of one fault, whose friction may weaken so little that it slips slowly."""
     longest, status = known.runaway_length, known.runaway_status
     error = longest * known.runaway_error
-    runaway = Answer(longest, longest - error, longest + error, status, known.runaway_reason)
+    runaway = Answer(
+        longest,
+        longest - error,
+        longest + error,
+        status,
+        known.runaway_reason,
+    )
     if status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
         return runaway, _none(BEYOND, known.runaway_reason)
     if not math.isfinite(known.stability_length):

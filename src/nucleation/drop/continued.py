@@ -72,7 +72,11 @@ def continued(history: ModeHistory) -> CreepPath:
     growth = trend(history, history.rate.real)(lengths)
     frequency = trend(history, history.rate.imag)(lengths)
     rates = (growth + 1j * frequency).astype(complex)
-    even = np.linspace(times[0], times[-1], FINE)
+    even = np.linspace(
+        times[0],
+        times[-1],
+        FINE,
+    )
     return CreepPath(
         time=even,
         length=np.interp(even, times, lengths),
@@ -82,7 +86,13 @@ def continued(history: ModeHistory) -> CreepPath:
 
 def exponent_of(path: CreepPath) -> ComplexArray:
     """``int Lambda dt`` from the first time on."""
-    return np.asarray(cumulative_trapezoid(path.rate, path.time, initial=0))
+    return np.asarray(
+        cumulative_trapezoid(
+            path.rate,
+            path.time,
+            initial=0,
+        )
+    )
 
 
 def roughness_weights(
@@ -139,12 +149,22 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
             left=0.0,
             right=0.0,
         )
-        for length, weights in zip(history.length, history.strength, strict=True)
+        for length, weights in zip(
+            history.length,
+            history.strength,
+            strict=True,
+        )
     ]
     fitted = complex_trend(history, np.array(rows))
 
     def at(length: float, x: Array) -> ComplexArray:
         weights = fitted(length)
-        return np.interp(x - length, behind, weights, left=0.0, right=0.0)
+        return np.interp(
+            x - length,
+            behind,
+            weights,
+            left=0.0,
+            right=0.0,
+        )
 
     return at

@@ -84,7 +84,11 @@ class Growth:
         if reached.all() or not reached[-1]:
             return NO_DROP
         parts = self._dropped(strength)
-        lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)
+        lengths = np.interp(
+            (MEDIAN, EARLY, LATE),
+            parts,
+            self.length,
+        )
         times = np.interp(lengths, self.length, self.time)
         return Drop(*lengths.tolist(), *times.tolist())
 
@@ -178,7 +182,12 @@ def _power(
         distances = history.x[:, None] - history.x
         covariance = correlation(distances, declared.correlation_length)
         weights = history.state
-        shares = np.einsum("ix,xy,iy->i", weights, covariance, weights.conj()).real
+        shares = np.einsum(
+            "ix,xy,iy->i",
+            weights,
+            covariance,
+            weights.conj(),
+        ).real
         return shares / memory**2 * spectrum
     raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
 

@@ -180,7 +180,12 @@ def _weights(
     assert law is not None
     modes = creep.response.modes
     places = creep.slip_rate.size
-    friction = local_coefficients(law, patches.velocity, creep.slip_rate, found.log_states[i])
+    friction = local_coefficients(
+        law,
+        patches.velocity,
+        creep.slip_rate,
+        found.log_states[i],
+    )
     # a mode with the largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
     left = 2.0 * abs(rate) * patch.amplitude(rate)
     by_slip, by_state = left[:places], left[places:]

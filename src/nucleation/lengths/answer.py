@@ -165,7 +165,13 @@ def _critical_answer(fault: FaultLike) -> Answer:
     rows = at_each(fault, point, rows=3)
     length = rows[:1].astype(float)[0]
     warn_of_implausible("critical_length", length, _CRITICAL)
-    return Answer(length, length, length, rows[1], rows[2])
+    return Answer(
+        length,
+        length,
+        length,
+        rows[1],
+        rows[2],
+    )
 
 
 def process_zone(fault: FaultLike) -> Any:
@@ -178,7 +184,11 @@ def process_zone(fault: FaultLike) -> Any:
     """
 
     def zones(systems: Systems) -> Array:
-        b = np.where(systems.b > 0.0, systems.b, np.nan)
+        b = np.where(
+            systems.b > 0.0,
+            systems.b,
+            np.nan,
+        )
         thick = systems.softness / b
         low = 1.0 / (_SPAN * thick)
         high = _SPAN / thick

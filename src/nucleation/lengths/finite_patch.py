@@ -87,7 +87,14 @@ def polynomial() -> Array:
     points = np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
     factors = marginal_loaded_patches(ratios)
-    return cast(Array, chebyshev.chebfit(points, np.log(factors), _DEGREE))
+    return cast(
+        Array,
+        chebyshev.chebfit(
+            points,
+            np.log(factors),
+            _DEGREE,
+        ),
+    )
 
 
 def loaded_patch_factor(a_over_b: _Numbers) -> _Numbers:

@@ -27,7 +27,11 @@ def _crack(s: Setting) -> Numbers:
 
 def _loaded_patch(s: Setting) -> Numbers:
     within = (s.a > 0.0) & (s.a < NEAREST * s.b)
-    ratio = where(within, s.a / nan0(s.b), 0.5)
+    ratio = where(
+        within,
+        s.a / nan0(s.b),
+        0.5,
+    )
     length = loaded_patch_factor(ratio) / (1.0 - ratio) * s.state_evolution()
     return valid(within, length)
 

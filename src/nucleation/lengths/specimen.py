@@ -89,7 +89,11 @@ def specimen_fit(
     size = float(given)
 
     def lengths(values: float | Array) -> Array:
-        return _lengths(fault.replace(**{unknown: values}), criterion, size)
+        return _lengths(
+            fault.replace(**{unknown: values}),
+            criterion,
+            size,
+        )
 
     def excess(log_value: float) -> float:
         found = float(lengths(math.exp(log_value)))
@@ -102,7 +106,15 @@ def specimen_fit(
     bounds = [low] if fits[0] else []
     for i in np.flatnonzero(fits[1:] != fits[:-1]):
         around = np.log(values[i : i + 2])
-        bounds.append(math.exp(brentq(excess, *around, xtol=1e-9)))
+        bounds.append(
+            math.exp(
+                brentq(
+                    excess,
+                    *around,
+                    xtol=1e-9,
+                )
+            )
+        )
     if fits[-1]:
         bounds.append(high)
     intervals = tuple(
@@ -123,7 +135,15 @@ def specimen_fit(
         answer = answers_of_theory(middle)[CRITERIA[criterion]]
         status, reason = str(answer.status), str(answer.reason)
     unit = QUANTITIES[unknown].unit
-    return Fit(unknown, unit, intervals, (low, high), exists, status, reason)
+    return Fit(
+        unknown,
+        unit,
+        intervals,
+        (low, high),
+        exists,
+        status,
+        reason,
+    )
 
 
 def _require_choice(name: str, value: str, allowed: Collection[str]) -> None:

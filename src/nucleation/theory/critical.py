@@ -56,7 +56,11 @@ class CriticalMode(NamedTuple):
 def critical_modes(systems: Systems) -> CriticalMode:
     """The critical modes of systems (n,); NaN where sliding is stable at every wavenumber."""
     k = largest_crossings(systems)
-    return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
+    return CriticalMode(
+        2.0 * np.pi / k,
+        k,
+        marginal_frequencies(systems, k),
+    )
 
 
 def unstable_modes(systems: Systems) -> CriticalMode:
@@ -133,7 +137,14 @@ def largest_crossings(systems: Systems) -> Array:
     one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
     pair = systems.pair.with_heights(lambda height: np.inf * one)
     g, rho = systems._replace(pair=pair).load_and_coupling(one)
-    k = marginal_stiffness(rho, systems.a, systems.zeta)[1] / g
+    k = (
+        marginal_stiffness(
+            rho,
+            systems.a,
+            systems.zeta,
+        )[1]
+        / g
+    )
     k = np.where(k > 0.0, k, np.nan)
     has_layers = np.isfinite(np.minimum.reduce(systems.pair.thicknesses))
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
@@ -194,7 +205,11 @@ def _brackets(systems: Systems) -> Array:
     dips = (middle > 0.0) & (middle < before) & (middle < after)
     owner, place = np.nonzero(dips & (np.arange(POINTS - 2) >= last[:, None]))
     above = k[owner, place + 2]
-    lowest = _minima(systems.at(owner), k[owner, place], above)
+    lowest = _minima(
+        systems.at(owner),
+        k[owner, place],
+        above,
+    )
     found = stability_margin(systems.at(owner), lowest) < 0.0
     bracket[:, owner[found]] = lowest[found], above[found]  # of several the last, the largest k
 

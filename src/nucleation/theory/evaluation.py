@@ -81,7 +81,11 @@ def evaluate(
 
     values = parameters.values()
     if not any(labelled(value) for value in (*values, *arrays)):
-        return np.moveaxis(core(*values, *arrays), -1, 0)
+        return np.moveaxis(
+            core(*values, *arrays),
+            -1,
+            0,
+        )
     import xarray as xr
 
     result = xr.apply_ufunc(

@@ -103,7 +103,13 @@ def marginal_stiffness(
     b = a + zeta
     discriminant = (rho * b) ** 2 + 4.0 * a * zeta
     real = (discriminant >= 0.0) & (b > 0.0)
-    root = np.sqrt(np.where(real, discriminant, np.nan))
+    root = np.sqrt(
+        np.where(
+            real,
+            discriminant,
+            np.nan,
+        )
+    )
     leading = 1.0 + rho**2
     plus = (2.0 * zeta + rho**2 * b + rho * root) / (2.0 * leading)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -72,7 +72,11 @@ def _scaled_sinh_excess(x: Array) -> Array:
     series = 1.0
     for coefficient in _COEFFICIENTS:
         series = 1.0 + series * square * coefficient
-    return np.where(x < 1.0, small**3 / 6.0 * series * decay, direct)
+    return np.where(
+        x < 1.0,
+        small**3 / 6.0 * series * decay,
+        direct,
+    )
 
 
 class Waves:
@@ -287,4 +291,9 @@ def stiffness_with_zone(
     below, *above = np.add.reduce(terms)
     xx, xy, yy, det = (numerator / below for numerator in above)
     scale = 1.0 / ratio  # from over the zone's modulus
-    return Stiffness(scale * xx, scale * xy, scale * yy, scale**2 * det)
+    return Stiffness(
+        scale * xx,
+        scale * xy,
+        scale * yy,
+        scale**2 * det,
+    )

@@ -190,7 +190,13 @@ def checked(
         position = np.unravel_index(bad[0], array.shape)
         at = ", ".join(str(i) for i in position)
         entry_name = f"{name}[{at}]" if at else name
-        raise ParameterError(refusal(entry_name, float(flat[bad[0]]), entry))
+        raise ParameterError(
+            refusal(
+                entry_name,
+                float(flat[bad[0]]),
+                entry,
+            )
+        )
     warn_of_implausible(name, flat, entry)
     return array
 

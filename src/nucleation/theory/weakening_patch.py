@@ -124,7 +124,11 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
 
     begin, end = 2.0**power, 2.0 ** (power + 1)
     nodes, _ = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
-    edges = np.linspace(begin, end, 1 + max(1, round((end - begin) / SPACING)))
+    edges = np.linspace(
+        begin,
+        end,
+        1 + max(1, round((end - begin) / SPACING)),
+    )
     half = 0.5 * np.diff(edges)[:, None]
     middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
     gauss, share = np.polynomial.legendre.leggauss(GAUSS)  # dense enough for Bessel functions
@@ -246,7 +250,15 @@ def weakening_patch_values(
 ) -> Any:
     """W_c (m); plain, in SI units."""
     zeta = checked("outside_zeta", outside_zeta, QUANTITIES["zeta"])
-    a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
+    a = (
+        fault.a
+        if outside_a is None
+        else checked(
+            "outside_a",
+            outside_a,
+            QUANTITIES["a"],
+        )
+    )
     require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
     def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:

@@ -100,7 +100,15 @@ class _Front:
         """Slip in balance with the strength, time and speed; each at three neighbouring lengths."""
         strength = self.friction - self.initial_stress
         self.slips = [
-            [edge_slip(*one) for one in zip(row, self.friction, strength, strict=True)]
+            [
+                edge_slip(*one)
+                for one in zip(
+                    row,
+                    self.friction,
+                    strength,
+                    strict=True,
+                )
+            ]
             for row in self.responses
         ]
         before, at, after = (_column(row, "loaded") for row in self.slips)
@@ -157,7 +165,14 @@ class _Front:
         speed_at_rest = float(self.law.slip_speed(0.0)) / self.distance
         speed = np.full(self.length.size, speed_at_rest)
         log_state = np.full(self.length.size, np.log(self.initial_state))
-        ends = np.append(0.0, np.geomspace(FIRST_REST, 1.0, AT_REST))
+        ends = np.append(
+            0.0,
+            np.geomspace(
+                FIRST_REST,
+                1.0,
+                AT_REST,
+            ),
+        )
         for part in np.diff(ends):  # in steps that grow as the state does
             log_state = _stepped(self.law, log_state, part * self.time, speed)
         return log_state
@@ -257,7 +272,11 @@ def first_growing(
 
     low, high, pair = _bracket(advanced, critical)
     if np.isfinite(pair).all():
-        log_at = np.interp(0.0, pair, np.log([low, high]))
+        log_at = np.interp(
+            0.0,
+            pair,
+            np.log([low, high]),
+        )
         onset = _vanishing(advanced, float(np.exp(log_at)))
         around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
         before, after = fastest(advanced(around))
@@ -305,7 +324,11 @@ def _vanishing(
     growth = oscillating(advanced(at * np.exp(NEAR))).real
     if not np.isfinite(growth).all():
         return at
-    roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
+    roots = np.polynomial.Polynomial.fit(
+        NEAR,
+        growth,
+        2,
+    ).roots()
     real = roots[np.abs(roots.imag) < REAL].real
     if real.size == 0:
         return at

@@ -101,7 +101,11 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> _Stability
     before = patches.rate_near(length * math.exp(-STEP), rate).real
     after = patches.rate_near(length * math.exp(STEP), rate).real
     slope = (after - before) / (2.0 * STEP)
-    with_fewer_modes = patches.rate_near(length, rate, 3 * patches.number // 4).real
+    with_fewer_modes = patches.rate_near(
+        length,
+        rate,
+        3 * patches.number // 4,
+    ).real
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
     error += extrapolation_error(patches.one, length)
     return _StabilityPoint(length, rate.imag, slope, error)

@@ -120,7 +120,14 @@ def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array,
     from scipy.special import jv
 
     modes = mirror_modes(number, even)
-    edges = np.append(0.0, np.geomspace(FINEST, WIDTH, GRADED))
+    edges = np.append(
+        0.0,
+        np.geomspace(
+            FINEST,
+            WIDTH,
+            GRADED,
+        ),
+    )
     edges = np.append(
         edges,
         np.arange(

@@ -174,7 +174,11 @@ def runaway_point(
     log_length, deviation = ladder.threshold(search.duration)
     by_duration = log_length - ladder.threshold(0.5 * search.duration)[0]
     error = math.hypot(DEVIATIONS * deviation, by_duration)
-    return RunawayPoint(math.exp(log_length), max(error, LEAST_ERROR), search.evaluations)
+    return RunawayPoint(
+        math.exp(log_length),
+        max(error, LEAST_ERROR),
+        search.evaluations,
+    )
 
 
 def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:

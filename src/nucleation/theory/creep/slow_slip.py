@@ -44,7 +44,16 @@ class Lifetimes(NamedTuple):
 def cohesive_wavenumber(patches: Patches, critical: float) -> float:
     """k_b (1/m), at which the stiffness equals b: about one over the length of a fast front."""
     one = patches.one
-    k = 2.0 * np.pi / critical * np.geomspace(0.1, 1e4, 500)
+    k = (
+        2.0
+        * np.pi
+        / critical
+        * np.geomspace(
+            0.1,
+            1e4,
+            500,
+        )
+    )
     load = one.load_and_coupling(k)[0]
     return float(
         np.exp(
@@ -121,7 +130,11 @@ class _SlowSlip:
         by_rate, by_state, speed = self._friction(v, logs[1])
         aging = per_state * self.evolve(speed / per_state)
         force = (v - self.steady) @ self.stiffness
-        np.divide(force - by_state * aging, by_rate, out=out[0])
+        np.divide(
+            force - by_state * aging,
+            by_rate,
+            out=out[0],
+        )
         np.negative(aging, out=out[1])
 
     def _friction(
