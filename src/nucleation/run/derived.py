@@ -8,13 +8,16 @@ the first body's.
 import hashlib
 import json
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from ..drop.expected_drop import Block, ExpectedDrop, expected_drop
 from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from .checks import require_uniform_edge
 from .names import sections
 from .run import Run
+
+if TYPE_CHECKING:
+    from ..drop.expected_drop import ExpectedDrop
 
 DIGITS = 10  # significant, of numbers
 _DIGEST_LENGTH = 12  # enough for thousands of faults
@@ -49,8 +52,10 @@ def identity(run: Run, *excluded: str) -> str:
     return hashlib.sha256(content.encode()).hexdigest()[:_DIGEST_LENGTH]
 
 
-def drop_of_run(run: Run) -> ExpectedDrop:
+def drop_of_run(run: Run) -> "ExpectedDrop":
     """The expected drop of a uniform run that is pushed at its edge; raises NoLength."""
+    from ..drop.expected_drop import Block, expected_drop
+
     require_uniform_edge(run, "the law of the drop")
     fault = run.fault
     return expected_drop(
