@@ -1,11 +1,12 @@
 """The dataset of the linear theory: all curves of Figures 2, 3 and S1."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from nucleation.datasets.variables import annotate, declared
 from nucleation.fault import Fault
@@ -14,6 +15,9 @@ from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 
 from .rows import SHARED
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 CURVES = declared(
     """
@@ -72,6 +76,8 @@ def on_rigid_base(fault: Fault, height: Any) -> Fault:
 
 def length_curve(fault: Fault, height: Any) -> xr.Dataset:
     """L_c, wavenumber and frequency of blocks on a rigid base over their height (m) (Figure 3)."""
+    import xarray as xr
+
     modes = on_rigid_base(fault, height).critical_mode()
     values = {
         "critical_length": modes.length,

@@ -1,13 +1,16 @@
 """Rows of tables, and why a run has no length."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from nucleation.datasets.variables import declared
 from nucleation.simulation.event import NEAR
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Row = dict[str, Any]
 """A row of a table: values by column."""
