@@ -52,8 +52,8 @@ def test_identical_half_spaces_with_other_weakening():
     three, ten, low, high = (ratio[key] for key in ((3, 1), (10, 0.3), (1, 1), (1, 2)))
     says(
         "results.md",
-        f"drops at {three:.2f} of Eq. (6) (3), {ten:.2f} (10), and {low:.2f} (1, $H = 1$ m) or "
-        f"{high:.2f} (2 m)",
+        f"drops at {three:.2f} of Eq. (6) for 3, {ten:.2f} for 10, and {low:.2f} ($H = 1$ m) or "
+        f"{high:.2f} (2 m) for 1",
     )
 
 

@@ -15,8 +15,11 @@ import tomllib
 from collections import defaultdict
 
 import pytest
+import yaml
 from docs.samples import PAGES, ROOT, commands, printed, samples
 from snakemake.cli import parse_args
+
+from replication.configuration.load import configure
 
 SHOWN_FILES = {"my.yaml"} | {sample.file for page in PAGES for sample in samples(page)}
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
@@ -146,6 +149,14 @@ def test_python(page, tmp_path, monkeypatch):
             exec(code, namespace)
         if expected is not None:
             assert out.getvalue() == expected, f"{page.name}:{sample.line}"
+
+
+@pytest.mark.parametrize("name", ["studies", "loadings"])
+def test_configurations_of_pages_are_accepted(name):
+    """One had keys of an earlier state of the configuration."""
+    blocks = samples(ROOT / "docs" / f"{name}.md")
+    (shown,) = (block.code for block in blocks if block.language == "yaml")
+    assert configure(yaml.safe_load(shown)).runs
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
