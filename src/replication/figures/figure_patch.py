@@ -162,10 +162,9 @@ _BAND = 3.0  # per cent, within which theory and simulation agree
 
 @style.styled()
 def draw_theory(table: xr.Dataset) -> Figure:
-    """Draw L_s over L_c against zeta/a, both lengths against each other, slip rate and stress."""
-    figure, panels = style.panels(7.6, columns=3)
-    ratio, parity, creep = panels
-    style.letters(*panels)
+    """Draw L_s over L_c against zeta/a, and the theory's error against simulations."""
+    figure, (ratio, parity) = style.panels(7.6, columns=2)
+    style.letters(ratio, parity)
     curve = table["curve_ratio"], table["curve_stability"]
     ratio.semilogx(*curve, color=style.STABILITY, label="thin layers")
     own = laws.where(table, f_beta=0.0)
@@ -199,13 +198,5 @@ def draw_theory(table: xr.Dataset) -> Figure:
     parity.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
     below: style.Options = {"loc": "outside lower center", "ncols": 5, "fontsize": style.SMALL}
     style.legend(figure, parity, title="Studies in (b)", **below)
-    if "shown_beta" in table:
-        for i, shade in enumerate(style.shades(table.sizes["case"])):
-            case = table.isel(case=i)
-            label = rf"$f\beta = {float(case['shown_beta']):.2g}$"
-            creep.plot(case["shown_x"], case["shown_stress"], color=shade, label=label)
-            creep.plot(case["shown_x"], case["shown_rate"], "--", color=shade)
-        creep.legend(fontsize=style.SMALL)
-    creep.set(xlabel="$x/L_s$", ylabel=r"$\sigma/\sigma_0$;  $v/V$ (dashed)", ylim=(0.0, 2.2))
     ratio.legend(fontsize=style.SMALL)
     return figure
