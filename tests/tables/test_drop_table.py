@@ -1,10 +1,8 @@
 """Drops beside the law: what stands in the table, and that it is the law's."""
 
 import dataclasses
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 from drop.test_delay import LOAD, PARAMETERS, START, history
@@ -103,17 +101,6 @@ def test_figure_has_every_realisation_and_group(table):
     assert [a.get_title() for a in (load, state)] == ["fluctuating load", "fluctuating state"]
     drawn = [tuple(line.get_ydata()) for line in load.lines]
     assert any(np.allclose(y, [0.32 / 0.45]) for y in drawn if len(y) == 1)
-
-
-def test_distributions_are_those_of_the_committed_drops():
-    """One for each kind and strength with enough realisations: their lengths, in order."""
-    frame = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "drop.csv")
-    table = xr.Dataset({name: ("run", frame[name]) for name in frame})
-    table = table.merge(module.law_curves({}))  # the law has no part in them
-    steps = figure_drop.draw(table).axes[3].lines[:-1:2]
-    many = [g for _, g in frame.groupby(list(figure_drop.ENSEMBLE)) if len(g) >= figure_drop.FEWEST]
-    expected = {tuple(np.sort(g["length"] / g["critical_length"])) for g in many}
-    assert {tuple(line.get_xdata()) for line in steps} == expected and len(expected) == 4
 
 
 def test_curves_are_the_law_at_their_strengths():

@@ -38,17 +38,12 @@ def test_a_missing_run_is_a_gap_and_not_passed_over():
     assert int(np.isnan(ratio).sum()) == 1
 
 
-def test_figure_shows_the_ratios_and_the_lengths():
+def test_figure_shows_the_ratios():
     figure = figure_weakening.draw_map(map_files(lengths())[".nc"])
-    stable, quiet, noisy, slices = figure.axes[:4]
+    stable, quiet, noisy = figure.axes[:3]
     for axes, value in ((stable, 0.5), (quiet, 0.6151), (noisy, 0.625)):
         (image,) = axes.collections[:1]
         np.testing.assert_allclose(image.get_array(), value, atol=1e-4)
-    curves = [line.get_ydata() for line in slices.lines if len(line.get_xdata()) == 3]
-    for i in range(0, len(curves), 3):
-        theory, drop, stability = curves[i : i + 3]
-        np.testing.assert_allclose(drop / theory, 0.6151, rtol=1e-4)
-        np.testing.assert_allclose(stability / theory, 0.5)
 
 
 @pytest.mark.slow

@@ -23,9 +23,7 @@ _STRENGTH: style.Options = {
     "xlim": (3e-13, 3e-1),
     "xlabel": r"Relative strength $\epsilon$",
 }
-_QUANTILES = {"law_low": 0.16, "law_length": 0.5, "law_high": 0.84}
 ENSEMBLE = ("fault", "kind", "correlation_length", "strength", "n_x", "longest_step")
-FEWEST = 8  # realisations for a distribution
 _GOAL = 0.03  # relative error of the law's mean
 # factors that separate kinds of the same strength
 _ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
@@ -34,15 +32,12 @@ _ASIDE = {"normal_load": 0.65, "state": 1.3, "strength": 2.2}
 @style.styled()
 def draw(table: xr.Dataset) -> Figure:
     """Draw lengths at the drop against strength, and the law beside them."""
-    figure, panels = style.panels(13.0, rows=2, columns=2)
-    load, state, ratio, spread = panels.flat
-    style.letters(load, state, ratio, spread)
+    figure, (load, state, ratio) = style.panels(8.0, columns=3)
+    style.letters(load, state, ratio)
     _draw_strengths(load, table, "normal_load")
     _draw_strengths(state, table, "state")
     load.set_ylabel("Length over theory $L/L_c$")
-    found = ensembles(table)
-    _draw_ratios(ratio, found)
-    _draw_distributions(spread, found)
+    _draw_ratios(ratio, ensembles(table))
     above: style.Options = {"loc": "outside upper center", "ncols": 4}
     style.legend(
         figure,
@@ -156,48 +151,3 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
     )
     axes.set(ylabel="Simulated mean over the law", **_STRENGTH)
     style.legend(axes, axes, loc="upper left", **style.BOXED)
-
-
-def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
-    """The part of the realisations with a drop below a length, and the law's Rayleigh one."""
-    for runs in found:
-        if runs.sizes["run"] >= FEWEST:
-            first = runs.isel(run=0)
-            marker, colour, kind = _KINDS[str(first["kind"].values)]
-            strength = float(first["strength"])
-            label = rf"{kind}, $10^{{{np.log10(strength):.0f}}}$"
-            dashes = "-" if strength < 1e-4 else "--"
-            theory = float(first["critical_length"])
-            lengths = np.sort(runs["length"].values) / theory
-            parts = (np.arange(lengths.size) + 0.5) / lengths.size
-            axes.step(
-                lengths,
-                parts,
-                dashes,
-                where="mid",
-                color=colour,
-                lw=1.1,
-                label=label,
-            )
-            law = [float(first[name]) / theory for name in _QUANTILES]
-            axes.plot(
-                law,
-                [*_QUANTILES.values()],
-                marker,
-                color=colour,
-                mfc="white",
-                ms=3.5,
-            )
-    axes.set(ylim=(0.0, 1.0), xlabel="Length over theory $L/L_c$", ylabel="Part that has dropped")
-    if axes.lines:
-        axes.plot(
-            [],
-            [],
-            "o",
-            mfc="white",
-            ms=3.5,
-            label="law: 16, 50, 84 %",
-        )
-        low, high = axes.get_xlim()
-        axes.set_xlim(low - 0.6 * (high - low), high)  # room for the legend
-        axes.legend(loc="upper left", **style.BOXED)

@@ -5,7 +5,6 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
@@ -152,17 +151,15 @@ def draw_patches(table: xr.Dataset) -> Figure:
 
 _STEPS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1.0)  # of the colours
 _NOTHING = "#D9D9D9"
-_SLICES = 3  # weakenings in the panel over height
 
 
 @style.styled()
 def draw_map(grid: xr.Dataset) -> Figure:
-    """Draw ratios of lengths over height and weakening as images, and lengths over height.
+    """Draw ratios of lengths over height and weakening.
 
-    The images show stability, and the drop at the weakest and the strongest perturbation. Lengths
-    over height are drawn for a few weakenings.
+    They are of stability, and of the drop at the weakest and the strongest perturbation.
     """
-    figure, panels = style.panels(13.0, rows=2, columns=2)
+    figure, panels = style.panels(6.4, columns=3, sharey=True)
     stability = grid["stability_ratio"].mean("seed", skipna=False).isel(strength=0)
     drop = grid["length_ratio"].mean("seed", skipna=False)
     shown = [(r"(a) patch turns unstable, $L_s/L_c$", stability)]
@@ -171,7 +168,7 @@ def draw_map(grid: xr.Dataset) -> Figure:
         title = rf"({letter}) drop, load $10^{{{exponent:.0f}}}$, $L/L_c$"
         shown.append((title, drop.isel(strength=i)))
     norm = BoundaryNorm(_STEPS, 256, extend="both")
-    for axes, (title, ratio) in zip(panels.flat, shown, strict=False):
+    for axes, (title, ratio) in zip(panels, shown, strict=True):
         x, y = _edges(ratio["height"].values), _edges(ratio["zeta_over_a"].values)
         values = ratio.transpose("zeta_over_a", "height")
         image = axes.pcolormesh(
@@ -182,11 +179,11 @@ def draw_map(grid: xr.Dataset) -> Figure:
             rasterized=True,
         )
         axes.set(facecolor=_NOTHING, xscale="log", yscale="log", title=title)
-        axes.set(xlabel="Block height $H$ (m)", ylabel=r"Weakening $\zeta/a$")
+        axes.set_xlabel("Block height $H$ (m)")
         style.plain_numbers(axes.yaxis, (1.5, 2.0, 3.0, 4.0, 6.0))
         axes.tick_params(which="both", direction="out", top=False, right=False)
-    figure.colorbar(image, ax=panels[:, 1], label="(a) to (c): length over theory")
-    _draw_heights(panels[1, 1], grid, stability, drop.isel(strength=0))
+    panels[0].set_ylabel(r"Weakening $\zeta/a$")
+    figure.colorbar(image, ax=panels, label="Length over theory")
     return figure
 
 
@@ -196,61 +193,3 @@ def _edges(values: Array) -> Array:
         return np.array([0.9, 1.1]) * values
     middle = np.sqrt(values[1:] * values[:-1])
     return np.r_[values[0] ** 2 / middle[0], middle, values[-1] ** 2 / middle[-1]]
-
-
-def _draw_heights(
-    axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray
-) -> None:
-    """Theory, stability and drop over height for a few weakenings."""
-    weakenings = grid["zeta_over_a"].values
-    height = grid["height"].values
-    places = np.linspace(0, weakenings.size - 1, _SLICES + 2)[1:-1]
-    shown = np.unique(places.round().astype(int))
-    for number, i in enumerate(shown):
-        marker, colour = style.look(number)
-        theory = grid["critical_length"].values[:, i]
-        axes.plot(height, theory, color=colour)
-        axes.plot(
-            height,
-            theory * drop[:, i],
-            marker,
-            color=colour,
-            ms=3.5,
-        )
-        axes.plot(
-            height,
-            theory * stability[:, i],
-            "--",
-            color=colour,
-            lw=0.9,
-        )
-        name, end = rf"$\zeta/a = {weakenings[i]:.2g}$", (height[-1], theory[-1])
-        style.note(
-            axes,
-            name,
-            end,
-            (5.0, 0.0),
-            va="center",
-            color=colour,
-        )
-    axes.plot([], [], label="theory $L_c$")
-    axes.plot(
-        [],
-        [],
-        "o",
-        ms=3.5,
-        label="drop $L$",
-    )
-    axes.plot(
-        [],
-        [],
-        "--",
-        lw=0.9,
-        label="$L_s$",
-    )
-    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
-    axes.set_title("(d) lengths over height")
-    for axis, room in ((axes.xaxis, 0.3), (axes.yaxis, 0.15)):  # for the labels and the legend
-        low, high = axis.get_view_interval()
-        axis.set_view_interval(low, high * (high / low) ** room, ignore=True)
-    axes.legend(ncols=3, fontsize=style.SMALL, loc="upper left", columnspacing=1.2)
