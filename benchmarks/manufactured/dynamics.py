@@ -66,8 +66,8 @@ class _GivenDisplacement(Interface):
         )
 
 
-class Manufactured(Drive):
-    """The solver's own step under the loads of a displacement; it is its `dynamics`' drive.
+class Manufactured:
+    """The solver's own step under the loads of a displacement; it drives its `dynamics`.
 
     exact : displacement of the block; with friction, sigma_yy at y = 0 is compressive.
     log_state : psi = log(phi) as a sum of terms at y = 0; without any, the displacement of the
@@ -78,8 +78,6 @@ class Manufactured(Drive):
     """
 
     body: Body
-    velocity = 0.0
-    moves = True
 
     def __init__(
         self,
@@ -100,7 +98,8 @@ class Manufactured(Drive):
         if not log_state:
             interface = _GivenDisplacement(self.friction, exact_w=self.exact_w)
         scheme = BDF(self.body.crossing_time)
-        self.dynamics = Dynamics(self.body, interface, self, scheme)
+        drive = Drive(self.velocity, self.at, self.load)
+        self.dynamics = Dynamics(self.body, interface, drive, scheme)
 
     def body_of(self, run: Run) -> Body:
         """Make the elastic body."""

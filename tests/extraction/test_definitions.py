@@ -10,9 +10,15 @@ from nucleation.simulation.event import slipping_edge, slipping_zone
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 
 
+def onset_of(time, force, drop=0.02, fast=True, ruptures=False):
+    """The onset in a patch that is long enough."""
+    masks = (np.broadcast_to(mask, time.shape) for mask in (fast, True, ruptures))
+    return find_onset(time, force, MEMORY_TIME, drop, *masks)
+
+
 def test_onset_is_the_start_of_the_abrupt_drop():
     time, force = force_record()
-    onset = find_onset(time, force, MEMORY_TIME, 0.02)
+    onset = onset_of(time, force)
     assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
     assert time[onset.end] == pytest.approx(10.0 + 0.004 * 0.4, abs=2e-4)
     assert onset.start <= onset.steep <= onset.end
@@ -20,15 +26,13 @@ def test_onset_is_the_start_of_the_abrupt_drop():
 
 @pytest.mark.parametrize("given", [{"fall": 2.0, "size": 0.1, "end": 20.0}, {"size": 0.01}])
 def test_a_slow_decrease_and_a_small_drop_are_no_event(given):
-    assert find_onset(*force_record(**given), MEMORY_TIME, 0.02) is None
+    assert onset_of(*force_record(**given)) is None
 
 
 def test_the_first_of_two_events_counts():
     time, force = force_record()
     later, again = force_record(onset=5.0, end=7.0)
-    onset = find_onset(
-        np.append(time, time[-1] + 0.01 + later), np.append(force, again), MEMORY_TIME, 0.02
-    )
+    onset = onset_of(np.append(time, time[-1] + 0.01 + later), np.append(force, again))
     assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
 
 
@@ -37,8 +41,8 @@ def test_a_force_that_follows_its_load_is_no_event():
     before = time < 10.0
     force[before] *= 1 + 0.03 * np.sin(60.0 * time[before])
     fast = time > 10.0002
-    early = find_onset(time, force, MEMORY_TIME, 0.02)
-    onset = find_onset(time, force, MEMORY_TIME, 0.02, fast)
+    early = onset_of(time, force)
+    onset = onset_of(time, force, fast=fast)
     assert time[early.end] < 1.0
     assert time[onset.end] == pytest.approx(10.0, abs=0.004)
     assert fast[onset.end]
@@ -82,7 +86,7 @@ def test_both_ends_of_a_slipping_zone_are_found_between_nodes(middle, periodic):
 def test_a_rise_by_a_tenth_of_the_fall_after_it_ends_the_drop(rise, belongs):
     """The force falls from 1.5, rises again to 1, and falls to 0."""
     force = np.array([1.4, 1.5, 1.0 - rise, 1.0, 0.5, 0.0])
-    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.99)
+    onset = onset_of(np.arange(force.size) * 1e-3, force, 0.99)
     assert force[onset.start] == (1.5 if belongs else 1.0)
 
 
@@ -91,7 +95,7 @@ def test_a_force_that_a_rupture_raises_is_past_its_onset(ruptured):
     """It falls a little from 1.5, is raised to 2 by the rupture, and falls to 1."""
     force = np.array([1.4, 1.5, 1.49, 1.48, 1.48, 1.7, 2.0, 1.0])
     ruptures = np.isin(np.arange(force.size), ruptured)
-    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.4, ruptures=ruptures)
+    onset = onset_of(np.arange(force.size) * 1e-3, force, 0.4, ruptures=ruptures)
     assert force[onset.start] == (1.5 if ruptured else 2.0)
     assert onset.start <= onset.steep <= onset.end == force.size - 1
 
@@ -108,5 +112,5 @@ def test_the_steep_part_falls_faster_than_loading_has_raised_the_force(falls, st
     """The force rises by 0.1 in a step up to the maximum, 1.4, which is step 4."""
     rises = 1.0 + 0.1 * np.arange(5)
     force = np.concatenate((rises, rises[-1] - np.cumsum(falls)))
-    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.25)
+    onset = onset_of(np.arange(force.size) * 1e-3, force, 0.25)
     assert (onset.start, onset.steep) == (4, steep)

@@ -52,12 +52,9 @@ def test_numbers_of_a_steady_front():
     assert found["largest_rate"] == pytest.approx(100.0 * VELOCITY)
     assert found["rupture_time"] == pytest.approx(0.0)  # 1 mm/s is not exceeded
     assert found["regular_share"] == pytest.approx(1.0, abs=0.03)
-    assert found["middle_stress"] == 0.0
-    assert found["largest_normal_stress"] == pytest.approx(-0.8 * STRESS)
     opened = run.assign(sigma_yy=run["sigma_yy"].copy(deep=True))
     opened["sigma_yy"][-1, 5] = -0.1 * STRESS  # in the rupture
     later = measure(Record(opened))
-    assert later["largest_normal_stress"] == pytest.approx(-0.8 * STRESS)
     assert later["largest_normal_stress_ever"] == pytest.approx(-0.1 * STRESS)
     assert found["usual_step"] == pytest.approx(0.01)
     assert found["shortest_step"] == pytest.approx(1e-3)
@@ -80,10 +77,9 @@ def test_ends_of_the_acceleration(slower, faster, time):
 
 
 def test_slip_law_needs_the_regularisation_where_nothing_slips():
-    """Ahead of the front v = 1e-11 m/s, a hundredth of v0; behind it v = 1e4 v0."""
-    aging, slip = (measure(Record(made_up(law))) for law in ("aging", "slip"))
-    assert aging["state_rate_share"] == pytest.approx(1.0)  # dphi/dt = 1 with and without v0
-    assert slip["state_rate_share"] < 0.5 < slip["state_rate_share_patch"]
+    """Ahead of the front v = 1e-11 m/s, a hundredth of v0; in the patch v = 1e4 v0."""
+    found = measure(Record(made_up("slip")))
+    assert found["state_rate_share_patch"] > 0.95, "the patch alone: ahead of it, no point is"
 
 
 def test_run_without_event_has_no_numbers_but_those_of_its_steps():

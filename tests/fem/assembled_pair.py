@@ -1,7 +1,7 @@
 """A pair of blocks by its assembled sparse matrix, for comparison with the separable solver."""
 
 import numpy as np
-from fem.assembled_problem import AssembledBlock
+from fem.assembled_problem import AssembledBlock, nodal_forces
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
@@ -55,8 +55,8 @@ class AssembledPair:
         parts = body.parts(load)
         places = ((self.x, self.y, 1.0), (self.below_x, self.below_y, -1.0))
         for part, (x, y, sign) in zip(parts, places, strict=True):
-            tangential, normal = body.modes.interface_forces(part.modes.transpose(1, 0, 2))
-            forces[x[:, 1:]], forces[y[:, :-1]] = tangential, sign * normal
+            tangential, normal = nodal_forces(body.modes, part.modes)
+            forces[x[:, 1:]], forces[y] = tangential, sign * normal
             forces[y[:, -1]] = sign * part.edge
         return forces
 

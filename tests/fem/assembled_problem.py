@@ -8,6 +8,13 @@ from nucleation.fem.grid import Grid
 from nucleation.model.material import Material
 
 
+def nodal_forces(modes, levels):
+    """Nodal forces (N/m) at 1..n_x and 0..n_x whose generalised ones per mode are given."""
+    one, nothing = np.ones(modes.n_x), np.zeros((2, modes.n_x))
+    by_level = [modes.forces(level, one, nothing) for level in levels]
+    return map(np.array, zip(*by_level, strict=True))
+
+
 class AssembledBlock:
     """All nodes of the block; u_x = V t on the left edge, u_y = 0 and given u_x at the bottom."""
 

@@ -15,9 +15,9 @@ from nucleation.simulation.event import (
     FEW,
     DropWatch,
     Outcome,
-    PatchBursts,
     front_width,
     long_after,
+    patch_is_fast,
 )
 from nucleation.simulation.run import simulate
 from nucleation.simulation.start import composed
@@ -109,7 +109,10 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     assert made["fastest_position"].values[fastest] > 0.9 * THICK.block.length
     force = np.abs(made["driving_force"].values)
     fast = made["maximal_slip_rate"].values > 10.0 * THICK.fault.velocity
-    naive_onset = find_onset(made["step_time"].values, force, THICK.memory_time, 0.02, fast)
+    always = np.ones(fast.size, dtype=bool)
+    naive_onset = find_onset(
+        made["step_time"].values, force, THICK.memory_time, 0.02, fast, always, ~always
+    )
     assert naive_onset is not None, "anything that slips fast was enough"
     assert made.attrs["status"].startswith(Outcome.END_TIME.value) and record.onset is None
 
@@ -125,12 +128,12 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
 )
 def test_whose_burst_it_is(kind, time, position, expected):
     parameters = PAPER_RUN.replaced(loading=kind, stress_rate=1.0 if kind == "remote" else 0.0)
-    bursts = PatchBursts(parameters)
     slow, fast = 9.0 * parameters.fault.velocity, 11.0 * parameters.fault.velocity
-    assert not bursts.at(time, slow, position)
-    assert bursts.at(time, fast, position) == expected
-    assert bursts.at(time + 1e-3, fast, 0.9) == expected, "until the burst is over"
-    assert not bursts.at(time + 2e-3, slow, position)
+    assert not patch_is_fast(parameters, False, time, slow, position)
+    assert patch_is_fast(parameters, False, time, fast, position) == expected
+    later = patch_is_fast(parameters, expected, time + 1e-3, fast, 0.9)
+    assert later == expected, "until the burst is over"
+    assert not patch_is_fast(parameters, later, time + 2e-3, slow, position)
 
 
 COARSE = PAPER_RUN.replaced(
@@ -197,6 +200,9 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
     assert "; not resolved: at the onset the front is 1.0 elements wide" in status
     assert "; no event: the drop at t = 0.4" in status
     force = np.abs(made["driving_force"].values)
-    first = find_onset(record.step_time, force, COARSE.memory_time, 0.02, record._fast)
+    always = np.ones(force.size, dtype=bool)
+    first = find_onset(
+        record.step_time, force, COARSE.memory_time, 0.02, record._fast, always, ~always
+    )
     at_first = record.lengths[record.frames_at(record.step_time[[first.start]])[0]]
     assert at_first < (FEW + 1) * X[1] < record.lengths_at_drop[0, 0]

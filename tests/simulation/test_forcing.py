@@ -8,7 +8,6 @@ from parts import with_parts
 
 from nucleation.model.settings import KINDS, Perturbation
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
 from nucleation.simulation.perturbed import Series, profile
 from nucleation.simulation.run import simulate
@@ -150,17 +149,11 @@ def last_step(parameters, drive=None, interface=None):
     return state, report
 
 
-@dataclasses.dataclass(frozen=True)
-class Stronger(Steady):
-    """The same friction at all nodes, but stronger."""
-
-    def at(self, time):
-        return super().at(time)._replace(strength=np.full(17, STRENGTH))
-
-
 def test_strength_multiplies_friction():
     friction, steady = SLIDING.law, composed(SLIDING).drive
-    _, found = last_step(SLIDING, Stronger(steady.velocity, steady.constant_load))
+    strength = np.full(17, STRENGTH)
+    drive = steady._replace(at=lambda time: steady.at(time)._replace(strength=strength))
+    _, found = last_step(SLIDING, drive)
     stronger = dataclasses.replace(
         friction,
         base_friction=STRENGTH * friction.base_friction,

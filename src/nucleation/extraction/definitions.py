@@ -64,9 +64,9 @@ def find_onset(
     force: Array,
     window: float,
     drop: float,
-    fast: NDArray[np.bool_] | None = None,
-    long_enough: NDArray[np.bool_] | None = None,
-    ruptures: NDArray[np.bool_] | None = None,
+    fast: NDArray[np.bool_],
+    long_enough: NDArray[np.bool_],
+    ruptures: NDArray[np.bool_],
 ) -> Onset | None:
     """Find the first abrupt drop of the force in a run.
 
@@ -77,12 +77,9 @@ def find_onset(
     window, drop : float
         Time (s) within which the force has to fall, and the fraction by which
         (:class:`~nucleation.simulation.event.DropWatch`).
-    fast : ndarray of bool, shape (steps,), optional
-        Whether the patch slips fast at these times; by default it always does.
-    long_enough : ndarray of bool, shape (steps,), optional
-        Whether the patch has been longer than a few elements by then; by default it always has.
-    ruptures : ndarray of bool, shape (steps,), optional
-        Whether the interface slips as fast as in a rupture; by default it never does.
+    fast, long_enough, ruptures : ndarray of bool, shape (steps,)
+        Whether the patch slips fast at these times, whether it has been longer than a few elements
+        by then, and whether the interface slips as fast as in a rupture.
 
     Returns
     -------
@@ -90,24 +87,16 @@ def find_onset(
         None if there is no event.
     """
     watch = DropWatch(window, drop)
-    always = np.ones(time.size, dtype=bool)
-    fast = always if fast is None else fast
-    long_enough = always if long_enough is None else long_enough
 
     def falls(step: int) -> bool:
-        if not watch.dropped(
-            time[step],
-            force[step],
-            fast[step],
-        ):
-            return False
-        return bool(long_enough[np.searchsorted(time, watch.since)])
+        dropped = watch.dropped(time[step], force[step], fast[step])
+        return dropped and bool(long_enough[np.searchsorted(time, watch.since)])
 
     end = next(filter(falls, range(time.size)), None)
     if end is None:
         return None
     start = _last_maximum(force, end)
-    if ruptures is not None and ruptures[start]:
+    if ruptures[start]:
         (slower,) = np.nonzero(~ruptures[:start])
         start = _last_maximum(force, int(slower[-1]))
     loading_rate = (force[start] - force[0]) / max(time[start] - time[0], 1e-300)

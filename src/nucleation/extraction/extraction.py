@@ -14,13 +14,21 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets import DatasetError
+from ..datasets.variables import Variable
 from ..run.run import Run
-from ..simulation.event import WINDOW, Outcome, PatchBursts, long_after, patch_lengths
+from ..simulation.event import WINDOW, Outcome, long_after, patch_is_fast, patch_lengths
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
-READ = ("onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high")
-"""What :func:`extract` returns (s, m), each with the ends of its error bar."""
+MEASURED = {
+    "onset_time": Variable("s", "onset of the event", "t"),
+    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
+    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
+    "length": Variable("m", "length at the drop", "L"),
+    "length_low": Variable("m", "smallest length over the definitions", "L"),
+    "length_high": Variable("m", "largest length over the definitions", "L"),
+}
+"""What :func:`extract` returns, each with the ends of its error bar."""
 
 
 def parameters_of(dataset: xr.Dataset) -> Run:
@@ -65,35 +73,28 @@ class Record:
     @cached_property
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
-        rates = self.simulation["slip_rate"].values
-        ruptures = None
-        if self.run.fault.loading == "edge":
-            ruptures = self.fastest > RUPTURE * self.velocity
+        long = long_after(self.run, self.x, self.time, self.simulation["slip_rate"].values)
+        ruptures = self.fastest > RUPTURE * self.velocity
         return find_onset(
             self.step_time,
             np.abs(self.simulation["driving_force"].values),
             WINDOW * self.run.memory_time,
             self.settings.drop,
             self._fast,
-            self.step_time
-            > long_after(
-                self.run,
-                self.x,
-                self.time,
-                rates,
-            ),
-            ruptures,
+            self.step_time > long,
+            ruptures & (self.run.fault.loading == "edge"),
         )
 
     @property
     def _fast(self) -> NDArray[np.bool_]:
         """Whether the patch slips fast at each step; another solver records no position."""
-        bursts = PatchBursts(self.run)
         places = np.zeros(self.step_time.size)
         if "fastest_position" in self.simulation:
             places = self.simulation["fastest_position"].values
-        steps = zip(self.step_time, self.fastest, places, strict=True)
-        return np.array([bursts.at(*step) for step in steps])
+        found = [False]
+        for step in zip(self.step_time, self.fastest, places, strict=True):
+            found.append(patch_is_fast(self.run, found[-1], *step))
+        return np.array(found[1:])
 
     @property
     def drop_times(self) -> Array:
@@ -154,7 +155,7 @@ def extract(
     Returns
     -------
     dict
-        :data:`READ` by name (s, m); all NaN if the run has no event.
+        :data:`MEASURED` by name (s, m); all NaN if the run has no event.
 
     Examples
     --------
@@ -175,7 +176,7 @@ def extract(
                 UserWarning,
                 stacklevel=2,
             )
-        return dict.fromkeys(READ, float("nan"))
+        return dict.fromkeys(MEASURED, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
     values = (
@@ -186,4 +187,4 @@ def extract(
         edges.min(),
         edges.max(),
     )
-    return dict(zip(READ, map(float, values), strict=True))
+    return dict(zip(MEASURED, map(float, values), strict=True))

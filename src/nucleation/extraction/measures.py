@@ -24,16 +24,6 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
-MEASURED = {
-    "onset_time": Variable("s", "onset of the event", "t"),
-    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
-    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
-    "length": Variable("m", "length at the drop", "L"),
-    "length_low": Variable("m", "smallest length over the definitions", "L"),
-    "length_high": Variable("m", "largest length over the definitions", "L"),
-}
-"""Results of :func:`.extraction.extract`."""
-
 EDGES = ("usual", "high", "low")
 INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {
@@ -67,11 +57,10 @@ MEASURES = {
     "patch_rate_low": Variable("m/s", "smallest of the medians over the patch"),
     "patch_rate_high": Variable("m/s", "largest of the medians over the patch"),
     "regular_share": Variable("1", "part of the patch at the onset that slips faster than 10 v0"),
-    "middle_stress": Variable("Pa", "shear stress half-way along the block at the onset"),
-    "largest_normal_stress": Variable("Pa", "largest sigma_yy on the interface up to the onset"),
     "shortest_step": Variable("s", "shortest time step after the onset"),
-    "state_rate_share": Variable("1", "part of x and t to the onset where v does for w in dphi/dt"),
-    "state_rate_share_patch": Variable("1", "the same within the creep patch"),
+    "state_rate_share_patch": Variable(
+        "1", "part of the patch and of time to the onset where v does for w in dphi/dt"
+    ),
     **BY_DEFINITION,
 }
 """Results of :func:`measure`; over realisations each is averaged."""
@@ -127,8 +116,6 @@ def _patch(record: Record) -> dict[str, float]:
         return found
     rate = record.simulation["slip_rate"].values[until]
     state = record.simulation["state"].values[until]
-    stress = record.simulation["shear_stress"].values[until]
-    normal = record.simulation["sigma_yy"].values[until]
     inside = x <= length[until, None]
     medians = np.array([np.median(np.abs(rate[i, inside[i]])) for i in developed])
     first = developed[0]
@@ -145,9 +132,6 @@ def _patch(record: Record) -> dict[str, float]:
         "patch_rate_low": float(medians.min()),
         "patch_rate_high": float(medians.max()),
         "regular_share": float(regular[inside[at]].mean()),
-        "middle_stress": float(np.abs(stress[at, x.size // 2])),
-        "largest_normal_stress": float(normal.max()),
-        "state_rate_share": float(np.average(good, weights=weight)),
         "state_rate_share_patch": float(np.average(good, weights=weight * inside)),
     }
 

@@ -214,19 +214,3 @@ def interface_blocks(
             stiffness[b, a] = stiffness[a, b]
             coupling[a, b] = 0.0 if i == n else half * (h[i + j] - h[i - j])
             coupling[b, a] = half * (h[i + j] + h[i - j]) if j < n else 0.0
-
-
-@compiled_loop
-def relative_error(found, first, second):
-    """The largest error of two guesses over the largest value found; infinite if all are zero."""
-    largest = 0.0
-    error = 0.0
-    for j in range(found.size):
-        value = found[j]
-        largest = max(largest, abs(value))
-        error = max(
-            error,
-            abs(first[j] - value),
-            abs(second[j] - value),
-        )
-    return error / largest if largest > 0.0 else np.inf

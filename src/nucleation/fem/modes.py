@@ -32,6 +32,42 @@ class _Modes:
         self.edge_weights = np.zeros((3, grid.n_x))  # of each mode in the forces on the edge
 
 
+# An interface has some hundred nodes: calling a transform of SciPy takes three times as long as the
+# transform itself. With rocket-fft, compiled code calls the same transforms; results are equal to
+# the last bit.
+
+
+@compiled
+def _sine_amplitudes(nodal: Array) -> Array:
+    """Amplitudes of values of u_x at the nodes 1..n_x (last axis)."""
+    # the inverse transform counts the last node half, and so does type 3
+    return fft.dst(nodal, 3) / nodal.shape[-1]
+
+
+@compiled
+def _nodal_forces(
+    stiffness: Array, amplitudes: Array, reduced: Array, alternating: Array
+) -> Components:
+    """Nodal forces of ``(stiffness * amplitudes - reduced) n_x/2`` per mode."""
+    n = amplitudes.size
+    modal = np.empty((2, n))
+    for m in range(n):
+        along_x = stiffness[0, m] * amplitudes[m] - reduced[0, m]
+        along_y = stiffness[1, m] * amplitudes[m] - reduced[1, m]
+        modal[0, m] = along_x * alternating[m]
+        modal[1, m] = along_y
+    forces = fft.dct(modal, 2)
+    tangential = np.empty(n)
+    normal = np.empty(n + 1)
+    for i in range(n):
+        tangential[i] = 0.5 * forces[0, n - 1 - i]  # reversed, alternating cosines are sines
+        normal[i] = 0.5 * forces[1, i]
+    tangential[n - 1] *= 0.5  # half of an element belongs to the last node
+    normal[0] *= 0.5  # and to the first one
+    normal[n] = 0.0  # the modes do not act there along y
+    return tangential, normal
+
+
 class BlockModes(_Modes):
     """The modes of a block: ``theta_m = (m + 1/2) pi / n_x``.
 
@@ -41,6 +77,7 @@ class BlockModes(_Modes):
     """
 
     has_edge = True  # the right edge has unknowns u_y of its own
+    sine_amplitudes = staticmethod(_sine_amplitudes)
 
     def __init__(self, grid: Grid) -> None:
         mode = np.arange(grid.n_x)
@@ -54,10 +91,6 @@ class BlockModes(_Modes):
         # int chi w' and int chi' w, chi being the edge's hat function, and the value beside it
         weights = [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
         self.edge_weights = self._alternating * np.array(weights)
-
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Amplitudes of values of u_x at the nodes 1..n_x (last axis)."""
-        return _sine_amplitudes(nodal)
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Values of u_x at the nodes 1..n_x (last axis)."""
@@ -79,18 +112,6 @@ class BlockModes(_Modes):
     ) -> Components:
         """Nodal forces (N/m) at 1..n_x and 0..n_x of ``stiffness * amplitudes - reduced``."""
         return _nodal_forces(stiffness, amplitudes, reduced, self._alternating)
-
-    def interface_forces(self, modal: Array) -> Components:
-        """Nodal forces of ``modal * n_x/2`` per mode, (2, ..., n_x), at 1..n_x and 0..n_x - 1."""
-        modal = np.array(modal)
-        modal[0] *= self._alternating
-        forces = fft.dct(modal, type=2, overwrite_x=True)
-        forces *= 0.5
-        tangential = forces[0, ..., ::-1]  # cosines in reversed order, alternating, are sines
-        normal = forces[1]
-        tangential[..., -1] *= 0.5  # half of an element belongs to the last node
-        normal[..., 0] *= 0.5  # and to the first one
-        return tangential, normal
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
         """Values at the nodes 0..n_x, given those at 1..n_x and at the driven edge."""
@@ -191,38 +212,3 @@ class PeriodModes(_Modes):
 
 
 Modes = BlockModes | PeriodModes
-
-
-# An interface has some hundred nodes: calling a transform of SciPy takes three times as long as the
-# transform itself. With rocket-fft, compiled code calls the same transforms; results are equal to
-# the last bit.
-
-
-@compiled
-def _sine_amplitudes(nodal: Array) -> Array:
-    # the inverse transform counts the last node half, and so does type 3
-    return fft.dst(nodal, 3) / nodal.shape[-1]
-
-
-@compiled
-def _nodal_forces(
-    stiffness: Array, amplitudes: Array, reduced: Array, alternating: Array
-) -> Components:
-    """As :meth:`BlockModes.interface_forces`; the modes do not act on the last node along y."""
-    n = amplitudes.size
-    modal = np.empty((2, n))
-    for m in range(n):
-        along_x = stiffness[0, m] * amplitudes[m] - reduced[0, m]
-        along_y = stiffness[1, m] * amplitudes[m] - reduced[1, m]
-        modal[0, m] = along_x * alternating[m]
-        modal[1, m] = along_y
-    forces = fft.dct(modal, 2)
-    tangential = np.empty(n)
-    normal = np.empty(n + 1)
-    for i in range(n):
-        tangential[i] = 0.5 * forces[0, n - 1 - i]
-        normal[i] = 0.5 * forces[1, i]
-    tangential[n - 1] *= 0.5
-    normal[0] *= 0.5
-    normal[n] = 0.0
-    return tangential, normal

@@ -68,22 +68,19 @@ class EdgeValues:
         else:
             modal = self._put_in_series(*series)
             self.compliance = self._compliance_of_pair(moves)
-        tangential, normal = body.modes.interface_forces(body.modes.scale * modal)
+        one, nothing = np.ones(body.modes.n_x), np.zeros((2, body.modes.n_x))
+        rows = np.moveaxis(body.modes.scale * modal, 1, 0)
+        by_edge = [body.modes.forces(row, one, nothing) for row in rows]
+        tangential, normal = map(np.array, zip(*by_edge, strict=True))
         self.response = -self.compliance @ tangential
         self.diagonal = np.einsum("ji,ji->i", tangential, self.response)
-        forces = np.array([tangential, normal])
+        forces = np.array([tangential, normal[:, :-1]])
         largest = np.abs(forces).max(axis=(0, 1))
         first = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
         self.felt = np.ascontiguousarray(forces[..., first:])
         self.response_near = np.ascontiguousarray(self.response[:, first:])
-        self.to_interface = (
-            tangential,
-            np.append(
-                normal,
-                self.schur[:, :1],
-                axis=1,
-            ),
-        )
+        normal[:, -1] = self.schur[:, 0]
+        self.to_interface = tangential, normal
 
     def _put_in_series(self, compliance: Array, forces: Array) -> Array:
         """Set `schur`, and return forces on the modes of w and u_y per edge value."""

@@ -35,11 +35,6 @@ class Outcome(enum.Enum):
 
     INTERRUPTED = "interrupted: what had been recorded until then"
 
-    @property
-    def completed(self) -> bool:
-        """Whether the run reached its planned end."""
-        return self.value.startswith("completed")
-
 
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach
@@ -87,33 +82,24 @@ def long_after(
     return float(times[first - 1 : first + 1].mean())
 
 
-class PatchBursts:
-    """Detects from step to step whether the patch slips fast.
+def patch_is_fast(
+    run: Run,
+    before: bool,
+    time: float,
+    rate: float,
+    position: float,
+) -> bool:
+    """Whether the patch slips fast after a step (s, m/s, m), given whether it did before.
 
     A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
     pushed, a burst belongs to the patch once its fastest point is in the half of the block next to
     the edge, later than the memory time D/V. Under other loads the patch may be anywhere.
     """
-
-    def __init__(self, run: Run) -> None:
-        pushed = run.fault.loading == "edge"
-        self._fast = FAST * run.fault.velocity
-        self._from = run.memory_time if pushed else -np.inf
-        self._end = NEAR * run.block.length if pushed else np.inf
-        self.own = False  # whether the present burst belongs to the patch
-
-    def at(
-        self,
-        time: float,
-        rate: float,
-        position: float,
-    ) -> bool:
-        """Take in the next step and return whether the patch slips fast."""
-        if rate <= self._fast:
-            self.own = False
-        elif time > self._from and position <= self._end:
-            self.own = True
-        return self.own
+    if rate <= FAST * run.fault.velocity:
+        return False
+    if before or run.fault.loading != "edge":
+        return True
+    return bool(time > run.memory_time and position <= NEAR * run.block.length)
 
 
 class DropWatch:

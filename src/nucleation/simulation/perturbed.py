@@ -18,7 +18,6 @@ Philox and the inverse of the normal distribution. So any part of a realisation 
 without the parts before it, and it is the same on every mesh, with all steps and after a restart.
 """
 
-import dataclasses
 from collections.abc import Callable
 from functools import lru_cache
 
@@ -26,11 +25,10 @@ import numpy as np
 from scipy.special import ndtri
 
 from ..fem.body import Body
-from ..fem.grid import Field
 from ..model.settings import MEAN_SQUARE
 from ..run.run import Run
 from ..types import Array
-from .drive import Imposed, Steady
+from .drive import Drive, Imposed
 
 BLOCK = 256  # coefficients drawn at a time
 ROWS_KEPT = 8  # of a sheet; four are in use at one time
@@ -80,14 +78,7 @@ class Series:
 
     def __init__(self, seed: int, correlation: float) -> None:
         self.spacing = MEAN_SQUARE * correlation
-        self.phase = float(
-            _uniform(
-                seed,
-                PHASE,
-                SERIES,
-                1,
-            )[0]
-        )
+        self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._seed = seed
         self._coefficients = np.empty(0)
         self._before = np.zeros(1)  # sums of the coefficients before each
@@ -179,14 +170,7 @@ class Sheet:
         self, seed: int, correlation_time: float, correlation_length: float, x: Array
     ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
-        self.phase = float(
-            _uniform(
-                seed,
-                PHASE,
-                SHEET,
-                1,
-            )[0]
-        )
+        self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
         rows = _along_x(seed, correlation_length, x, SHEET)
         self._row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
 
@@ -203,82 +187,39 @@ class Sheet:
         return np.array([self._row(i) for i in range(first + 4)])
 
 
-@dataclasses.dataclass(frozen=True)
-class _FluctuatingVelocity(Steady):
-    """An edge that moves at ``V [1 + eps xi(t)]``."""
+def perturbed(run: Run, body: Body, drive: Drive) -> Drive:
+    """A steady drive with the declared perturbation ``eps xi`` of a run.
 
-    strength: float  # eps
-    series: Series
-
-    def at(self, time: float) -> Imposed:
-        size = self.strength
-        ahead = size * self.series.integral(time)
-        faster = size * self.series.value(time)
-        return Imposed(
-            time,
-            displacement=self.velocity * (time + ahead),
-            velocity=self.velocity * (1.0 + faster),
-            acceleration=self.velocity * size * self.series.slope(time),
+    It multiplies V, the normal load or the friction coefficient by ``1 + eps xi``, or is added to
+    the rate of log(phi) in units of V/D.
+    """
+    declared = run.perturbation
+    kind, strength, seed = declared.kind, declared.strength, declared.seed
+    correlation_time = declared.correlation_time * run.memory_time
+    x = body.grid.x
+    if kind == "strength":
+        factor = 1.0 + strength * profile(seed, declared.correlation_length, x)
+        return drive._replace(at=lambda time: drive.at(time)._replace(strength=factor))
+    if kind == "state":
+        rate = strength * (1.0 / run.memory_time)
+        sheet = Sheet(seed, correlation_time, declared.correlation_length, x)
+        return drive._replace(
+            at=lambda time: drive.at(time)._replace(state_forcing=rate * sheet.values(time))
+        )
+    series = Series(seed, correlation_time)
+    if kind == "normal_load":
+        return drive._replace(
+            load=lambda time: drive.load(time).times(1.0 + strength * series.value(time))
         )
 
-
-@dataclasses.dataclass(frozen=True)
-class _FluctuatingLoad(Steady):
-    """A stress ``sigma0 [1 + eps xi(t)]`` on the top."""
-
-    strength: float  # eps
-    series: Series
-
-    def load(self, time: float) -> Field:
-        larger = self.strength * self.series.value(time)
-        return self.constant_load.times(1.0 + larger)
-
-
-@dataclasses.dataclass(frozen=True)
-class _UnevenStrength(Steady):
-    """A friction coefficient ``f(v, phi) [1 + eps xi(x)]``."""
-
-    factor: Array  # at the nodes 0..n_x
-
-    def at(self, time: float) -> Imposed:
-        return super().at(time)._replace(strength=self.factor)
-
-
-@dataclasses.dataclass(frozen=True)
-class _ForcedState(Steady):
-    """A state variable that evolves by ``d log(phi)/dt = g + eps (V/D) xi(x, t)``."""
-
-    rate: float  # eps V/D, 1/s
-    sheet: Sheet
-
-    def at(self, time: float) -> Imposed:
-        forcing = self.rate * self.sheet.values(time)
-        return super().at(time)._replace(state_forcing=forcing)
-
-
-def perturbed(run: Run, body: Body, load: Field) -> Steady:
-    """The moving edge and the normal load (N/m) of a run, with their declared perturbation."""
-    declared = run.perturbation
-    velocity = run.fault.velocity
-    strength, seed = declared.strength, declared.seed
-    time = declared.correlation_time * run.memory_time
-    length = declared.correlation_length
-    if declared.kind == "drive_velocity":
-        return _FluctuatingVelocity(velocity, load, strength, Series(seed, time))
-    if declared.kind == "normal_load":
-        return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
-    if declared.kind == "strength":
-        factor = 1.0 + strength * profile(seed, length, body.grid.x)
-        return _UnevenStrength(velocity, load, factor)
-    rate = strength * (1.0 / run.memory_time)
-    return _ForcedState(
-        velocity,
-        load,
-        rate,
-        Sheet(
-            seed,
+    def fluctuating(time: float) -> Imposed:
+        ahead = strength * series.integral(time)
+        faster = strength * series.value(time)
+        return Imposed(
             time,
-            length,
-            body.grid.x,
-        ),
-    )
+            displacement=drive.velocity * (time + ahead),
+            velocity=drive.velocity * (1.0 + faster),
+            acceleration=drive.velocity * strength * series.slope(time),
+        )
+
+    return drive._replace(at=fluctuating)

@@ -16,9 +16,9 @@ from .event import (
     RESOLVED,
     WINDOW,
     DropWatch,
-    PatchBursts,
     front_width,
     long_after,
+    patch_is_fast,
 )
 from .recorded import RECORDED
 from .step import Dynamics, State, StepReport
@@ -63,7 +63,7 @@ class Recorder:
         self._last_frame_step = 0
         self._energy = _Energy(dynamics) if self._fields == INTERFACE else None
         self._watch = DropWatch(WINDOW * run.memory_time, run.stepping.event_drop)
-        self._bursts = PatchBursts(run)
+        self._patch_is_fast = False
         self._event_time = np.inf
         self._onset_time = np.inf
         self._short_drop_time = np.inf  # of the first drop with too short a patch
@@ -93,7 +93,8 @@ class Recorder:
             interface.iterations,
         )
         self._rows.append(row)
-        fast = self._bursts.at(state.time, fastest, position)
+        fast = patch_is_fast(self.run, self._patch_is_fast, state.time, fastest, position)
+        self._patch_is_fast = fast
         dropped = self._watch.dropped(
             state.time,
             abs(report.driving_force),
@@ -114,8 +115,7 @@ class Recorder:
                 self._onset_time = onset
             else:
                 self._short_drop_time = min(self._short_drop_time, onset)
-        if self._frame_is_due(state.time, interface.slip_rate):
-            self._take_frame(state, report)
+        self._take_frame(state, report)
         if self._energy is not None:
             self._energy.take(state, report)
 
@@ -135,28 +135,28 @@ class Recorder:
             )
         return found
 
-    def _frame_is_due(self, time: float, slip_rate: Array) -> bool:
-        if not self._frames:
-            return True
-        if time - self._frame_times[-1] >= self._longest_pause:
-            return True
-        if len(self._rows) - self._last_frame_step >= FRAME_STEPS:
-            return True
-        change = passes.largest_change(slip_rate, self._last_scaled, self._velocity)
-        return bool(change >= FRAME_CHANGE)
-
     def _take_frame(self, state: State, report: StepReport) -> None:
+        """Take in the fields, if they have changed or the last frame is long ago."""
         interface = report.interface
+        rate, velocity = interface.slip_rate, self._velocity
+        due = (
+            not self._frames
+            or state.time - self._frame_times[-1] >= self._longest_pause
+            or len(self._rows) - self._last_frame_step >= FRAME_STEPS
+            or passes.largest_change(rate, self._last_scaled, velocity) >= FRAME_CHANGE
+        )
+        if not due:
+            return
         lengths = self.grid.nodal_lengths
         displacement = self._drive.at(state.time).displacement
         values = {
-            "slip_rate": interface.slip_rate,
+            "slip_rate": rate,
             "state": np.exp(interface.log_state),
             "sigma_yy": -interface.normal / lengths,
             "slip": displacement + self._body.modes.on_all_nodes(interface.w, 0.0),
             "shear_stress": -interface.tangential / lengths,
         }
-        self._last_scaled = np.arcsinh(interface.slip_rate / self._velocity)
+        self._last_scaled = np.arcsinh(rate / velocity)
         self._last_frame_step = len(self._rows)
         self._frame_times.append(state.time)
         self._frames.append(np.array([values[name] for name in self._fields]))
@@ -170,7 +170,7 @@ class Recorder:
             "last_frame_step": np.array(self._last_frame_step),
             "watched": np.array(self._watch.maxima),
             "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
-            "own_burst": np.array(self._bursts.own),
+            "own_burst": np.array(self._patch_is_fast),
             **({} if self._energy is None else self._energy.to_arrays()),
         }
 
@@ -185,7 +185,7 @@ class Recorder:
         self._last_frame_step = int(arrays["last_frame_step"])
         self._watch.maxima = [tuple(one) for one in arrays["watched"].tolist()]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
-        self._bursts.own = bool(arrays["own_burst"])
+        self._patch_is_fast = bool(arrays["own_burst"])
         if self._energy is not None:
             self._energy.restore(arrays)
 
@@ -204,19 +204,16 @@ class Recorder:
         dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.run.to_json()
         if self._energy is None:
-            return annotate(self._for_lengths(dataset), RECORDED)
-        return annotate(dataset.assign(self._energy.since_start()), RECORDED)
-
-    def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:
-        """The smallest record: only the variables for lengths, zero where the fault is stuck."""
-        fast = np.abs(dataset["slip_rate"].values) >= STUCK_BELOW * self._velocity
-        slips = fast.copy()
-        slips[:, 1:] |= fast[:, :-1]  # and nodes beside it, between which edges are
-        slips[:, :-1] |= fast[:, 1:]
-        reduced = dataset.drop_vars(ONLY_IN_FULL)
-        for name in FOR_LENGTHS:
-            reduced[name] = dataset[name].where(slips, 0.0).astype(np.float32)
-        return reduced
+            # only what lengths need, zero where the fault is stuck
+            fast = np.abs(dataset["slip_rate"].values) >= STUCK_BELOW * self._velocity
+            slips = fast.copy()
+            slips[:, 1:] |= fast[:, :-1]  # and nodes beside it, between which edges are
+            slips[:, :-1] |= fast[:, 1:]
+            reduced = dataset[list(FOR_LENGTHS)].where(slips, 0.0).astype(np.float32)
+            dataset = dataset.drop_vars(ONLY_IN_FULL).assign(reduced)
+        else:
+            dataset = dataset.assign(self._energy.since_start())
+        return annotate(dataset, RECORDED)
 
 
 class _Energy:
@@ -267,13 +264,7 @@ class _Energy:
         elastic, kinetic = self._stored(self._state) - self._start
         work, by_friction = self._works
         values = (elastic, kinetic, work, -by_friction)
-        return dict(
-            zip(
-                ENERGIES,
-                map(float, values),
-                strict=True,
-            )
-        )
+        return dict(zip(ENERGIES, map(float, values), strict=True))
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""

@@ -211,7 +211,7 @@ def simulate(
         outcome = Outcome.NOT_FINITE
     dataset.attrs |= {
         "status": "; ".join([outcome.value, *recorder.remarks()]),
-        "completed": int(outcome.completed),
+        "completed": int(outcome.value.startswith("completed")),
         "steps": recorder.steps,
         "rejected_steps": control.rejected,
         "wall_seconds": earlier + time.perf_counter() - began,

@@ -15,7 +15,7 @@ from ..run import run as runs
 from ..run.checks import require_consistent
 from ..run.run import Run
 from ..types import Array
-from .drive import Drive, Remote, Steady
+from .drive import remote_drive, steady_drive
 from .interface import Interface, InterfaceSolution
 from .step import Dynamics, State, StepReport
 from .stepping import BDF
@@ -81,16 +81,16 @@ def composed(run: Run) -> Dynamics:
     body = body_of(run)
     interface = interface_of(run, body.grid)
     load = body.far_load(run.fault.normal_stress)
-    drive: Drive = Steady(run.fault.velocity, load)
+    drive = steady_drive(run.fault.velocity, load)
     if run.perturbation.acts:
         from .perturbed import perturbed
 
-        drive = perturbed(run, body, load)
+        drive = perturbed(run, body, drive)
     if run.fault.loading == "remote":
         shear = body.far_load(0.0, 1.0)
         start = shear.times(run.start.initial_shear_stress)
         per_displacement = run.start.stress_rate / run.fault.velocity
-        drive = Remote(drive.velocity, drive, start, shear.times(per_displacement))
+        drive = remote_drive(drive, start, shear.times(per_displacement))
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 

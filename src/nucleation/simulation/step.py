@@ -13,7 +13,6 @@ import dataclasses
 import math
 from collections import OrderedDict
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 
@@ -152,17 +151,13 @@ class Dynamics:
         imposed, external = self.driven(time)
         load = self._load_with_past(state, step, external)
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
-        rates = self.body.modes.on_all_nodes(guess.slip_rate[1:], imposed.velocity)
+        scaled, expected, log_state, scale = guess
+        rates = self.body.modes.on_all_nodes(expected[1:], imposed.velocity)
         past = self._past(state, step, imposed)
-        w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
+        w = past.w + past.beta * (expected[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
         newest, oldest = state.displacement, state.motions[-1].displacement
-        before = Before(
-            step.body.past,
-            step.body.beta,
-            newest,
-            oldest,
-        )
+        before = Before(step.body.past, step.body.beta, newest, oldest)
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
@@ -179,9 +174,8 @@ class Dynamics:
         motion = Motion(moved, velocity, self.body.momentum_x(velocity))
         new = self._pushed(state, time, solution, motion, error)
         force = self._driving_force(state, step, imposed, solution, motion)
-        distance = passes.distance(
-            guess.scaled, guess.log_state, solution.slip_rate, solution.log_state, guess.scale
-        )
+        rate, psi = solution.slip_rate, solution.log_state
+        distance = passes.distance(scaled, log_state, rate, psi, scale)
         return new, StepReport(solution, force, step.error(distance))
 
     def _past(
@@ -227,11 +221,7 @@ class Dynamics:
     ) -> Field:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
-        for c, motion in zip(
-            step.body.past,
-            state.motions,
-            strict=False,
-        ):
+        for c, motion in zip(step.body.past, state.motions, strict=False):
             terms.append((c, motion.displacement))
             terms.append((c * step.body.beta, motion.velocity))
         return self.body.inertia_load(step.s, terms, load)
@@ -251,11 +241,7 @@ class Dynamics:
         force = solution.tangential[self.grid.own].sum()
         if self.drive.moves:
             change = motion.momentum
-            for c, past in zip(
-                step.body.past,
-                state.motions,
-                strict=False,
-            ):
+            for c, past in zip(step.body.past, state.motions, strict=False):
                 change -= c * past.momentum
             force = force - change / step.body.beta
         return float(force) - self.body.total_mass * imposed.acceleration  # of the frame
@@ -282,22 +268,15 @@ class Dynamics:
         )
 
 
-class _Guess(NamedTuple):
-    """Extrapolated slip rates and states of the interface at the end of a step, nodes 0..n_x."""
-
-    scaled: Array  # asinh(v / scale)
-    slip_rate: Array  # m/s
-    log_state: Array
-    scale: float  # m/s
-
-
 def _extrapolated(
     state: State,
     step: Step,
     velocity: float,
     distance: float,
-) -> _Guess:
+) -> tuple[Array, Array, Array, float]:
     """Slip rates and states at the end of a step, by polynomials through the past ones.
+
+    They are asinh(v / scale), v (m/s), log(phi) and the scale (m/s).
 
     Slip rates are extrapolated as asinh(v / scale): above the scale by relative changes. After an
     event elastic waves ring in the body. They shake the slip rates but hardly move the interface;
@@ -317,4 +296,4 @@ def _extrapolated(
         scale,
         largest,
     )
-    return _Guess(scaled, rate, log_state, scale)
+    return scaled, rate, log_state, scale

@@ -22,7 +22,7 @@ import xarray as xr
 from nucleation.datasets.variables import annotate, declared
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
-from nucleation.simulation.drive import Steady
+from nucleation.simulation.drive import steady_drive
 from nucleation.simulation.interface import Interface
 from nucleation.simulation.start import layers_of
 from nucleation.simulation.step import Dynamics, State
@@ -60,7 +60,7 @@ def sliding_period(run: Run) -> Dynamics:
     steady = float(law.steady_coefficient(fault.velocity))
     load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
     interface = Interface(law, NEWTON_TOLERANCE)
-    drive = Steady(fault.velocity, load)
+    drive = steady_drive(fault.velocity, load)
     return Dynamics(
         body,
         interface,
