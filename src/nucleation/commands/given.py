@@ -5,7 +5,9 @@ Further parameters are those of a file, of the dataset of a simulation, or the p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+import contextlib
+import warnings
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,10 +16,14 @@ import click
 from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
 from ..installed import require
-from ..model.quantities import ParameterError, Quantity
+from ..model.friction.constants import CONSTANTS
+from ..model.hints import ImplausibleWarning
+from ..model.quantities import ParameterError, Quantity, declarations
 from ..model.settings import KINDS
 from ..model.units import parse
 from ..theory.evaluation import required
+from ..theory.values import QUANTITIES
+from .text import warn, with_unit
 
 if TYPE_CHECKING:
     from ..lengths.draws import Draws
@@ -44,6 +50,8 @@ NOTES = {
     "friction_law": "none if left out: a and b are constant along the patch",
 }
 """Additions to the help of options."""
+
+_OTHERS = {True: "Not given, so the paper's", False: "Others"}
 
 _OF_FAULT = {
     *("shear_modulus", "poisson_ratio", "normal_stress", "slip_distance", "velocity"),
@@ -234,3 +242,44 @@ def _refuse_ranges(given: Mapping[str, Any]) -> None:
                 f"{name}: a range is not allowed here, where each parameter has one value; "
                 "`nucleation length` takes ranges"
             )
+
+
+def parameters_of(fault: Fault) -> dict[str, Any]:
+    """All parameters of a fault that are not None, by name."""
+    values = {name: getattr(fault, name) for name in QUANTITIES}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def system_of_fault(
+    fault: Fault, given: Collection[str], paper: bool, sought: str = ""
+) -> list[str]:
+    """The fault that a command computes: the parameters that are given, and all others.
+
+    With `paper` the others are the paper's. Those of a second body like the first one's are left
+    out. The parameter that is `sought` has no value yet.
+    """
+    named = {*given, sought, *(CONSTANTS[2:] if {*CONSTANTS[2:]} & {*given} else ())}
+    own, others = [], []
+    for name, value in parameters_of(fault).items():
+        first = name.removeprefix("second_")
+        if first == name or value != getattr(fault, first):
+            text = "to find" if name == sought else with_unit(value, QUANTITIES[name])
+            (own if name in named else others).append(f"{name} = {text}")
+    law = fault.friction_law
+    for name, entry in declarations(type(law)).items() if law else ():
+        if name not in (*QUANTITIES, *law.set_by_expansion):
+            text = with_unit(getattr(law, name), entry)
+            key = law.called.get(name, name)
+            (own if key in named else others).append(f"{key} = {text}")
+    lines = [f"Given: {', '.join(own)}."] if own else []
+    return [*lines, f"{_OTHERS[paper]}: {', '.join(others)}."]
+
+
+@contextlib.contextmanager
+def printed_warnings() -> Iterator[None]:
+    """Print warnings of implausible magnitudes on the standard error, each once."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ImplausibleWarning)
+        yield
+    for text in dict.fromkeys(str(warning.message) for warning in caught):
+        warn(text)

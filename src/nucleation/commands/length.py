@@ -20,12 +20,13 @@ from ..theory.status import BEYOND, STABLE, UNKNOWN
 from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
-from .given import fault_options, given_fault, json_option, option, options_of
-from .system import (
-    BEGINS,
-    is_of_one_material,
+from .given import (
+    fault_options,
+    given_fault,
+    json_option,
+    option,
+    options_of,
     parameters_of,
-    plane_in_words,
     printed_warnings,
     system_of_fault,
 )
@@ -40,6 +41,9 @@ _NO_LENGTH = {
     UNKNOWN: "NOT VALID HERE, ",
 }
 """The beginning of a reason in place of a length, by the status."""
+
+_BEGINS = {"edge": "pushed at its edge", "remote": "begun in the interior"}
+"""Where the creeping patch begins, by ``--loading``."""
 
 _PERTURBED = declarations(Perturbation)
 _OF_PERTURBATION = {
@@ -144,8 +148,7 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
         mode = _mode(fault)
     system = system_of_fault(fault, names, options["paper"])
     critical = found["critical_length"]
-    plane = plane_in_words(fault.plane)
-    lines = wrapped(*system, "", f"Theory of homogeneous sliding, in {plane}:")
+    lines = wrapped(*system, "", "Theory of homogeneous sliding:")
     if critical.exists:
         lines += [*_mode_lines(fault, critical, mode), "", *_creep_lines(fault, found)]
     else:
@@ -153,9 +156,7 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
     lines += _literature_lines(fault, found)
     if patch:
         lines += _patch_lines(patch, of_patch["width"], critical.value)
-    remark = (
-        f"in {plane}, with {_moduli(fault)}, b = a + zeta, natural logarithms; all are full lengths"
-    )
+    remark = f"{_moduli(fault)}, b = a + zeta, natural logarithms; all are full lengths"
     everything = {
         "system": system,
         "parameters": parameters_of(fault),
@@ -200,7 +201,8 @@ def _moduli(fault: Fault) -> str:
     """The moduli in the formulas: mu*, and M of two materials."""
     star = {"strain": "mu/(1 - nu)", "stress": "mu (1 + nu)", "antiplane": "mu"}
     text = f"mu* = {star[fault.plane]}"
-    if is_of_one_material(fault):
+    second = (fault.second_shear_modulus, fault.second_poisson_ratio)
+    if (fault.shear_modulus, fault.poisson_ratio) == second:
         return text
     modulus, _ = of_two_materials(fault)
     return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
@@ -245,7 +247,7 @@ def _creep_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
         rows.append((symbol, f"{float(answer.value):.4g} m", span, meaning))
         if answer.doubt:
             rows.append(f"      DO NOT RELY ON IT: {answer.doubt}")
-    head = f"The creeping patch itself, {BEGINS[fault.loading]} (docs/creeping_patch.md):"
+    head = f"The creeping patch itself, {_BEGINS[fault.loading]} (docs/creeping_patch.md):"
     return [*wrapped(head), *table(rows)]
 
 

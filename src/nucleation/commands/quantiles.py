@@ -17,7 +17,7 @@ from ..theory.status import BEYOND, STABLE
 from ..theory.values import arrays_of
 from . import DONE
 from . import STABLE as CODE_OF_STABLE
-from .system import system_of_fault
+from .given import system_of_fault
 from .text import Row, show, table, wrapped
 
 _HEAD = ("quantiles (m)", *(f"{share:.0%}" for share in QUANTILES), "share")

@@ -20,8 +20,16 @@ from ..run.checks import contradictions, estimated_megabytes, memory_problem
 from ..run.names import GROUPS, OF_GROUPS, parameters, sections
 from ..run.run import PAPER_RUN, Run
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .given import NOTES, given_run, json_option, option, options_of, source_options
-from .system import printed_warnings, system_of_fault
+from .given import (
+    NOTES,
+    given_run,
+    json_option,
+    option,
+    options_of,
+    printed_warnings,
+    source_options,
+    system_of_fault,
+)
 from .text import Row, in_unit, show, table, warn, with_unit, wrapped
 
 if TYPE_CHECKING:

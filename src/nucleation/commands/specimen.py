@@ -13,8 +13,14 @@ from ..model.hints import RANGES
 from ..theory.status import STABLE as STABLE_SLIDING
 from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES, STABLE
-from .given import fault_options, given_fault, json_option, option
-from .system import plane_in_words, printed_warnings, system_of_fault
+from .given import (
+    fault_options,
+    given_fault,
+    json_option,
+    option,
+    printed_warnings,
+    system_of_fault,
+)
 from .text import in_unit, show, wrapped
 
 _SHORTEST_EVENT = 0.7
@@ -71,8 +77,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
             numbers = found[key]._asdict()
             judged[key] = {n: x if isinstance(x, str) else float(x) for n, x in numbers.items()}
         lines += [f"At {unknown} = {in_unit(value, fit.unit)} {verdict}."]
-    plane = plane_in_words(fault.plane)
-    lines.append(f"{NAMES[criterion]} fits into {in_unit(length, 'm')}, in {plane}, if")
+    lines.append(f"{NAMES[criterion]} fits into {in_unit(length, 'm')} if")
     lines += _fit_lines(fit)
     everything = {
         "system": system,
