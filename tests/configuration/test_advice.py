@@ -136,19 +136,10 @@ WARNED = {
         "block shorter than L_c (s-aging-H0.005-phi1-block_length0.2-n_x400-end_time20): "
         "block_length = 0.2 m is not above the theory's critical length, 0.235 m",
     ),
-    "start": (
-        GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
-        "start above the strength (",
-    ),
     "mesh's noise": (
         GOOD | {"perturbation": "normal_load", "strength": 1e-4},
         "perturbation lost in the mesh's noise (s-aging-H0.005-phi1-n_x400-perturbationnormal_load"
         "-strength0.0001): strength = 0.0001 with 9.1 elements to a process zone",
-    ),
-    "steps' noise": (
-        {"height": 0.02, "n_x": 1600, "perturbation": "drive_velocity", "strength": 1e-5},
-        "strength = 1e-05 while the front passes 4.6 % of an element in the longest step, which "
-        "perturbs the patch as much; recommended is longest_step = 0.09 or less",
     ),
     "roughness": (
         GOOD | {"perturbation": "state", "strength": 1e-3, "correlation_length": 0.01},
@@ -166,7 +157,7 @@ def test_warning_names_study_run_and_numbers(run, text):
     assert text in warning
 
 
-@pytest.mark.parametrize("noisy", ["mesh's noise", "steps' noise", "roughness"])
+@pytest.mark.parametrize("noisy", ["mesh's noise", "roughness"])
 def test_refinement_is_not_warned_of_the_noise_that_it_shows(noisy):
     run, _ = WARNED[noisy]
     named = {"mine": {"role": "convergence", "interface": "main_text", "runs": [run]}}
@@ -209,7 +200,7 @@ def test_the_summary_counts_runs_and_has_the_worst_mesh():
     worst = min(runs, key=lambda run: run.run.block.n_x)
     along = worst.run.block.length / worst.run.block.n_x
     zone = worst.run.process_zone(worst.run.growth_time(worst.critical_length))
-    assert f"3 runs have a coarse mesh or long steps, with {zone / along:.2g} elements" in text
+    assert f"3 runs have a coarse mesh, with {zone / along:.2g} elements" in text
     assert worst.id in text and text.endswith("list.txt lists them")
     (short,) = warned(configure(study(GOOD | {"block_length": 0.4})).runs)
     assert not short.is_of_meshes

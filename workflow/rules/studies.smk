@@ -75,7 +75,7 @@ def list_of_meshes():
 
 @functools.cache
 def report_meshes():
-    """Print one line about coarse meshes and long steps, once."""
+    """Print one line about coarse meshes, once."""
     if OF_MESHES:
         LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, list_of_meshes())}")
 

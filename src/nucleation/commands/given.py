@@ -51,8 +51,6 @@ NOTES = {
 }
 """Additions to the help of options."""
 
-_OTHERS = {True: "Not given, so the paper's", False: "Others"}
-
 _OF_FAULT = {
     *("shear_modulus", "poisson_ratio", "normal_stress", "slip_distance", "velocity"),
     *("friction", "a", "b", "zeta", "zeta_over_a", "second_shear_modulus"),
@@ -259,20 +257,20 @@ def system_of_fault(
     out. The parameter that is `sought` has no value yet.
     """
     named = {*given, sought, *(CONSTANTS[2:] if {*CONSTANTS[2:]} & {*given} else ())}
-    own, others = [], []
+    texts: dict[bool, list[str]] = {True: [], False: []}
     for name, value in parameters_of(fault).items():
         first = name.removeprefix("second_")
         if first == name or value != getattr(fault, first):
             text = "to find" if name == sought else with_unit(value, QUANTITIES[name])
-            (own if name in named else others).append(f"{name} = {text}")
+            texts[name in named].append(f"{name} = {text}")
     law = fault.friction_law
-    for name, entry in declarations(type(law)).items() if law else ():
-        if name not in (*QUANTITIES, *law.set_by_expansion):
-            text = with_unit(getattr(law, name), entry)
-            key = law.called.get(name, name)
-            (own if key in named else others).append(f"{key} = {text}")
-    lines = [f"Given: {', '.join(own)}."] if own else []
-    return [*lines, f"{_OTHERS[paper]}: {', '.join(others)}."]
+    if law is not None:
+        for name, entry in declarations(type(law)).items():
+            if name not in (*QUANTITIES, *law.set_by_expansion):
+                key = law.called.get(name, name)
+                texts[key in named].append(f"{key} = {with_unit(getattr(law, name), entry)}")
+    heads = {True: "Given", False: "Not given, so the paper's" if paper else "Others"}
+    return [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
 
 
 @contextlib.contextmanager

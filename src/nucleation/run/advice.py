@@ -18,13 +18,10 @@ COARSE_X = "mesh too coarse along x"
 COARSE_Y = "mesh too coarse along y"
 ROUGHNESS = "roughness not resolved"
 NOISE_OF_MESH = "perturbation lost in the mesh's noise"
-NOISE_OF_STEPS = "perturbation lost in the steps' noise"
-OF_MESHES = (COARSE_X, COARSE_Y, ROUGHNESS, NOISE_OF_MESH, NOISE_OF_STEPS)
-"""Topics of warnings about meshes and steps."""
+OF_MESHES = (COARSE_X, COARSE_Y, ROUGHNESS, NOISE_OF_MESH)
+"""Topics of warnings about meshes."""
 
 FRICTION = "friction changes along the patch"
-BELOW_CRITICAL = "block shorter than L_c"
-_SHORT = "block short"
 
 _UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
@@ -51,15 +48,6 @@ _DECADES_PER_ELEMENT = 0.8
 With 11 to 17 elements and a strength of 1e-4 nine of ten faults dropped within 0.1 % of the time
 on a mesh with twice as many.
 """
-
-_ELEMENT_PART = 0.04
-"""Part of an element that the front may pass in one step.
-
-If it passes more, the steps perturb the patch at least as much as the strength
-:data:`_STEP_NOISE` does.
-"""
-
-_STEP_NOISE = 1e-5
 
 _STEPS_PER_PERIOD = 8.0
 """Fewest time steps per period of the nucleating mode."""
@@ -112,10 +100,7 @@ def advice(run: Run, critical: float) -> Iterator[Advice]:
     if run.fault.loading == "edge":
         yield from _of_patches(run, critical)
         yield from _changing_friction(run)
-        yield from _roughness(run)
-        if run.perturbation.acts and run.below is None:  # the measures are those of one block
-            yield from _noise_of_mesh(run, critical)
-            yield from _noise_of_steps(run, critical)
+        yield from _of_perturbation(run, critical)
 
 
 def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
@@ -133,7 +118,7 @@ def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
     length = run.block.length
     if length <= critical:
         yield (
-            BELOW_CRITICAL,
+            "block shorter than L_c",
             critical / length,
             f"block_length = {length:g} m is not above the theory's critical length, "
             f"{critical:.3g} m; it may have an event all the same, as a creeping patch turns "
@@ -141,20 +126,10 @@ def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
         )
     elif length < _SHORT_BLOCK * critical:
         yield (
-            _SHORT,
+            "block short",
             critical / length,
             f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
             f"critical length, {critical:.3g} m; recommended are 4 to 6 times",
-        )
-    fault, initial = run.fault, run.start.initial_shear_stress
-    coefficient = run.law.coefficient(fault.velocity, fault.initial_state)
-    strength = float(coefficient) * fault.normal_stress
-    if initial >= strength:
-        yield (
-            "start above the strength",
-            initial / strength,
-            f"initial_shear_stress = {initial:g} Pa, while the interface "
-            f"slips at V under {strength:.3g} Pa: it slips everywhere from the start",
         )
 
 
@@ -211,16 +186,10 @@ def _resolution(run: Run, critical: float) -> Iterator[Advice]:
             "drops that follow a declared perturbation and not the mesh",
         )
     for prefix, own in {"": run.upper, "second_": run.below}.items():
-        across = (
-            element_height(
-                own.height,
-                own.n_y,
-                own.grading,
-            )
-            if own
-            else 0.0
-        )
-        if own and across > zone / _ELEMENTS_PER_ZONE:
+        if own is None:
+            continue
+        across = element_height(own.height, own.n_y, own.grading)
+        if across > zone / _ELEMENTS_PER_ZONE:
             yield (
                 COARSE_Y,
                 across / zone,
@@ -230,53 +199,30 @@ def _resolution(run: Run, critical: float) -> Iterator[Advice]:
             )
 
 
-def _roughness(run: Run) -> Iterator[Advice]:
-    """Meshes that do not resolve the declared roughness."""
-    declared, along = run.perturbation, _element(run)
+def _of_perturbation(run: Run, critical: float) -> Iterator[Advice]:
+    """Meshes that do not resolve the roughness, or perturb the patch as much as is declared."""
+    declared, along, n_x = run.perturbation, _element(run), run.block.n_x
+    if not declared.acts:
+        return
     scale = declared.correlation_length
-    rough = declared.acts and declared.kind in ALONG_X
-    if rough and scale < ELEMENTS_PER_CORRELATION * along:
-        least = math.ceil(run.block.n_x * ELEMENTS_PER_CORRELATION * along / scale)
+    if declared.kind in ALONG_X and scale < ELEMENTS_PER_CORRELATION * along:
+        least = math.ceil(n_x * ELEMENTS_PER_CORRELATION * along / scale)
         yield (
             ROUGHNESS,
             along / scale,
             f"correlation_length = {scale:g} m has {scale / along:.2g} elements of {along:.3g} m, "
             f"which represent another roughness; recommended is n_x = {least} or more",
         )
-
-
-def _noise_of_mesh(run: Run, critical: float) -> Iterator[Advice]:
-    """Meshes that perturb the patch as much as the declared perturbation."""
-    strength = run.perturbation.strength
-    zone, along = _zone(run, critical), _element(run)
+    zone = _zone(run, critical)
     fewer = _COARSE_ELEMENTS - zone / along
     lost = _COARSE_NOISE * 10.0 ** min(_DECADES_PER_ELEMENT * fewer, 0.0)
-    if strength < lost and zone < _QUIET_ELEMENTS * along:
-        best = math.ceil(run.block.n_x * along / zone * _QUIET_ELEMENTS)
+    measured = run.below is None  # the noise of meshes is that of one block
+    if measured and declared.strength < lost and zone < _QUIET_ELEMENTS * along:
+        best = math.ceil(n_x * along / zone * _QUIET_ELEMENTS)
         yield (
             NOISE_OF_MESH,
             along / zone,
-            f"strength = {strength:g} with {zone / along:.2g} elements to a process zone: "
+            f"strength = {declared.strength:g} with {zone / along:.2g} elements to a process zone: "
             "the front's hops from node to node perturb the patch, and change onset times by 1 % "
             f"up to strengths of about {lost:.0e}; recommended is n_x = {best} or more",
-        )
-
-
-def _noise_of_steps(run: Run, critical: float) -> Iterator[Advice]:
-    """Steps that perturb the patch as much as the declared perturbation.
-
-    The front's rough speed (m/s) is that at the length where the patch turns unstable.
-    """
-    strength = run.perturbation.strength
-    shorter, longer = 0.95 * _UNSTABLE * critical, 1.05 * _UNSTABLE * critical
-    speed = (longer - shorter) / (run.growth_time(longer) - run.growth_time(shorter))
-    passed = speed * run.longest_step / _element(run)
-    if passed > _ELEMENT_PART and strength <= _STEP_NOISE:
-        best = run.stepping.longest_step * _ELEMENT_PART / passed
-        yield (
-            NOISE_OF_STEPS,
-            passed,
-            f"strength = {strength:g} while the front passes {100 * passed:.2g} % of an "
-            "element in the longest step, which perturbs the patch as much; recommended is "
-            f"longest_step = {best:.1g} or less",
         )

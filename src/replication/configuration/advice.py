@@ -6,7 +6,6 @@ from typing import NamedTuple
 from nucleation.run.advice import (
     FRICTION,
     NOISE_OF_MESH,
-    NOISE_OF_STEPS,
     OF_MESHES,
     ROUGHNESS,
     advice,
@@ -26,7 +25,7 @@ class Warned(NamedTuple):
     topic: str
     text: str  # study, topic, the worst run and its numbers, the other runs
     runs: list[StudyRun]  # the worst first
-    is_of_meshes: bool  # whether it is about meshes and steps that do not resolve the front
+    is_of_meshes: bool  # whether it is about meshes that do not resolve the front
 
 
 def warned(runs: Iterable[StudyRun]) -> list[Warned]:
@@ -40,7 +39,7 @@ def warned(runs: Iterable[StudyRun]) -> list[Warned]:
         if run.role == "patch_theory":  # its faults have such friction on purpose
             meant = (FRICTION,)
         if run.role in (*REFINEMENTS, "patch_theory"):  # these measure the noise
-            meant += (ROUGHNESS, NOISE_OF_MESH, NOISE_OF_STEPS)
+            meant += (ROUGHNESS, NOISE_OF_MESH)
         for topic, badness, text in advice(run.run, run.critical_length):
             if topic not in meant:
                 found.setdefault((run.study, topic), []).append((badness, text, run))
@@ -60,12 +59,12 @@ def warned(runs: Iterable[StudyRun]) -> list[Warned]:
 
 
 def summary_of_meshes(warnings: Sequence[Warned], place: str) -> str:
-    """One sentence for all warnings about meshes and steps, which `place` has in full."""
+    """One sentence for all warnings about meshes, which `place` has in full."""
     runs = {run.id: run for warning in warnings for run in warning.runs}
     elements = {run.id: elements_per_zone(run.run, run.critical_length) for run in runs.values()}
     worst = min(elements, key=elements.__getitem__)
     number = f"{len(runs)} runs have" if len(runs) > 1 else "1 run has"
     return (
-        f"{number} a coarse mesh or long steps, with {elements[worst]:.2g} elements per "
+        f"{number} a coarse mesh, with {elements[worst]:.2g} elements per "
         f"process zone at worst ({worst}); {place} lists them"
     )
