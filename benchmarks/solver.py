@@ -48,7 +48,7 @@ Task = Callable[[], Any]
 
 def of_figure_s2(settings: Configuration) -> Run:
     """Return the simulation that is measured."""
-    return settings.shown(settings.figures.space_time_height).run
+    return settings.shown(0.005).run
 
 
 def measure_solver(parameters: Run) -> dict[str, Any]:

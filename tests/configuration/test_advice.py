@@ -18,7 +18,7 @@ GOOD = {"height": 0.005, "n_x": 400}
 
 
 def advise(runs):
-    return [warning.text for warning in warned(runs)]
+    return [text for text, _ in warned(runs)]
 
 
 def advice(*runs, **settings):
@@ -191,19 +191,16 @@ def test_a_warning_names_every_run_the_worst_first():
 
 def test_the_summary_counts_runs_and_has_the_worst_mesh():
     runs = configure(study({"height": 0.005, "n_x": [60, 80]}, {"height": 1.0, "n_y": 10})).runs
-    warnings = warned(runs)
-    assert [warning.text for warning in warnings] == advise(runs)
-    meshes = [warning for warning in warnings if warning.is_of_meshes]
-    topics = {warning.topic for warning in meshes}
-    assert topics == {"mesh too coarse along x", "mesh too coarse along y"}
-    text = summary_of_meshes(meshes, "list.txt")
+    coarse = [run for _, concerned in warned(runs) for run in concerned]
+    assert {run.id for run in coarse} == {run.id for run in runs}
+    text = summary_of_meshes(coarse, "list.txt")
     worst = min(runs, key=lambda run: run.run.block.n_x)
     along = worst.run.block.length / worst.run.block.n_x
     zone = worst.run.process_zone(worst.run.growth_time(worst.critical_length))
     assert f"3 runs have a coarse mesh, with {zone / along:.2g} elements" in text
     assert worst.id in text and text.endswith("list.txt lists them")
-    (short,) = warned(configure(study(GOOD | {"block_length": 0.4})).runs)
-    assert not short.is_of_meshes
+    ((_, coarse),) = warned(configure(study(GOOD | {"block_length": 0.4})).runs)
+    assert coarse == []
 
 
 def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():

@@ -169,7 +169,7 @@ class Place:
     def findings(self) -> list[Finding]:
         """What target `check` lists."""
         listed = re.findall(r"^(\w+) +(results/\S+): (.+)$", self.run("check").output, re.M)
-        return [Finding(self.directory / path, state, why) for state, path, why in listed]
+        return [(self.directory / path, state, why) for state, path, why in listed]
 
     def require_same(self, reference: Reference) -> None:
         """Every dataset has the undisturbed one's values, bit for bit, and its name leads to it."""

@@ -43,8 +43,8 @@ def test_anything_with_the_name_of_an_entry_is_found_and_pruned(store, make, mon
     monkeypatch.chdir(store.directory)
     make(store.entry(OTHER))
     results = store.directory.parent
-    (wrong,) = [f for f in check.check_results(results, {}) if f.state != check.UNUSED]
-    assert wrong.path == store.entry(OTHER) and wrong.state == "damaged"
+    (wrong,) = [found for found in check.check_results(results, {}) if found[1] != check.UNUSED]
+    assert wrong[:2] == (store.entry(OTHER), "damaged")
     assert not store.has(OTHER)
     assert check.prune(results, {}, remove=True).endswith("2 results removed")
     assert store.listed() == [] and not list(store.directory.glob(".*"))
@@ -55,8 +55,8 @@ def test_an_entry_without_all_expected_files_is_found(store):
     results = store.directory.parent
     assert check.check_results(results, expected) == []
     expected["results/a.nc"] = f"store/{KEY}/result.nc"
-    (found,) = check.check_results(results, expected)
-    assert found.state == "damaged" and "lacks files" in found.reason
+    ((_, state, reason),) = check.check_results(results, expected)
+    assert state == "damaged" and "lacks files" in reason
 
 
 def test_no_note_forges_a_line(store, capsys):

@@ -49,22 +49,22 @@ def or_refused(function, *arguments):
 
 
 OF_MESHES = []
-"""Warnings about meshes and steps of the planned runs."""
+"""Warnings about meshes and steps of the planned runs, and these runs."""
 
 
 @functools.cache
 def runs_of(study):
     """The runs of a study; warnings about them appear once."""
     runs = or_refused(settings.runs_of, study)
-    for warning in warned(runs) if PLANS else []:
-        if warning.is_of_meshes:
-            OF_MESHES.append(warning)
+    for text, coarse in warned(runs) if PLANS else []:
+        if coarse:
+            OF_MESHES.append((text, coarse))
         else:
-            logger.warning(f"Warning: {warning.text}")
+            logger.warning(f"Warning: {text}")
     if OF_MESHES:
         place = Path(list_of_meshes())
         place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text("".join(f"{warning.text}\n" for warning in OF_MESHES), "utf-8")
+        place.write_text("".join(f"{text}\n" for text, _ in OF_MESHES), "utf-8")
     return runs
 
 
@@ -77,7 +77,8 @@ def list_of_meshes():
 def report_meshes():
     """Print one line about coarse meshes, once."""
     if OF_MESHES:
-        LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, list_of_meshes())}")
+        coarse = [run for _, runs in OF_MESHES for run in runs]
+        LOGGER.warning(f"Warning: {summary_of_meshes(coarse, list_of_meshes())}")
 
 
 atexit.register(report_meshes)  # of a dry run, or where there is nothing to be done
@@ -191,13 +192,13 @@ def one_of_each_fault(runs):
 
 
 def inset_run():
-    """The run in the inset of Figure 3."""
-    return or_refused(settings.shown, settings.figures.inset_height)
+    """The run in the inset of Figure 3: of H = 0.1 m, or the nearest."""
+    return or_refused(settings.shown, 0.1)
 
 
 def space_time_run():
-    """The run in Figure S2."""
-    return or_refused(settings.shown, settings.figures.space_time_height)
+    """The run in Figure S2: of H = 0.005 m, or the nearest."""
+    return or_refused(settings.shown, 0.005)
 
 
 def element(run):

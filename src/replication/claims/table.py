@@ -166,7 +166,7 @@ def of_paper(
     theory: xr.Dataset,
     dispersion: xr.Dataset,
     lengths: Iterable[xr.Dataset],
-    longer: Sequence[xr.Dataset],
+    longer: Iterable[xr.Dataset],
     longer_runs: list[Row],
     patches: Iterable[xr.Dataset],
     patch_ids: Sequence[str],
@@ -177,7 +177,7 @@ def of_paper(
     `longer_runs`; `patch_ids` are the names of the runs with the `patches`.
     """
     tables = list(lengths)
-    if len(longer):
+    if longer_runs:
         tables.append(lengths_table(longer_runs, longer, settings))
     by_id = dict(
         zip(

@@ -1,7 +1,6 @@
 """Warnings about studies with allowed values that are unlikely to give the intended results."""
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable
 
 from nucleation.run.advice import (
     FRICTION,
@@ -15,23 +14,12 @@ from nucleation.run.advice import (
 from .roles import REFINEMENTS
 from .runs import StudyRun
 
-_MOST_NAMED = 100
-"""Most runs that a warning names beside the worst; maps have thousands."""
 
-
-class Warned(NamedTuple):
-    """A warning about the runs of a study."""
-
-    topic: str
-    text: str  # study, topic, the worst run and its numbers, the other runs
-    runs: list[StudyRun]  # the worst first
-    is_of_meshes: bool  # whether it is about meshes that do not resolve the front
-
-
-def warned(runs: Iterable[StudyRun]) -> list[Warned]:
+def warned(runs: Iterable[StudyRun]) -> list[tuple[str, list[StudyRun]]]:
     """The warnings about some runs: one for each study and topic, with the numbers of the worst.
 
-    What is the purpose of a role is no warning.
+    One about meshes that do not resolve the front comes with its runs. The purpose of a
+    role is no warning.
     """
     found: dict[tuple[str, str], list[tuple[float, str, StudyRun]]] = {}
     for run in runs:
@@ -51,19 +39,16 @@ def warned(runs: Iterable[StudyRun]) -> list[Warned]:
         which = f"{len(concerned)} runs, the worst {worst}" if others else worst
         text = f"studies.{study}: {topic} ({which}): {cases[0][1]}"
         if others:
-            unnamed = len(others) - _MOST_NAMED
-            rest = f" and {unnamed} more" if unnamed > 0 else ""
-            text += f" [also {', '.join(others[:_MOST_NAMED])}{rest}]"
-        warnings.append(Warned(topic, text, list(concerned.values()), topic in OF_MESHES))
+            text += f" [also {', '.join(others)}]"
+        warnings.append((text, [*concerned.values()] if topic in OF_MESHES else []))
     return warnings
 
 
-def summary_of_meshes(warnings: Sequence[Warned], place: str) -> str:
+def summary_of_meshes(runs: Iterable[StudyRun], place: str) -> str:
     """One sentence for all warnings about meshes, which `place` has in full."""
-    runs = {run.id: run for warning in warnings for run in warning.runs}
-    elements = {run.id: elements_per_zone(run.run, run.critical_length) for run in runs.values()}
+    elements = {run.id: elements_per_zone(run.run, run.critical_length) for run in runs}
     worst = min(elements, key=elements.__getitem__)
-    number = f"{len(runs)} runs have" if len(runs) > 1 else "1 run has"
+    number = f"{len(elements)} runs have" if len(elements) > 1 else "1 run has"
     return (
         f"{number} a coarse mesh, with {elements[worst]:.2g} elements per "
         f"process zone at worst ({worst}); {place} lists them"

@@ -115,14 +115,13 @@ class Configuration(Settings):
 
     def drawn_curves(self) -> Curves:
         """The theory's curves, with heights beyond either end of the runs in Figure 3."""
-        heights = list(self.curves.heights)
+        heights = self.curves.heights
         simulated = [run.run.fault.height for run in self.runs_for(PAPERS)]
-        low, high = 0.7 * min(simulated, default=np.inf), 1.15 * max(simulated, default=0.0)
-        if low < min(heights):
-            heights[:0] = np.geomspace(low, min(heights), 20, endpoint=False).tolist()
-        if high > max(heights):
-            heights += np.geomspace(max(heights), high, 21)[1:].tolist()
-        return dataclasses.replace(self.curves, heights=tuple(heights))
+        low = min(*heights, *(0.7 * height for height in simulated))
+        high = max(*heights, *(1.15 * height for height in simulated))
+        if (low, high) != (min(heights), max(heights)):
+            heights = tuple(np.geomspace(low, high, 120).tolist())
+        return dataclasses.replace(self.curves, heights=heights)
 
     def problems_of(self, study: str) -> list[str]:
         """The problems with the runs of a study, one line for each."""

@@ -57,9 +57,8 @@ _FRICTION_VARIES = _Need("heterogeneity", ("zeta", "a").__contains__, "zeta or a
 
 
 class _Role(NamedTuple):
-    """The purpose of studies with a role, and its requirements."""
+    """What holds for studies with a role, and its requirements."""
 
-    purpose: str
     several: bool = False  # whether several studies may have the role
     one_by_one: bool = True  # whether other results use single simulations of the study
     study: tuple[_Need, ...] = ()
@@ -67,91 +66,91 @@ class _Role(NamedTuple):
 
 
 ROLES = {
+    # a study of your own: lengths and a figure
     OWN: _Role(
-        "a study of your own: lengths and a figure",
         several=True,
         one_by_one=False,
     ),
+    # the paper's runs on its mesh, for Figures 3 and S2 and the verdicts
     PAPERS: _Role(
-        "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts",
         study=(_LENGTHS,),
         runs=(_INTERFACE,),
     ),
+    # the runs for verdicts about lengths
     JUDGED: _Role(
-        "the runs for verdicts about lengths",
         study=(_LENGTHS,),
         runs=(_INTERFACE,),
     ),
+    # runs in longer blocks, for the claim that the block length has no effect
     LONGER: _Role(
-        "runs in longer blocks, for the claim that the block length has no effect",
         several=True,
         runs=(_INTERFACE,),
     ),
+    # a stronger perturbation, for the band of `figure_3_extended`
     "noisy": _Role(
-        "a stronger perturbation, for the band of `figure_3_extended`",
         one_by_one=False,
     ),
+    # refined runs with patches over time
     "patch_convergence": _Role(
-        "refined runs with patches over time",
         several=True,
     ),
+    # declared perturbations, for `figure_drop`
     "drop": _Role(
-        "declared perturbations, for `figure_drop`",
         several=True,
         one_by_one=False,
     ),
+    # weak to strong weakening, for `figure_weakening`
     "weakening": _Role(
-        "weak to strong weakening, for `figure_weakening`",
         several=True,
         one_by_one=False,
     ),
+    # faults that the expected drop was not fitted to, for `other_faults`
     "other_faults": _Role(
-        "faults that the expected drop was not fitted to, for `other_faults`",
         one_by_one=False,
     ),
+    # weakening patches in a fault that strengthens, for `figure_weakening_patches`
     WEAKENING_PATCHES: _Role(
-        "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
         runs=(_REMOTE, _FRICTION_VARIES),
     ),
+    # heights and weakenings, for `figure_map`
     "map": _Role(
-        "heights and weakenings, for `figure_map`",
         one_by_one=False,
         study=(_STABILITY, _BATCHES),
     ),
+    # faults for the test of the patch theory, for `figure_patch_theory`
     "patch_theory": _Role(
-        "faults for the test of the patch theory, for `figure_patch_theory`",
         several=True,
         one_by_one=False,
         study=(_STABILITY, _BATCHES),
     ),
+    # mesh and steps refined, for `convergence`
     "convergence": _Role(
-        "mesh and steps refined, for `convergence`",
         several=True,
         one_by_one=False,
     ),
+    # the same without a perturbation, for the noise of meshes
     "convergence_quiet": _Role(
-        "the same without a perturbation, for the noise of meshes",
         several=True,
         one_by_one=False,
         runs=(_UNPERTURBED,),
     ),
+    # two deformable bodies, for the table of pairs
     "pairs": _Role(
-        "two deformable bodies, for the table of pairs",
         several=True,
         runs=(_PAIR,),
     ),
+    # the same, identical blocks, for `figure_pairs`
     "pairs_identical": _Role(
-        "the same, identical blocks, for `figure_pairs`",
         several=True,
         runs=(_PAIR,),
     ),
+    # the same, half-spaces in contrast, for `figure_2_simulated`
     "figure_2_simulated": _Role(
-        "the same, half-spaces in contrast, for `figure_2_simulated`",
         several=True,
         runs=(_PAIR,),
     ),
+    # the literature's lengths in their own settings, for `figure_literature`
     LITERATURE: _Role(
-        "the literature's lengths in their own settings, for `figure_literature`",
         runs=(_REMOTE,),
     ),
 }

@@ -1,4 +1,4 @@
-"""Settings beside the parameters of simulations: of studies, curves, figures, and limits."""
+"""Settings beside the parameters of simulations: of studies, curves, and limits."""
 
 import dataclasses
 from collections.abc import Collection, Mapping
@@ -96,24 +96,6 @@ class Curves(Checked):
 
 
 @dataclasses.dataclass(frozen=True)
-class FigureSettings(Checked):
-    """Which simulations with the role ``paper`` the figures show."""
-
-    inset_height: float = quantity(
-        "height of the simulation in the inset of Figure 3, or the nearest",
-        "(0.0, 1e6) m",
-        symbol="H",
-        default=0.1,
-    )
-    space_time_height: float = quantity(
-        "height of the simulation in Figure S2, or the nearest",
-        "(0.0, 1e6) m",
-        symbol="H",
-        default=0.005,
-    )
-
-
-@dataclasses.dataclass(frozen=True)
 class Limits(Checked):
     """Limits of one simulation; larger ones are refused before they start."""
 
@@ -126,7 +108,6 @@ class Limits(Checked):
 GROUPS: dict[str, type] = {
     "curves": Curves,
     "extraction": ExtractionSettings,
-    "figures": FigureSettings,
     "limits": Limits,
 }
 """The sections of a configuration beside those of the parameters of runs and the studies."""
@@ -157,7 +138,6 @@ class Settings:
     """Values of the parameters that no study sets."""
     curves: Curves
     extraction: ExtractionSettings
-    figures: FigureSettings
     limits: Limits
     studies: dict[str, StudySettings]
     sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)

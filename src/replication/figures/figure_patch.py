@@ -1,6 +1,6 @@
 """The linear stability of the creeping patch: of runs, and the theory against simulations."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -28,8 +28,9 @@ _LATE = 4.0  # periods of the mode before the drop in which the patch slips in b
 
 
 @style.styled()
-def draw_stability(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
+def draw_stability(table: xr.Dataset, patches: Iterable[xr.Dataset]) -> Figure:
     """Draw growth and frequency of the frozen patches, and the shape of the mode."""
+    patches = list(patches)
     figure, panels = style.panels(6.6, columns=3)
     growth, frequency, shape = panels
     style.letters(*panels)

@@ -1,4 +1,4 @@
-"""Batches: work on several cores, and how far it is."""
+"""Batches: work on several cores, and how many parts are made."""
 
 import multiprocessing
 import os
@@ -6,7 +6,7 @@ import signal
 import sys
 import time
 import traceback
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
@@ -22,26 +22,17 @@ PAUSE = 60.0  # s between two lines of progress
 _TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
 
 
-def tally(number: int, kept: Collection[int] = ()) -> Callable[[int], None]:
-    """A function that counts parts of a batch, and reports now and then how long the others take.
-
-    Parts that were `kept` before take no time.
-    """
-    waiting = set(range(number))
-    began = time.monotonic()
-    last = [began]
+def tally(number: int) -> Callable[[int], None]:
+    """A function that counts parts of a batch, and reports now and then how many are made."""
+    made: set[int] = set()
+    last = [time.monotonic()]
 
     def done(part: int) -> None:
-        waiting.discard(part)
+        made.add(part)
         now = time.monotonic()
-        made = number - len(waiting | set(kept))
-        if now < last[0] + PAUSE or not made or not waiting:
-            return
-        last[0] = now
-        left = (now - began) / made * len(waiting - set(kept))
-        text = f"{left / 60.0:.0f} min" if left > 90.0 else f"{left:.0f} s"
-        ready = number - len(waiting)
-        LOGGER.log(PROGRESS, f"{ready} of {number} runs done, about {text} left")
+        if len(made) < number and now >= last[0] + PAUSE:
+            last[0] = now
+            LOGGER.log(PROGRESS, f"{len(made)} of {number} runs done")
 
     return done
 

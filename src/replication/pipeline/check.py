@@ -13,7 +13,6 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 from nucleation.datasets import DatasetError
 
@@ -34,13 +33,11 @@ UNUSED = "unused"  # state of a result of other parameters or other code, which 
 Expected = Mapping[str, str]
 """For each file its target in the store, or its text if it is the list of a batch."""
 
+Finding = tuple[Path, str, str]
+"""A file that is not as it should be: its path, state and the reason.
 
-class Finding(NamedTuple):
-    """A file that is not as it should be."""
-
-    path: Path
-    state: str  # stale, incomplete, damaged, foreign or unused
-    reason: str
+States are stale, incomplete, damaged, foreign or unused.
+"""
 
 
 def plain(text: str) -> str:
@@ -54,10 +51,7 @@ def check_results(results: Path, expected: Expected) -> list[Finding]:
     Among the findings are the entries that are not in use.
     """
     store = Store(results / "store")
-    idle = [
-        Finding(store.entry(key), UNUSED, "make prune removes it")
-        for key in unused(store, expected)
-    ]
+    idle = [(store.entry(key), UNUSED, "make prune removes it") for key in unused(store, expected)]
     return [*_entries(store, expected), *_shown(results, expected), *idle]
 
 
@@ -94,11 +88,11 @@ def _entries(store: Store, expected: Expected) -> Iterator[Finding]:
             read_note(entry, whole=True, names=names.get(key, ()))
         except DatasetError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
-            yield Finding(entry, state, f"{error}: make it again, and it is moved aside")
+            yield (entry, state, f"{error}: make it again, and it is moved aside")
     for path in sorted(store.directory.glob(".*.tmp")):
-        yield Finding(path, "incomplete", _HALF)
+        yield (path, "incomplete", _HALF)
     for path in sorted(store.directory.glob(f"{DAMAGED}*")):
-        yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
+        yield (path, "damaged", "it was moved aside, since it is not what it should be")
 
 
 def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
@@ -112,13 +106,13 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
         wanted = expected.get(str(path))
         leftover = next((text for form, text in LEFTOVERS.items() if path.match(form)), None)
         if leftover is not None:
-            yield Finding(path, "incomplete", leftover)
+            yield (path, "incomplete", leftover)
         elif wanted is None:
-            yield Finding(path, "foreign", "nothing in the configuration makes it")
+            yield (path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
-            yield Finding(path, "damaged", "its result is not in the store: make it again")
+            yield (path, "damaged", "its result is not in the store: make it again")
         elif not shows(path, wanted):
-            yield Finding(path, "stale", "it is of other parameters or other code: make it again")
+            yield (path, "stale", "it is of other parameters or other code: make it again")
 
 
 def prune(results: Path, expected: Expected, remove: bool) -> str:
@@ -155,7 +149,7 @@ def main(command: str, results: str, expected_file: str) -> None:
         sys.exit(plain(str(error)))
     for path, state, reason in findings:
         print(f"{state:<10}  {plain(f'{path}: {reason}')}")
-    wrong = sum(found.state != UNUSED for found in findings)
+    wrong = sum(state != UNUSED for _, state, _ in findings)
     print(f"{wrong} findings: these results are not current" if wrong else CURRENT)
     sys.exit(bool(wrong))
 

@@ -21,7 +21,6 @@ from typing import Any
 import xarray as xr
 
 from nucleation.datasets import DatasetError, code, netcdf, provenance
-from nucleation.datasets.files import replacing
 from nucleation.datasets.variables import to_csv
 from nucleation.model.quantities import ParameterError
 
@@ -42,22 +41,8 @@ _OF_MACHINE = ("wall_seconds", "peak_megabytes")
 """Variables that differ between any two results of one recipe."""
 
 
-class PartFailed(Exception):
+class _PartFailed(Exception):
     """A part of a batch has failed; the other parts are made."""
-
-
-class Inputs(Sequence[Any]):
-    """The sources of one role; each is read when it is needed."""
-
-    def __init__(self, open: Callable[[str], Any], paths: list[str]) -> None:
-        self._open = open
-        self._paths = paths
-
-    def __len__(self) -> int:
-        return len(self._paths)
-
-    def __getitem__(self, i: Any) -> Any:
-        return self._open(self._paths[i])
 
 
 def make(
@@ -133,15 +118,14 @@ class _Maker:
             """Why a part has failed, and the value of the function if it has not."""
             try:
                 result = self.result(parts[number])
-            except PartFailed as error:
+            except _PartFailed as error:
                 LOGGER.info(error)
                 return str(error), None
             parts[number].show()
             return "", function(number, result)
 
         names = [part.name for part in parts]
-        kept = {i for i, part in enumerate(parts) if part.is_in(self._store)}
-        made = side_by_side(one, names, cores, tally(len(names), kept))
+        made = side_by_side(one, names, cores, tally(len(names)))
         failures = [failure for failure, _ in made if failure]
         if failures and len(names) > 1:
             failures.insert(0, f"{len(failures)} of {len(names)} runs failed, the others are kept:")
@@ -152,7 +136,7 @@ class _Maker:
     def result(self, recipe: Recipe) -> Any:
         """The result of a recipe as its function returned it, or the dataset in the store.
 
-        A simulation that has failed raises PartFailed.
+        A simulation that has failed raises _PartFailed.
         """
         if not self._forced and recipe.is_in(self._store):
             return self._open(recipe.stored(recipe.files[0]))
@@ -189,18 +173,18 @@ class _Maker:
             sys.exit(f"{name}: {stopped}")
         status = dataset.attrs["status"]
         if path != place:
-            raise PartFailed(f"{name}: {status}; its record is in {path}")
+            raise _PartFailed(f"{name}: {status}; its record is in {path}")
         LOGGER.info(f"{name}: {status}")
         return dataset
 
     def called(self, recipe: Recipe, **more: Any) -> Any:
-        """Call the function of a recipe; it reads each of several sources when it needs it."""
+        """Call the function of a recipe; each of several sources is read once it needs it."""
         module, _, name = recipe.call.partition(":")
         function = getattr(importlib.import_module(module), name)
         sources: dict[str, Any] = {}
         for role, paths in recipe.sources.items():
-            is_list = isinstance(paths, list)
-            sources[role] = Inputs(self._open, paths) if is_list else self._open(paths)
+            read = self._open(paths) if isinstance(paths, str) else map(self._open, paths)
+            sources[role] = read
         values = {**recipe.values, "origin": _origin(recipe)}
         return function(**arguments(function, values), **sources, **more)
 
@@ -239,7 +223,19 @@ class _Maker:
 
         def write(place: Path) -> None:
             for suffix, content in files.items():
-                _write_one(content, place / f"{STEM}{suffix}", origin)
+                path = place / f"{STEM}{suffix}"
+                if isinstance(content, xr.Dataset):
+                    own = {"parameters": content.attrs.get("parameters", origin["parameters"])}
+                    netcdf.write(content, path, **{**origin, **own})
+                elif isinstance(content, str):
+                    path.write_text(content, encoding="utf-8")
+                elif callable(content):
+                    content(path)
+                else:
+                    # the code that drew the figure has loaded matplotlib
+                    from nucleation.pictures import style
+
+                    style.save(content, path, origin["key"])
 
         if recipe.is_in(self._store):
             entry = self._store.entry(recipe.key)
@@ -257,30 +253,12 @@ class _Maker:
 
 def _origin(recipe: Recipe) -> dict[str, str]:
     """Attributes of a recipe's dataset that record how it was made."""
-    files = os.environ.get("NUCLEATION_CONFIGFILES", "")  # none: the default configuration
     command = f"snakemake {shlex.quote(recipe.files[0])}"
-    if files:
-        command += f" --configfile {files}"
+    if os.environ.get("NUCLEATION_CONFIGFILES"):  # none: the default configuration
+        command += f" --configfile {os.environ['NUCLEATION_CONFIGFILES']}"
     return provenance.attributes(
         recipe.values, recipe.code, command, recipe.source_keys, key=recipe.key
     )
-
-
-def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
-    """Write one file: a dataset with its origin, a text, a figure, or by calling `content`."""
-    if isinstance(content, xr.Dataset):
-        parameters = content.attrs.get("parameters", origin["parameters"])
-        netcdf.write(content, path, **{**origin, "parameters": parameters})
-    elif isinstance(content, str):
-        with replacing(path) as temporary:
-            temporary.write_text(content, encoding="utf-8")
-    elif callable(content):
-        content(path)
-    else:
-        # the code that drew the figure has loaded matplotlib
-        from nucleation.pictures import style
-
-        style.save(content, path, origin["key"])
 
 
 def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[str, Any]:
@@ -291,13 +269,13 @@ def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[s
     wanted = inspect.signature(function).parameters
     found = {name: value for name, value in values.items() if name in wanted or name != "origin"}
     for name in found.keys() & wanted.keys():
-        value, kind = found[name], wanted[name].annotation
-        kind = function.__globals__.get(kind) if isinstance(kind, str) else kind
-        if not (isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping)):
-            continue
+        value = found[name]
+        kind: Any = wanted[name].annotation
+        if isinstance(kind, str):
+            kind = function.__globals__.get(kind)
         if hasattr(kind, "from_dict"):
             found[name] = kind.from_dict(value)
-        else:
+        elif isinstance(kind, type) and is_dataclass(kind):
             lists = {key: tuple(own) for key, own in value.items() if isinstance(own, list)}
             found[name] = kind(**{**value, **lists})  # JSON has no tuples
     return found
@@ -305,8 +283,8 @@ def arguments(function: Callable[..., Any], values: Mapping[str, Any]) -> dict[s
 
 def differs(new: Path, old: Path) -> bool:
     """Whether two files of one recipe differ, datasets in more than the machine and the moment."""
-    if new.suffix != ".nc" or not old.is_file():
-        return not old.is_file() or new.read_bytes() != old.read_bytes()
+    if new.suffix != ".nc":
+        return new.read_bytes() != old.read_bytes()
     ours, theirs = (
         netcdf.read(path).drop_vars(_OF_MACHINE, errors="ignore") for path in (new, old)
     )

@@ -142,15 +142,6 @@ class Plan:
         return True
 
     @cached_property
-    def _planned(self) -> dict[str, str]:
-        """Keys by the names of results, as the latest run planned them."""
-        try:
-            lines = Path(self._place, _PLANNED).read_text("utf-8").splitlines()
-        except OSError:
-            return {}
-        return dict(line.rsplit(" ", 1) for line in lines)
-
-    @cached_property
     def _written(self) -> dict[str, set[str]]:
         """Keys of all recipes that are written, by the names of results."""
         found: dict[str, set[str]] = {}
@@ -262,13 +253,13 @@ class Plan:
         changed since then.
         """
         name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
-        plans = self._workflow.is_main_process
-        if not plans and name in self._planned:
-            return f"{self._place}/{name}.{self._planned[name]}.json"
+        if not self._workflow.is_main_process:
+            lines = Path(self._place, _PLANNED).read_text("utf-8").splitlines()
+            planned = dict(line.rsplit(" ", 1) for line in lines)
+            return f"{self._place}/{name}.{planned[name]}.json"
         recipe = self._of_rule(rule, wildcards)
         file = f"{self._place}/{name}.{recipe.key}.json"
-        if plans:
-            self._write(rule, recipe, file)
+        self._write(rule, recipe, file)
         return file
 
     def _write(
