@@ -131,7 +131,7 @@ source_options = together(
 
 def fault_options(function: _Function) -> _Function:
     """One option for each parameter of a fault, and options for the source of other parameters."""
-    from ..lengths.draws import parse_range
+    from ..lengths.ranges import parse_range
 
     own = options_of(declarations_of_flat(), read=parse_range)
     return together(own, source_options)(function)
@@ -190,12 +190,14 @@ def given_fault(
                     f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all "
                     "other parameters from the paper by --paper"
                 )
-    from ..lengths.draws import Range, draw_samples
+    from ..lengths.ranges import Range
 
     drawn = None
     if samples or any(isinstance(x, Range) for x in given.values()):
         if not draws:
             _refuse_ranges(given)
+        from ..lengths.draws import draw_samples
+
         drawn = draw_samples(given, draws)
         given = drawn.values
     own = keywords(given)
@@ -232,7 +234,7 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
 
 
 def _refuse_ranges(given: Mapping[str, Any]) -> None:
-    from ..lengths.draws import Range
+    from ..lengths.ranges import Range
 
     for name, value in given.items():
         if isinstance(value, Range):

@@ -11,9 +11,9 @@ import click
 
 from ..lengths import formulas
 from ..lengths.answer import Answer
-from ..lengths.draws import DRAWS, WEAKENING_RATE, parse_range
 from ..lengths.formulas import HALF_SPACES, TWO_MATERIALS, Length, of_two_materials
 from ..lengths.in_use import LENGTHS
+from ..lengths.ranges import DRAWS, WEAKENING_RATE, parse_range
 from ..model.quantities import ParameterError, declarations, declared
 from ..model.settings import Perturbation
 from ..theory.status import BEYOND, STABLE, UNKNOWN

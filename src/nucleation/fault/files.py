@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 
 from ..datasets.files import refuse_pipe
-from ..lengths.draws import SAMPLED
+from ..lengths.ranges import SAMPLED
 from ..model.hints import hint
 from ..model.quantities import ParameterError
 from ..model.units import rescaled

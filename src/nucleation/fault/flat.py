@@ -114,7 +114,7 @@ def read_parameters(
     Keys that are `ignored` are those of other questions about the fault. Beside its parameters
     there may be `further` ones, by name.
     """
-    from ..lengths.draws import SAMPLED, parse_range
+    from ..lengths.ranges import SAMPLED, parse_range
     from .files import read_yaml
 
     content = read_yaml(Path(path))

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..theory.values import FaultLike, Numbers, Values, checked, where
 from . import formulas
-from .draws import WEAKENING_RATE
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import HALF_SPACES, RIGID_BASE, Length, Setting, nan0, valid
+from .ranges import WEAKENING_RATE
 
 
 def _crack(s: Setting) -> Numbers:
