@@ -107,7 +107,7 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     found = weakening_curves(runs, [2.5, 6.0])
     assert set(found) == set(WEAKENING_CURVES)
     assert found["curve_half_spaces"].values.tolist() == [False, True]
-    limits = [thin_limit(ratio).length_ratio for ratio in (2.5, 6.0)]
+    limits = [thin_limit(ratio)[0] for ratio in (2.5, 6.0)]
     np.testing.assert_allclose(found["curve_stability"][0], limits, rtol=0.05)
     higher = high.replaced(height=600.0, second_height=600.0)
     runs[1] = runs[1] | {"parameters": higher.to_dict()}

@@ -13,8 +13,6 @@ power series and by shooting in a test.
 """
 
 import math
-from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -115,69 +113,32 @@ def thin_limit_length(
     return 2.0 * math.pi * np.sqrt(2.0 * height * modulus * weakening_length)
 
 
-class _ThinLimit(NamedTuple):
-    """The patch of a thin layer where it turns unstable."""
+def thin_limit(zeta_over_a: float) -> tuple[float, float]:
+    """L_s over L_c in the thin limit, and the frequency of its mode over V/D.
 
-    length_ratio: float  # L_s over L_c of Eq. (11)
-    frequency: float  # angular frequency of its mode over V/D
-
-
-@lru_cache(maxsize=4)
-def _second_derivative(degree: int) -> tuple[Array, Array]:
-    """Inner Chebyshev points y in (0, 1) and the matrix of ``d^2/dy^2`` with u = 0 at the ends."""
-    points = np.cos(np.pi * np.arange(degree + 1) / degree)
-    to_values = chebyshev.chebvander(points, degree)
-    twice = chebyshev.chebder(np.eye(degree + 1), 2)
-    values_of_twice = chebyshev.chebvander(points, degree - 2)
-    second = 4.0 * values_of_twice @ twice @ np.linalg.inv(to_values)
-    inner = points[1:-1]
-    return 0.5 * (inner + 1.0), second[1:-1, 1:-1]
-
-
-def _longest_wave(
-    ratio: float,
-    frequency: float,
-    degree: int,
-) -> complex:
-    """``1/(zeta lambda)`` of the longest wave at an angular frequency over V/D."""
-    y, second = _second_derivative(degree)
-    rate = 1j * frequency
-    # 1/lambda u = (d^2/dy^2)^-1 [S (a S - zeta y)/(y (S + y))] u, with a = 1/ratio, zeta = 1
-    answer = rate * (rate / ratio - y) / (y * (rate + y))
-    values = np.linalg.eigvals(np.linalg.solve(second, np.diag(answer)))
-    return complex(values[np.argmax(values.real)])
-
-
-def thin_limit(
-    zeta_over_a: float,
-    degree: int = DEGREE,
-) -> _ThinLimit:
-    """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
-
-    Returns: L_s over L_c, and the frequency of its mode over V/D.
+    Checked to 1e-6 from ``zeta/a = 0.2`` on.
     """
     if not zeta_over_a > 0.0:
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
+    points = np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
+    to_values = chebyshev.chebvander(points, DEGREE)
+    twice = chebyshev.chebder(np.eye(DEGREE + 1), 2)
+    second = 4.0 * chebyshev.chebvander(points, DEGREE - 2) @ twice @ np.linalg.inv(to_values)
+    second = second[1:-1, 1:-1]  # d^2/dy^2 with u = 0 at the ends
+    y = 0.5 * (points[1:-1] + 1.0)
+
+    def longest_wave(frequency: float) -> complex:
+        """``1/(zeta lambda)`` of the longest wave."""
+        rate = 1j * frequency
+        # 1/lambda u = (d^2/dy^2)^-1 [S (a S - zeta y)/(y (S + y))] u, a = 1/zeta_over_a, zeta = 1
+        answer = rate * (rate / zeta_over_a - y) / (y * (rate + y))
+        values = np.linalg.eigvals(np.linalg.solve(second, np.diag(answer)))
+        return complex(values[np.argmax(values.real)])
 
     def negative(frequency: Array, _: NDArray) -> Array:
-        return np.array(
-            [
-                -_longest_wave(
-                    zeta_over_a,
-                    at,
-                    degree,
-                ).imag
-                for at in frequency
-            ]
-        )
+        return np.array([-longest_wave(at).imag for at in frequency])
 
     homogeneous = np.sqrt([zeta_over_a])  # the frequency of homogeneous sliding
-    (frequency,) = roots(
-        negative,
-        np.array([LOWEST]),
-        homogeneous,
-        PRECISION,
-    )
-    found = _longest_wave(zeta_over_a, frequency, degree)
-    ratio = 1.0 / (2.0 * np.pi * np.sqrt(found.real))
-    return _ThinLimit(float(ratio), float(frequency))
+    (frequency,) = roots(negative, np.array([LOWEST]), homogeneous, PRECISION)
+    found = longest_wave(frequency)
+    return float(1.0 / (2.0 * np.pi * np.sqrt(found.real))), float(frequency)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..types import Array
-from .stiffness import SATURATION, Stiffness, Waves, layer_stiffness, stiffness_with_zone
+from .stiffness import SATURATION, Stiffness, Waves, layer_stiffness, stiffness_with_zone, waves
 
 BOTH_RIGID = "at least one of the two bodies must be deformable"
 
@@ -81,16 +81,16 @@ class Layers(NamedTuple):
     def _waves(self, wavenumber: ArrayLike) -> Waves:
         """Functions of ``q = |k| H``, cut at SATURATION, above which none of them changes."""
         k = np.abs(np.asarray(wavenumber, dtype=float))
-        return Waves(np.minimum(k * self.height, SATURATION))
+        return waves(np.minimum(k * self.height, SATURATION))
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness A at a wavenumber (1/m), over the body's modulus."""
-        waves, nu = self._waves(wavenumber), self.poisson_ratio
-        own = layer_stiffness(waves, nu, self.far_side, self.antiplane)
+        functions, nu = self._waves(wavenumber), self.poisson_ratio
+        own = layer_stiffness(functions, nu, self.far_side, self.antiplane)
         if self.zone is None:
             return own
-        waves, nu = self.zone._waves(wavenumber), self.zone.poisson_ratio
-        return stiffness_with_zone(waves, nu, self.antiplane, own, self.zone_ratio)
+        functions, nu = self.zone._waves(wavenumber), self.zone.poisson_ratio
+        return stiffness_with_zone(functions, nu, self.antiplane, own, self.zone_ratio)
 
 
 class LayerPair(NamedTuple):
@@ -131,10 +131,6 @@ class LayerPair(NamedTuple):
     def with_heights(self, heights: Callable[[Array], Array]) -> LayerPair:
         """The pair with other heights and thicknesses (m), a function of the present ones."""
         return LayerPair(*(body and body.with_heights(heights) for body in self))
-
-    def with_zones_at_least(self, thickness: float) -> LayerPair:
-        """The pair with zones of at least a thickness (m), which resist long waves alike."""
-        return LayerPair(*(body and body.with_zone_at_least(thickness) for body in self))
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """``(A^-1 + B^-1)^-1`` over :attr:`modulus` at a wavenumber (1/m).

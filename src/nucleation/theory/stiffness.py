@@ -47,8 +47,7 @@ antiplane shear it is the sum of a free layer and a held one times ``B_xx``.
 """
 
 from collections.abc import Callable
-from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -79,68 +78,40 @@ def _scaled_sinh_excess(x: Array) -> Array:
     )
 
 
-class Waves:
-    """The functions of ``q = |k| H`` in a layer's stiffness, times ``exp(-2q)``.
+class Waves(NamedTuple):
+    """Functions of ``q = |k| H`` in a layer's stiffness, times ``exp(-2q)``; all are positive."""
 
-    Each is computed when first used. All are positive.
-    """
-
-    def __init__(self, q: Array) -> None:
-        self.q = q
-
-    @cached_property
-    def decay(self) -> Array:
-        """1."""
-        return np.exp(-2.0 * self.q)
-
-    @cached_property
-    def linear(self) -> Array:
-        """``2 q``."""
-        return 2.0 * self.q * self.decay
-
-    @cached_property
-    def square(self) -> Array:
-        """``q^2``."""
-        return self.q**2 * self.decay
-
-    @cached_property
-    def sinh_2q(self) -> Array:
-        """``sinh 2q``."""
-        return -0.5 * np.expm1(-4.0 * self.q)
-
-    @cached_property
-    def sinh_squared(self) -> Array:
-        """``sinh^2 q``."""
-        return 0.25 * np.expm1(-2.0 * self.q) ** 2
-
-    @cached_property
-    def cosh_squared(self) -> Array:
-        """``cosh^2 q``."""
-        return 0.25 * (1.0 + self.decay) ** 2
-
-    @cached_property
-    def excess(self) -> Array:
-        """``sinh 2q - 2q``."""
-        return _scaled_sinh_excess(2.0 * self.q)
-
-    @cached_property
-    def square_excess(self) -> Array:
-        """``sinh^2 q - q^2``."""
-        sinh_plus = -0.5 * np.expm1(-2.0 * self.q) + self.q * np.exp(-self.q)
-        return _scaled_sinh_excess(self.q) * sinh_plus
+    decay: Array  # 1
+    linear: Array  # 2 q
+    square: Array  # q^2
+    sinh_2q: Array
+    sinh_squared: Array  # sinh^2 q
+    cosh_squared: Array  # cosh^2 q
+    excess: Array  # sinh 2q - 2q
+    square_excess: Array  # sinh^2 q - q^2
 
 
-class StiffnessTerms(NamedTuple):
-    """Numerators of ``A_xx, A_xy, A_yy, det A`` and their denominator, all times ``exp(-2q)``.
+def waves(q: Array) -> Waves:
+    """The functions of layers, ``q >= 0``."""
+    decay = np.exp(-2.0 * q)
+    minus = np.expm1(-2.0 * q)
+    return Waves(
+        decay=decay,
+        linear=2.0 * q * decay,
+        square=q**2 * decay,
+        sinh_2q=-0.5 * np.expm1(-4.0 * q),
+        sinh_squared=0.25 * minus**2,
+        cosh_squared=0.25 * (1.0 + decay) ** 2,
+        excess=_scaled_sinh_excess(2.0 * q),
+        square_excess=_scaled_sinh_excess(q) * (-0.5 * minus + q * np.exp(-q)),
+    )
 
-    Each but ``A_xy`` is a sum of :class:`Waves` with positive coefficients.
-    """
 
-    denominator: Array
-    xx: Array
-    xy: Array
-    yy: Array
-    det: Array
+Terms: TypeAlias = tuple[Array, Array, Array, Array, Array]
+"""The denominator of A, and numerators of ``A_xx, A_xy, A_yy, det A``, all times ``exp(-2q)``.
+
+Each but ``A_xy`` is a sum of :class:`Waves` with positive coefficients.
+"""
 
 
 class Stiffness(NamedTuple):
@@ -152,45 +123,45 @@ class Stiffness(NamedTuple):
     det: Array
 
 
-def _velocity_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _velocity_terms(w: Waves, nu: Array) -> Terms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
-    return StiffnessTerms(
-        denominator=(3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
-        xx=8.0 * (1.0 - nu) * w.cosh_squared,
-        xy=2.0 * (w.linear + (1.0 - 2.0 * nu) * w.sinh_2q),
-        yy=8.0 * (1.0 - nu) * w.sinh_squared,
-        det=4.0 * w.excess,
+    return (
+        (3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
+        8.0 * (1.0 - nu) * w.cosh_squared,
+        2.0 * (w.linear + (1.0 - 2.0 * nu) * w.sinh_2q),
+        8.0 * (1.0 - nu) * w.sinh_squared,
+        4.0 * w.excess,
     )
 
 
-def _roller_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _roller_terms(w: Waves, nu: Array) -> Terms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
 
     ``A_xy D = 2 [(1 - 2 nu) sinh 2q - 2q]`` with ``D = (3 - 4 nu) sinh 2q - 2q``.
     """
-    return StiffnessTerms(
-        denominator=2.0 * (1.0 - 2.0 * nu) * w.sinh_2q + w.excess,
-        xx=8.0 * (1.0 - nu) * w.sinh_squared,
-        xy=2.0 * (w.excess - 2.0 * nu * w.sinh_2q),
-        yy=8.0 * (1.0 - nu) * w.cosh_squared,
-        det=4.0 * (w.sinh_2q + w.linear),
+    return (
+        2.0 * (1.0 - 2.0 * nu) * w.sinh_2q + w.excess,
+        8.0 * (1.0 - nu) * w.sinh_squared,
+        2.0 * (w.excess - 2.0 * nu * w.sinh_2q),
+        8.0 * (1.0 - nu) * w.cosh_squared,
+        4.0 * (w.sinh_2q + w.linear),
     )
 
 
-def _traction_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _traction_terms(w: Waves, nu: Array) -> Terms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
     compression = 4.0 * (1.0 - nu)
     constant = compression**2 / 2.0 * w.decay
-    return StiffnessTerms(
-        denominator=constant + 2.0 * w.square + 2.0 * (3.0 - 4.0 * nu) * w.sinh_squared,
-        xx=compression * (w.sinh_2q + w.linear),
-        xy=4.0 * (w.square + (1.0 - 2.0 * nu) * w.sinh_squared),
-        yy=compression * w.excess,
-        det=8.0 * w.square_excess,
+    return (
+        constant + 2.0 * w.square + 2.0 * (3.0 - 4.0 * nu) * w.sinh_squared,
+        compression * (w.sinh_2q + w.linear),
+        4.0 * (w.square + (1.0 - 2.0 * nu) * w.sinh_squared),
+        compression * w.excess,
+        8.0 * w.square_excess,
     )
 
 
-def _clamped_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _clamped_terms(w: Waves, nu: Array) -> Terms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
 
     ``A_xx, A_yy = 2 (1 - nu) (kappa sinh 2q -+ 2q) / D``,
@@ -201,31 +172,31 @@ def _clamped_terms(w: Waves, nu: Array) -> StiffnessTerms:
     kappa_less = 2.0 * (1.0 - 2.0 * nu)  # kappa - 1
     coupling = 2.0 * (1.0 - nu) * (1.0 - 4.0 * nu)  # (1 - 2 nu) kappa - 1
     constant = 4.0 * (1.0 - nu) ** 2 * w.decay
-    return StiffnessTerms(
-        denominator=4.0 * (1.0 - nu) * kappa_less * w.sinh_squared + w.square_excess,
-        xx=2.0 * (1.0 - nu) * (kappa_less * w.sinh_2q + w.excess),
-        xy=2.0 * (coupling * w.sinh_squared + w.square_excess),
-        yy=2.0 * (1.0 - nu) * (kappa * w.sinh_2q + w.linear),
-        det=4.0 * (kappa * w.sinh_squared + w.square + constant),
+    return (
+        4.0 * (1.0 - nu) * kappa_less * w.sinh_squared + w.square_excess,
+        2.0 * (1.0 - nu) * (kappa_less * w.sinh_2q + w.excess),
+        2.0 * (coupling * w.sinh_squared + w.square_excess),
+        2.0 * (1.0 - nu) * (kappa * w.sinh_2q + w.linear),
+        4.0 * (kappa * w.sinh_squared + w.square + constant),
     )
 
 
-def _mixed_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _mixed_terms(w: Waves, nu: Array) -> Terms:
     """The factor of ``B_xy``; its entries may be negative."""
     compression = 1.0 - nu
     expansion = 1.0 - 2.0 * nu
     kappa = 3.0 - 4.0 * nu
     constant = 8.0 * compression**2 * w.decay
-    return StiffnessTerms(
-        denominator=2.0 * (expansion * kappa * w.sinh_squared - w.square),
-        xx=4.0 * compression * (expansion * w.sinh_2q - w.linear),
-        xy=constant + 4.0 * (expansion**2 * w.sinh_squared - w.square),
-        yy=4.0 * compression * (expansion * w.sinh_2q + w.linear),
-        det=8.0 * (expansion * w.sinh_squared + w.square),
+    return (
+        2.0 * (expansion * kappa * w.sinh_squared - w.square),
+        4.0 * compression * (expansion * w.sinh_2q - w.linear),
+        constant + 4.0 * (expansion**2 * w.sinh_squared - w.square),
+        4.0 * compression * (expansion * w.sinh_2q + w.linear),
+        8.0 * (expansion * w.sinh_squared + w.square),
     )
 
 
-FAR_SIDES: dict[str, Callable[[Waves, Array], StiffnessTerms]] = {
+FAR_SIDES: dict[str, Callable[[Waves, Array], Terms]] = {
     "velocity": _velocity_terms,
     "traction": _traction_terms,
     "free": _traction_terms,
@@ -238,15 +209,9 @@ OF_ANTIPLANE = {"velocity": True, "traction": False, "free": False, "clamped": T
 """Whether they hold the far side in antiplane shear. Rollers let a layer slide along x alone."""
 
 
-def _antiplane_terms(numerator: Array, denominator: Array) -> StiffnessTerms:
+def _antiplane_terms(numerator: Array, denominator: Array) -> Terms:
     """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
-    return StiffnessTerms(
-        denominator=denominator,
-        xx=numerator,
-        xy=0.0 * denominator,
-        yy=denominator,
-        det=numerator,
-    )
+    return denominator, numerator, 0.0 * denominator, denominator, numerator
 
 
 def layer_stiffness(

@@ -60,7 +60,7 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
     listed = table(rows, COLUMNS)
     drawn = listed.assign(
         curve_ratio=("curve", CURVE),
-        curve_stability=("curve", [thin_limit(ratio).length_ratio for ratio in CURVE]),
+        curve_stability=("curve", [thin_limit(ratio)[0] for ratio in CURVE]),
     )
     return {".nc": annotate(drawn, DRAWN), ".csv": to_csv(listed)}
 

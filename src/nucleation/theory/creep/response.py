@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...types import Array
+from ..pair import LayerPair
 from ..spectrum import Systems
 
 CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
@@ -272,7 +273,8 @@ def _resolved(
 
     A slimmer zone beside the fault is replaced by a thicker one that resists long waves alike.
     """
-    pair = one.pair.with_zones_at_least(length / SLIMMEST)
+    thickness = length / SLIMMEST
+    pair = LayerPair(*(body and body.with_zone_at_least(thickness) for body in one.pair))
     slim = length / min(float(thickness[0]) for thickness in pair.thicknesses)
     modes = mirror_modes(number, even)
     far_g1, far_g2 = _half_space_functions(one._replace(pair=pair))
