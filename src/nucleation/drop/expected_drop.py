@@ -125,10 +125,9 @@ def _runaway_length(
     if abs(stable / constant - 1.0) < CONSTANT:
         patches = dataclasses.replace(patches, law=None)
     try:
-        point = runaway_point(patches, critical)
+        return *runaway_point(patches, critical), VALUE, ""
     except NoLength as none:
         return math.nan, math.nan, none.status, str(none)
-    return point.length, point.error, VALUE, ""
 
 
 def _weakening(patches: Patches) -> float:

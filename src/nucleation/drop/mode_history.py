@@ -192,7 +192,7 @@ def _weights(
     by_rate = by_slip + patch.evolution_by_rate * by_state
     by_force = -by_rate / (creep.normal_stress * friction.by_rate)
     uniform = patches.constants[0]
-    slip_of_edge = modes.values @ edge_slip(creep.response, uniform, uniform).rates
+    slip_of_edge = modes.values @ edge_slip(creep.response, uniform, uniform)[0]
     drive = -complex(by_slip @ slip_of_edge) * rate / law.slip_distance
     position = found.length[i] * np.cos(modes.theta)
     spacing = np.sin(modes.theta) * found.length[i]

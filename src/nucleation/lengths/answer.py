@@ -150,7 +150,7 @@ def _with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
 def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
     """L_c and L_s."""
     critical = _critical_answer(fault)
-    length, _, error, status, reason = stability_answers(fault)
+    length, error, status, reason = stability_answers(fault)
     low, high = length * (1.0 - error), length * (1.0 + error)
     stability = Answer(length, low, high, status, reason)
     return {"critical_length": critical, "stability_length": stability}

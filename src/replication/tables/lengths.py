@@ -160,7 +160,7 @@ def _stability(run: Row) -> Row:
     is_uniform = parameters.heterogeneity.varies in ("none", "friction")
     if parameters.fault.loading == "edge" or is_uniform:
         try:
-            length = stability_point(parameters.patches, run["critical_length"]).length
+            length = stability_point(parameters.patches, run["critical_length"])[0]
             status = VALUE
         except NoLength as none:
             status = none.status

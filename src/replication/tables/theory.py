@@ -81,7 +81,7 @@ def _row(run: Row) -> Row:
         row["f_beta"] = own.friction * contrast
     stress = parameters.start.initial_shear_stress / own.normal_stress
     with contextlib.suppress(NoLength):
-        row["creep_length"] = stability_point(replace(patches, law=None), critical).length
+        row["creep_length"] = stability_point(replace(patches, law=None), critical)[0]
         row["front_length"] = first_growing(
             patches,
             critical,

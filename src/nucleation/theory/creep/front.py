@@ -27,7 +27,6 @@ from ..roots import bisected
 from ..status import BEYOND, NoLength
 from .linearised import (
     Creep,
-    EdgeSlip,
     FrozenPatch,
     creeping_patch,
     edge_slip,
@@ -93,28 +92,26 @@ class _Front:
         steady_friction = self.law.expansion(self.velocity).f0
         self.friction = np.full((length.size, number), steady_friction)
         self.log_states = np.zeros_like(self.friction)
-        self.update_slip()
-        self.rates = _column(self.slips[1], "rates")
+        self.rates = self.update_slip()
 
-    def update_slip(self) -> None:
-        """Slip in balance with the strength, time and speed; each at three neighbouring lengths."""
+    def update_slip(self) -> Array:
+        """Slip in balance with the strength, time and speed; each at three neighbouring lengths.
+
+        Returns the modes' coefficients of the slip rate over V at a constant strength.
+        """
         strength = self.friction - self.initial_stress
-        self.slips = [
-            [
-                edge_slip(*one)
-                for one in zip(
-                    row,
-                    self.friction,
-                    strength,
-                    strict=True,
-                )
-            ]
+        found = [
+            [edge_slip(*one) for one in zip(row, self.friction, strength, strict=True)]
             for row in self.responses
         ]
-        before, at, after = (_column(row, "loaded") for row in self.slips)
+        rates, self.slips, loaded = (
+            np.array([[one[part] for one in row] for row in found]) for part in range(3)
+        )
+        before, self.loaded, after = loaded
         self.by_length = (after - before) / (2.0 * STEP * self.length)
-        self.time = at * self.distance / self.velocity
+        self.time = self.loaded * self.distance / self.velocity
         self.speed = self.velocity / (self.by_length * self.distance)
+        return np.asarray(rates[1])
 
     def update_rates(self) -> None:
         """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x.
@@ -123,7 +120,7 @@ class _Front:
         u'``.
         """
         own = self.modes
-        before, at, after = (_column(row, "slip") for row in self.slips)
+        before, at, after = self.slips
         growing = (after - before) / (2.0 * STEP) @ own.values.T
         moving = (at @ own.gradients.T) * np.cos(own.theta)
         values = (growing - moving) / (self.length * self.by_length)[:, None]
@@ -180,20 +177,14 @@ class _Front:
     def creep(self, i: int) -> Creep:
         """The creep at one of the lengths."""
         bodies = self.responses[1][i]
-        slip = self.slips[1][i]
         creep = Creep(
             response=bodies,
             slip_rate=np.maximum(self.modes.values @ self.rates[i], self.floor),
-            normal_stress=1.0 + bodies.normal @ slip.slip,
-            loaded=slip.loaded,
+            normal_stress=1.0 + bodies.normal @ self.slips[1][i],
+            loaded=self.loaded[i],
         )
         require_contact(creep)
         return creep
-
-
-def _column(slips: list[EdgeSlip], name: str) -> Array:
-    """One field of several slips."""
-    return np.array([getattr(slip, name) for slip in slips])
 
 
 def _stepped(

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, NamedTuple
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...model.friction.constants import full_law
 from ...model.quantities import ParameterError
@@ -39,48 +39,37 @@ LARGEST_ERROR = 1e-3  # relative, of L_s, beyond which there are twice as many m
 NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 
 
-class _StabilityPoint(NamedTuple):
-    """Where the creeping patch turns unstable; V is the slip rate of its fastest place."""
+def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
+    """L_s (m) of one fault with L_c (m) or NaN, and its relative error.
 
-    length: float  # L_s (m)
-    frequency: float  # angular frequency of its mode there, over V/D
-    growth: float  # d Re Lambda/d log L, over V/D
-    error: float  # relative, of the length: by three quarters of the modes, and of slim layers
-
-
-def stability_point(patches: Patches, critical: float) -> _StabilityPoint:
-    """L_s of one fault, with L_c (m) or NaN.
-
-    Raises NoLength if homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing
-    mode, or its creep opens the fault.
+    The error is that of three quarters of the modes, and of slim layers. Raises NoLength if
+    homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its creep
+    opens the fault.
     """
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
     _, a, zeta = patches.constants
     guess = min(0.5 * (1.0 + 0.25 * a / max(zeta, 1e-6)), 1.0)  # L_s/L_c of a thin layer, or 1
-    point = _point_beyond(patches, SHORTEST * guess * critical, critical)
-    if point.error < LARGEST_ERROR or patches.refinement > 1:
-        return point
+    length, error = _point_beyond(patches, SHORTEST * guess * critical, critical)
+    if error < LARGEST_ERROR or patches.refinement > 1:
+        return length, error
     finer = dataclasses.replace(patches, refinement=2)
-    return _point_beyond(finer, NEAR * point.length, critical)
+    return _point_beyond(finer, NEAR * length, critical)
 
 
-def _point_beyond(patches: Patches, start: float, critical: float) -> _StabilityPoint:
-    """Where a pair of modes begins to grow, by a search from a length (m)."""
+def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[float, float]:
+    """Length (m) at which a pair of modes begins to grow, by a search from another; and error."""
 
-    def growth(log_length: float) -> float:
-        return float(patches.at(math.exp(log_length)).eigenvalues[0].real)
-
-    def growths(log_lengths: Array, _: NDArray) -> Array:
-        return np.array([growth(at) for at in log_lengths])
+    def growths(log_lengths: Iterable[float], _: object = None) -> Array:
+        return np.array([patches.at(math.exp(at)).eigenvalues[0].real for at in log_lengths])
 
     step = math.log(FACTOR)
     longest = math.log(LONGEST * critical)
     low = math.log(start)
-    while growth(low) > 0.0:
+    while growths([low])[0] > 0.0:
         low -= 2.0 * step
     high = low + step
-    while growth(high) <= 0.0:
+    while growths([high])[0] <= 0.0:
         low = high
         high += step
         if low > longest:
@@ -107,12 +96,11 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> _Stability
         3 * patches.number // 4,
     ).real
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
-    error += extrapolation_error(patches.one, length)
-    return _StabilityPoint(length, rate.imag, slope, error)
+    return length, error + extrapolation_error(patches.one, length)
 
 
-def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any, Any]:
-    """L_s (m), its mode's frequency over V/D, its relative error, its status and the reason for it.
+def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
+    """L_s (m), its relative error, its status and the reason for it.
 
     A ParameterError if the friction law is not allowed with the loading, or lacks a constant.
     """
@@ -133,12 +121,11 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any, Any]:
             scaled = law.changed({"slip_distance": distance})
             own = full_law(scaled, velocity, *patches.constants)
             patches = dataclasses.replace(patches, law=own)
-        point = stability_point(patches, critical)
-        return point.length, point.frequency, point.error, VALUE, ""
+        return *stability_point(patches, critical), VALUE, ""
 
-    rows = at_each(fault, answer, velocity, rows=5)
-    length, frequency, error = rows[:3].astype(float)
-    return length, frequency, error, rows[3], rows[4]
+    rows = at_each(fault, answer, velocity, rows=4)
+    length, error = rows[:2].astype(float)
+    return length, error, rows[2], rows[3]
 
 
 def stability_length_of(patches: Patches, critical: float, constant: bool = False) -> float:
@@ -149,6 +136,6 @@ def stability_length_of(patches: Patches, critical: float, constant: bool = Fals
     if constant:
         patches = dataclasses.replace(patches, law=None)
     try:
-        return stability_point(patches, critical).length
+        return stability_point(patches, critical)[0]
     except NoLength:
         return math.nan

@@ -53,8 +53,8 @@ def creep(
     has changed the normal stress by ``S2 u``. A stress that loads a uniform interface evenly
     reaches the strength everywhere at once, and u = 0.
     """
-    slip = edge_slip(response, friction, friction)
-    rates = response.modes.values @ slip.rates
+    coefficients, slip, loaded = edge_slip(response, friction, friction)
+    rates = response.modes.values @ coefficients
     fastest = 1.0
     if load_rate is not None:
         scale = float(rates.max())
@@ -63,26 +63,18 @@ def creep(
     return Creep(
         response=response,
         slip_rate=np.maximum(rates, SLOWEST),
-        normal_stress=1.0 + response.normal @ slip.slip,
-        loaded=slip.loaded,
+        normal_stress=1.0 + response.normal @ slip,
+        loaded=loaded,
         fastest=fastest,
     )
-
-
-class EdgeSlip(NamedTuple):
-    """Coefficients of slip rate and slip in the modes, and the edge's displacement."""
-
-    rates: Array
-    slip: Array
-    loaded: float
 
 
 def edge_slip(
     response: PatchResponse,
     friction: Array | float,
     strength: Array | float,
-) -> EdgeSlip:
-    """The modes' coefficients of the slip rate over V and of the slip over D, (N + 1,).
+) -> tuple[Array, Array, float]:
+    """The modes' coefficients of slip rate over V and slip over D, (N + 1,); and U over D.
 
     Where slip changes the normal stress, the front's singularity is no square root, and the edge is
     not regular. An error of alternating sign at neighbouring places remains, which
@@ -107,11 +99,7 @@ def edge_slip(
         )[-1]
     )
     smoothing = response.modes.smoothing
-    return EdgeSlip(
-        rates=smoothing * rates,
-        slip=smoothing * (loaded * rates + held),
-        loaded=loaded,
-    )
+    return smoothing * rates, smoothing * (loaded * rates + held), loaded
 
 
 @dataclasses.dataclass(frozen=True)

@@ -43,14 +43,6 @@ DEVIATIONS = 2.0  # standard errors that the stated error has
 LEAST_ERROR = 0.02  # relative, by the modes
 
 
-class RunawayPoint(NamedTuple):
-    """L_run of one fault, its error, and what it cost."""
-
-    length: float  # m
-    error: float  # relative: by the lengths and disturbances, half the duration, and the modes
-    evaluations: int  # of the rates of all patches that are integrated at once
-
-
 class _Ladder(NamedTuple):
     """Patches of rising length, and the times over D/V after which they run away."""
 
@@ -82,7 +74,7 @@ class _Ladder(NamedTuple):
 
 
 class _Search:
-    """Trials of one fault's patches, and their cost."""
+    """Trials of one fault's patches."""
 
     def __init__(
         self,
@@ -90,12 +82,11 @@ class _Search:
         critical: float,
     ) -> None:
         self.patches = patches
-        self.stable = stability_point(patches, critical).length
+        self.stable = stability_point(patches, critical)[0]
         self.cohesive = cohesive_wavenumber(patches, critical)
         self.guess = GUESS * critical**2 * self.cohesive / (2.0 * math.pi)
         _, a, zeta = patches.constants
         self.duration = DURATION * min(1.0, a / zeta)
-        self.evaluations = 0
 
     def tried(
         self,
@@ -105,9 +96,8 @@ class _Search:
     ) -> _Ladder:
         """Patches of rising length (m), followed for a time (D/V)."""
         number = modes_that_resolve(self.cohesive, float(lengths[-1]))
-        found = lifetimes(self.patches, lengths, number, disturbances, duration)
-        self.evaluations += found.evaluations
-        return _Ladder(lengths, found.times)
+        times = lifetimes(self.patches, lengths, number, disturbances, duration)
+        return _Ladder(lengths, times)
 
     def bracketed(self) -> tuple[float, float]:
         """Lengths (m) below which slow slip lasts, and from which it soon runs away."""
@@ -157,9 +147,10 @@ class _Search:
 def runaway_point(
     patches: Patches,
     critical: float,
-) -> RunawayPoint:
-    """L_run of one fault with L_c (m).
+) -> tuple[float, float]:
+    """L_run (m) of one fault with L_c (m), and its relative error.
 
+    The error is that by the lengths and disturbances, by half the duration, and by the modes.
     Raises NoLength if no patch is unstable or runs away, the creep opens the fault, or slow slip of
     such a fault was not tried.
     """
@@ -174,11 +165,7 @@ def runaway_point(
     log_length, deviation = ladder.threshold(search.duration)
     by_duration = log_length - ladder.threshold(0.5 * search.duration)[0]
     error = math.hypot(DEVIATIONS * deviation, by_duration)
-    return RunawayPoint(
-        math.exp(log_length),
-        max(error, LEAST_ERROR),
-        search.evaluations,
-    )
+    return math.exp(log_length), max(error, LEAST_ERROR)
 
 
 def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
@@ -188,8 +175,7 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """
 
     def answer(one: Systems, critical: float) -> tuple[Any, ...]:
-        point = runaway_point(Patches(one, evolution=fault.evolution), critical)
-        return point.length, point.error, VALUE, ""
+        return *runaway_point(Patches(one, evolution=fault.evolution), critical), VALUE, ""
 
     rows = at_each(fault, answer, rows=4)
     length, error = rows[:2].astype(float)

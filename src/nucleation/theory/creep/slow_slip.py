@@ -13,7 +13,6 @@ reach the wavenumber 2 N/L. They are then little stiff, and an explicit method i
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import RK45
@@ -34,36 +33,12 @@ ORDER = 5  # of the method, Dormand and Prince's
 WEIGHTS = tuple(row[:count] for count, row in enumerate([*RK45.A, RK45.B]))[1:]  # of its stages
 
 
-class Lifetimes(NamedTuple):
-    """Times over D/V until patches run away, inf where slow slip lasts; and what they cost."""
-
-    times: Array  # (length, disturbance)
-    evaluations: int  # of the rates of all patches at once
-
-
 def cohesive_wavenumber(patches: Patches, critical: float) -> float:
     """k_b (1/m), at which the stiffness equals b: about one over the length of a fast front."""
     one = patches.one
-    k = (
-        2.0
-        * np.pi
-        / critical
-        * np.geomspace(
-            0.1,
-            1e4,
-            500,
-        )
-    )
+    k = 2.0 * np.pi / critical * np.geomspace(0.1, 1e4, 500)
     load = one.load_and_coupling(k)[0]
-    return float(
-        np.exp(
-            np.interp(
-                math.log(one.b[0]),
-                np.log(load),
-                np.log(k),
-            )
-        )
-    )
+    return float(np.exp(np.interp(math.log(one.b[0]), np.log(load), np.log(k))))
 
 
 def modes_that_resolve(
@@ -158,9 +133,10 @@ def lifetimes(
     number: int,
     disturbances: Array,
     duration: float,
-) -> Lifetimes:
-    """Times until patches of some lengths (m) run away after weak disturbances of log(phi).
+) -> Array:
+    """Times over D/V until patches run away after weak disturbances, (length, disturbance).
 
+    Lengths are in m, disturbances those of log(phi); the time is inf where slow slip lasts.
     Raises NoLength if the creep opens the fault, or where more than MOST_STEPS are needed.
     """
     slow = _SlowSlip(patches, lengths, number)
@@ -172,7 +148,7 @@ def _integrated(
     slow: _SlowSlip,
     logs: Array,
     duration: float,
-) -> Lifetimes:
+) -> Array:
     """Times at which the largest slip rate exceeds FAST V."""
     stages = np.empty((len(WEIGHTS) + 1, *logs.shape))
     slow.rates(logs, stages[0])
@@ -180,7 +156,7 @@ def _integrated(
     rows = np.arange(len(found))
     time = np.zeros_like(found)
     step = np.full_like(found, FIRST_STEP)
-    for count in range(1, MOST_STEPS + 1):
+    for _ in range(MOST_STEPS):
         after, error = _step(slow, logs, stages, step)
         accepted = error < 1.0
         logs = np.where(accepted[..., None], after, logs)
@@ -201,7 +177,7 @@ def _integrated(
         step = lasting * step * np.clip(growth, 0.2, 3.0)
         kept = lasting.any(axis=1)
         if not kept.any():
-            return Lifetimes(found, len(WEIGHTS) * count)
+            return found
         if not kept.all():
             slow.keep(kept)
             rows, time, step = rows[kept], time[kept], step[kept]
