@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+import yaml
 from configurations import papers
 
 from replication.claims import table as table_of_claims
@@ -46,7 +47,8 @@ def evidence(**changes):
     return dataclasses.replace(_evidence(), **changes)
 
 
-STATED = table_of_claims.stated()
+CLAIMS = ROOT / "src" / "replication" / "claims" / "claims.yaml"
+STATED = yaml.safe_load(CLAIMS.read_text(encoding="utf-8"))
 PAIRED = {subject: STATED.pop(subject) for subject in ["two bodies, simulated"]}
 ENTRIES = {id: entry for entries in STATED.values() for id, entry in entries.items()}
 

@@ -68,4 +68,4 @@ def test_meshes_and_spans_in_words():
     assert phrases.mesh([fine, fine]) == "the paper's mesh" and phrases.caution([fine]) == ""
     assert phrases.mesh([coarse, fine]) == "meshes of 80 x 10 to 400 x 150 elements"
     assert "no results" in phrases.caution([fine, coarse])
-    assert phrases.span([np.nan], ".2f") == "" and phrases.span([2.0, 1.0], "g") == "1 to 2"
+    assert phrases.span([np.nan], str) == "" and phrases.span([2.0, 1.0], "{:g}".format) == "1 to 2"

@@ -16,11 +16,11 @@ def table(*rows):
 def test_every_law_has_a_look_of_its_own():
     names = ["slip", "halfway", "my_law", "aging", "slip"]
     found = list(laws.kinds(table(*((name, 1.0) for name in names), ("slip", 5.0))))
-    assert [kind.name for kind in found] == [
+    assert [name for name, *_ in found] == [
         "aging law", "slip law", "slip law", "halfway law", "my law law"
     ]  # fmt: skip
-    assert [kind.old for kind in found] == [False, False, True, False, False]
-    assert len({(kind.marker, kind.colour) for kind in found}) == 5
+    assert [old for _, old, *_ in found] == [False, False, True, False, False]
+    assert len({(marker, colour) for *_, (marker, _, colour, _), _ in found}) == 5
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from .verdicts import Computation, Found, Missing, Result
 
 PAPERS_MESH = "the paper's mesh"
 _ELEMENTS = (400, 150)  # of the paper, along x and y
-_LESS = 1.0 - 1e-9  # of a number that is equal but for round-off
+_ROUND_OFF = 1e-9  # relative difference of numbers that are equal
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,15 +80,12 @@ class Evidence:
         wanted = {"role": role, **labels}
         found = self._own
         for name, value in wanted.items():
-            low, high = (
-                (value, value)
-                if isinstance(
-                    value,
-                    str,
-                )
-                else (value * _LESS, value / _LESS)
-            )
-            found = [row for row in found if low <= row[name] <= high]
+            tolerance = 0.0 if isinstance(value, str) else _ROUND_OFF * value
+            found = [
+                row
+                for row in found
+                if row[name] == value or (tolerance and abs(row[name] - value) <= tolerance)
+            ]
         if not found:
             which = ", ".join(f"{name} {value}" for name, value in wanted.items())
             raise Missing(f"The configuration has no such run: {which}")
@@ -227,22 +224,13 @@ def caution(rows: Iterable[Mapping[str, Any]]) -> str:
     )
 
 
-def span(values: Iterable[float], form: str | Callable[[float], str]) -> str:
+def span(values: Iterable[float], form: Callable[[float], str]) -> str:
     """The smallest and the largest finite number, or one if both look the same.
 
-    `form` is the format of each, or a function that formats one. Empty without a finite number.
+    `form` formats each. Empty without a finite number.
     """
     known = [value for value in values if math.isfinite(value)]
     if not known:
         return ""
-    ends = min(known), max(known)
-    low, high = (
-        form(end)
-        if callable(form)
-        else format(
-            end,
-            form,
-        )
-        for end in ends
-    )
+    low, high = form(min(known)), form(max(known))
     return low if low == high else f"{low} to {high}"

@@ -5,14 +5,12 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import pandas as pd
 import xarray as xr
-import yaml
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.run.run import Run
@@ -45,23 +43,10 @@ _HEADER = (
 )
 
 
-def stated() -> dict[str, dict[str, Mapping[str, Any]]]:
-    """The entries of ``claims.yaml``, by subject and id."""
-    text = resources.files(__package__).joinpath("claims.yaml").read_text(encoding="utf-8")
-    return dict(yaml.safe_load(text))
-
-
 def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason."""
     return [
-        {
-            "subject": subject,
-            **evaluate_one(
-                id,
-                entry,
-                evidence,
-            ),
-        }
+        {"subject": subject} | evaluate_one(id, entry, evidence)
         for subject, entries in statements.items()
         for id, entry in entries.items()
     ]
@@ -87,12 +72,11 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
         if entry.get("carried"):  # the paper says it of another problem
             expected = expected._replace(chosen=True)
         verdict, reason = judge(expected, result)
-        if entry.get("input") and verdict is Verdict.REPLICATED:  # whether the paper's or another
-            verdict = Verdict.GIVEN
-            reason = f"It is an input of the paper and of our runs. {reason}"
-        elif entry.get("input"):
-            verdict = Verdict.UNCHECKED
-            reason = f"It is an input, and these runs have another. {reason}"
+        if entry.get("input"):  # the paper's or another
+            same = verdict is Verdict.REPLICATED
+            verdict = Verdict.GIVEN if same else Verdict.UNCHECKED
+            whose = " of the paper and of our runs" if same else ", and these runs have another"
+            reason = f"It is an input{whose}. {reason}"
         reason = f"{reason} {note}".rstrip()
         ours = worst(expected, result.found)
         if not math.isnan(ours.value):
@@ -148,14 +132,7 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [
-        re.sub(
-            r"([|*_])",
-            r"\\\1",
-            part,
-        )
-        for part in parts[::2]
-    ]
+    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)
 
 
@@ -217,14 +194,7 @@ def write_article(
 ) -> dict[str, str]:
     """The step ``article``: its text from the template, the claims as JSON and the lengths."""
     rows = json.loads(claims.read_text("utf-8"))
-    return {
-        ".md": render(
-            template.read_text("utf-8"),
-            rows,
-            lengths,
-            beyond,
-        )
-    }
+    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
 
 
 def render(
@@ -252,13 +222,7 @@ def render(
         "percent": lambda value, places=0: (
             "–" if value is None else f"{100.0 * value:.{places}f} %"
         ),
-        "span": lambda values, number: span(
-            values,
-            lambda value: digits(
-                value,
-                number,
-            ),
-        ),
+        "span": lambda values, number: span(values, lambda value: digits(value, number)),
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}
@@ -268,7 +232,8 @@ def render(
         return [row for row in faults if row["role"] == role]
 
     def by_theory(role: str) -> str:
-        return span((row["stability_length"] / row["critical_length"] for row in runs(role)), ".2f")
+        ratios = (row["stability_length"] / row["critical_length"] for row in runs(role))
+        return span(ratios, "{:.2f}".format)
 
     converged = {row["fault"]: row for row in runs("converged")}
     return environment.from_string(template).render(

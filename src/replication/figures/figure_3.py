@@ -63,13 +63,13 @@ def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: st
     )
     means = over_realisations(lengths)
     drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
-    for kind in laws.kinds(drawn):
-        aside = ScaledTranslation(kind.aside / 72.0, 0.0, figure.dpi_scale_trans)
-        marks: style.Options = {"marker": kind.marker, "ms": kind.size, "color": kind.colour}
-        marks |= {"transform": axes.transData + aside, "zorder": 4.0 - 0.1 * kind.size}
-        for same in laws.groups(kind.runs.sortby("initial_state"), "initial_state"):
-            label = f"FEM, {kind.name}"
-            if kind.old:
+    for name, old, (marker, size, colour, right), runs in laws.kinds(drawn):
+        aside = ScaledTranslation(right / 72.0, 0.0, figure.dpi_scale_trans)
+        marks: style.Options = {"marker": marker, "ms": size, "color": colour}
+        marks |= {"transform": axes.transData + aside, "zorder": 4.0 - 0.1 * size}
+        for same in laws.groups(runs.sortby("initial_state"), "initial_state"):
+            label = f"FEM, {name}"
+            if old:
                 age = float(same["initial_state"][0])
                 power = np.log10(age)
                 short = power >= 3.0 and power == round(power)
@@ -234,14 +234,9 @@ def draw_extended(
     )
     left.legend(loc="upper left")
     marks = []
-    for kind in laws.kinds(lengths):
-        older = ", older interface" if kind.old else ""
-        marks += right.plot(
-            [],
-            [],
-            kind.marker,
-            label=kind.name + older,
-        )
+    for name, old, (marker, *_), _ in laws.kinds(lengths):
+        older = ", older interface" if old else ""
+        marks += right.plot([], [], marker, label=name + older)
     right.set(
         xscale="log",
         xlim=(0.8 * lengths["height"].min(), highest),
@@ -302,19 +297,13 @@ def _draw_lengths(
         ),
     ):
         label = text
-        for kind in laws.kinds(laws.where(own, np.isfinite(own[column]))):
-            marks: style.Options = {"marker": kind.marker, "color": kind.colour}
-            laws.draw(
-                axes,
-                "height",
-                kind.runs,
-                column,
-                label=label,
-                **marks | look,
-            )
+        known = laws.where(own, np.isfinite(own[column]))
+        for _, _, (marker, _, colour, _), runs in laws.kinds(known):
+            marks: style.Options = {"marker": marker, "color": colour}
+            laws.draw(axes, "height", runs, column, label=label, **marks | look)
             label = ""  # one entry of the legend for all kinds
     if stronger.sizes["run"]:
-        quiet = next(laws.kinds(laws.where(lengths, role=_JUDGED))).runs
+        *_, quiet = next(laws.kinds(laws.where(lengths, role=_JUDGED)))
         heights = (stronger["height"], quiet["height"])
         shared, first, second = np.intersect1d(*heights, return_indices=True)
         ends = stronger["length"][first], quiet["length"][second]

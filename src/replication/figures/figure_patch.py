@@ -123,7 +123,7 @@ def draw_stability(table: xr.Dataset, patches: Iterable[xr.Dataset]) -> Figure:
 
 def shown(table: xr.Dataset) -> xr.Dataset:
     """The runs with the usual law and the usual initial state, of the shown role."""
-    usual = next(laws.kinds(table)).runs
+    *_, usual = next(laws.kinds(table))
     for role in _SHOWN:
         if role in usual["role"].values:
             return laws.where(usual, role=role)

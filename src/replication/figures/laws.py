@@ -4,7 +4,7 @@ The paper's two laws have the marks of its Figure 3; other laws take the next fr
 """
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,10 +14,15 @@ from numpy.typing import ArrayLike
 from nucleation.pictures import style
 from nucleation.types import Array
 
+from ..tables.rows import groups as rows_that_agree
+
+Marks = tuple[str, float, str, float]
+"""Marker, size (points), colour, and points by which Figure 3 moves the marks to the right."""
+
 USUAL_AGE = 1.0  # s: the initial state of all simulations that declare no other
 
 
-PAPERS = {
+PAPERS: dict[tuple[str, bool], Marks] = {
     ("aging", False): ("o", 4.6, style.AGING, 0.0),
     ("slip", False): ("^", 7.2, style.SLIP, -4.0),
     ("aging", True): ("s", 6.6, style.OLD_AGE, 4.0),
@@ -31,53 +36,27 @@ The usual kind is the smallest, as it is drawn over the others.
 _OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
 
 
-class Kind(NamedTuple):
-    """The runs of one law with either the usual or another initial state, and their marks."""
+def kinds(table: xr.Dataset) -> Iterator[tuple[str, bool, Marks, xr.Dataset]]:
+    """The kinds of simulation in a table: those of the paper first, then the others by name.
 
-    name: str
-    old: bool
-    marker: str
-    size: float  # points (1/72 inch)
-    colour: str
-    aside: float  # points by which Figure 3 moves them to the right
-    runs: xr.Dataset
-
-
-def kinds(table: xr.Dataset) -> Iterator[Kind]:
-    """The kinds of simulation in a table: those of the paper first, then the others by name."""
+    Each has its name, whether the initial state is not the usual one, its marks and its runs.
+    """
     laws = table["evolution"].values.astype(str)
-    aged = ~np.isclose(
-        table["initial_state"].values,
-        USUAL_AGE,
-    )
+    aged = ~np.isclose(table["initial_state"].values, USUAL_AGE)
     looks = dict(PAPERS)
     for i, law in enumerate(sorted(set(laws) - {law for law, _ in PAPERS})):
         marker, colour = _OTHERS[i % len(_OTHERS)]
         looks[law, False] = (marker, 6.6, colour, 0.0)
         looks[law, True] = (marker, 6.6, style.OLD_AGE, 0.0)
     for (law, old), look in looks.items():
-        runs = where(
-            table,
-            (laws == law) & (aged == old),
-        )
+        runs = where(table, (laws == law) & (aged == old))
         if runs.sizes["run"]:
-            yield Kind(
-                f"{law.replace('_', ' ')} law",
-                old,
-                *look,
-                runs,
-            )
+            yield f"{law.replace('_', ' ')} law", old, look, runs
 
 
 def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.Dataset:
     """The chosen rows of a table, those whose columns have the values of `labels`."""
-    found = np.broadcast_to(
-        np.asarray(
-            chosen,
-            dtype=bool,
-        ),
-        table.sizes["run"],
-    )
+    found = np.broadcast_to(np.asarray(chosen, dtype=bool), table.sizes["run"])
     for name, value in labels.items():
         found = found & (table[name].values == value)
     return table.isel(run=np.flatnonzero(found))
@@ -85,15 +64,8 @@ def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.D
 
 def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
     """The rows that agree in some columns, group by group, in the order of the table."""
-    columns = [table[name].values.tolist() for name in names]
-    keys = list(
-        zip(
-            *columns,
-            strict=True,
-        )
-    )
-    for key in dict.fromkeys(keys):
-        yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
+    for rows in rows_that_agree(table, *names):
+        yield table.isel(run=rows)
 
 
 def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
@@ -102,14 +74,7 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
     A bar is left out if an end is NaN or not in the table.
     """
     middle = table[name].values
-    low = table.get(
-        f"{name}_low",
-        table[name],
-    ).values
-    high = table.get(
-        f"{name}_high",
-        table[name],
-    ).values
+    low, high = (table.get(f"{name}_{end}", table[name]).values for end in ("low", "high"))
     bars = np.nan_to_num([middle - low, high - middle]).clip(0.0)
     usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
     axes.errorbar(

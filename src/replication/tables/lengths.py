@@ -19,7 +19,7 @@ from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 from nucleation.types import Array
 
-from .rows import SHARED, Row
+from .rows import SHARED, Row, groups
 
 _OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
     "onset_time": np.mean,
@@ -28,6 +28,9 @@ _OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
     "length": np.mean,
     "length_low": np.min,
     "length_high": np.max,
+    "length_ratio": np.mean,
+    "length_ratio_low": np.min,
+    "length_ratio_high": np.max,
     **dict.fromkeys(MEASURES, np.mean),
 }
 """How each number that differs between the realisations of one fault is aggregated."""
@@ -106,11 +109,7 @@ def measured_runs(
     """
 
     def measured(i: int, record: xr.Dataset) -> xr.Dataset:
-        row = lengths_table(
-            [runs[i]],
-            [record],
-            settings,
-        )
+        row = lengths_table([runs[i]], [record], settings)
         if measure == "stability":
             found = follow_patch(record, settings)["stability_length"]
             row["stability_length"] = ("run", found.values[None], found.attrs)
@@ -179,18 +178,7 @@ def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 def realisations(table: xr.Dataset) -> list[list[int]]:
     """The rows of each run of a study in a table of lengths, which differ in the seed alone."""
-    studies = table["study"].values.tolist()
-    ensembles = table["ensemble"].values.tolist()
-    rows: dict[tuple[str, str], list[int]] = {}
-    for i, key in enumerate(
-        zip(
-            studies,
-            ensembles,
-            strict=True,
-        )
-    ):
-        rows.setdefault(key, []).append(i)
-    return list(rows.values())
+    return groups(table, "study", "ensemble")
 
 
 def over_realisations(table: xr.Dataset) -> xr.Dataset:

@@ -7,7 +7,6 @@ weakening, and two deformable bodies.
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
@@ -242,12 +241,5 @@ def pairs_over_realisations(table: xr.Dataset) -> xr.Dataset:
     ``length_ratio_low`` and ``length_ratio_high`` are the least and the largest of them, without
     the range over definitions that ``length_low`` and ``length_high`` have.
     """
-    ratio = table["length_ratio"].values
-    faults = [ratio[rows] for rows in lengths.realisations(table)]
-    columns = {
-        "length_ratio": [fault.mean() for fault in faults],
-        "length_ratio_low": [fault.min() for fault in faults],
-        "length_ratio_high": [fault.max() for fault in faults],
-    }
-    on_run = {name: ("run", np.array(values)) for name, values in columns.items()}
-    return lengths.over_realisations(table).assign(on_run)
+    ratio = table["length_ratio"]
+    return lengths.over_realisations(table.assign(length_ratio_low=ratio, length_ratio_high=ratio))

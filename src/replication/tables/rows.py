@@ -48,16 +48,16 @@ def rows_of(table: xr.Dataset, names: Iterable[str] | None = None) -> list[Row]:
     wanted = table.data_vars if names is None else names
     columns = {str(name): table[name].values.tolist() for name in wanted}
     rows = zip(*columns.values(), strict=True)
-    return [
-        dict(
-            zip(
-                columns,
-                row,
-                strict=True,
-            )
-        )
-        for row in rows
-    ]
+    return [dict(zip(columns, row, strict=True)) for row in rows]
+
+
+def groups(table: xr.Dataset, *names: str) -> list[list[int]]:
+    """The rows that agree in some columns, group by group, in the order of the table."""
+    columns = [table[name].values.tolist() for name in names]
+    rows: dict[Any, list[int]] = {}
+    for i, key in enumerate(zip(*columns, strict=True)):
+        rows.setdefault(key, []).append(i)
+    return list(rows.values())
 
 
 def without_event(rows: Iterable[Row]) -> list[str]:
