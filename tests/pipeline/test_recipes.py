@@ -36,7 +36,7 @@ def test_code_edited_after_the_store_was_asked_is_refused(planned, monkeypatch):
     assert all(one.key for one in planned.needed)
     monkeypatch.setattr(code, "load", lambda *roots: None)
     monkeypatch.setattr(code, "digest", lambda *roots: "of edited code")
-    with pytest.raises(code.CodeError, match="the sources of part have changed"):
+    with pytest.raises(code.DatasetError, match="the sources of part have changed"):
         verify(planned)
 
 

@@ -52,7 +52,7 @@ def test_the_smallest_record_is_small(records, tmp_path):
 
 
 def test_what_was_not_recorded_is_said(records):
-    with pytest.raises(DatasetError, match=r"slip, shear_stress.*recording\.record is lengths"):
+    with pytest.raises(DatasetError, match=r"slip, shear_stress.*run's record is lengths"):
         Record(records["lengths"]).require("slip", "shear_stress")
     Record(records["interface"]).require("slip", "shear_stress")
     Record(records["lengths"]).require("slip_rate")

@@ -82,6 +82,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     from ..datasets import DatasetError
     from ..model.quantities import ParameterError
 
+    code = REFUSED
     try:
         if os.environ.get("SOURCE_DATE_EPOCH"):  # a wrong one would stop the import of NumPy
             from ..datasets.provenance import moment
@@ -103,8 +104,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
             error = click.UsageError(text, getattr(error, "ctx", None))
         shown = io.StringIO()
         error.show(shown)
-        _print_error(*shown.getvalue().splitlines())
-        return error.exit_code
+        lines, code = shown.getvalue().splitlines(), error.exit_code
     except click.Abort:
         click.echo("Interrupted", err=True)
         return INTERRUPTED
@@ -113,14 +113,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return REFUSED
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
-        message = place + (error.strerror or str(error))
+        lines = [f"Error: {place}{error.strerror or error}"]
     except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
-        message = str(error) or "not enough memory"
-    _print_error(f"Error: {message}")
-    return REFUSED
-
-
-def _print_error(*lines: str) -> None:
+        lines = [f"Error: {str(error) or 'not enough memory'}"]
     from .text import wrapped
 
     click.echo("\n".join(wrapped(*lines, err=True)), err=True)
+    return code

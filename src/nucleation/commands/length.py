@@ -124,6 +124,11 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
         from ..fault.files import read_samples
 
         columns = read_samples(samples)
+    if of_patch["outside_zeta"] is None and any(x is not None for x in of_patch.values()):
+        raise ParameterError(
+            "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
+            "surroundings, negative where they strengthen"
+        )
     with printed_warnings():
         fault, names, drawn = given_fault(options, columns, draws)
         if drawn:
@@ -144,7 +149,11 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
                 weakening_rate=rate,
             )
         found = fault.lengths(**perturbed, weakening_rate=options["weakening_rate"])
-        patch = _patch(fault, of_patch)
+        patch = None
+        if of_patch["outside_zeta"] is not None:
+            from ..lengths.weakening_patch import patch_answer
+
+            patch = patch_answer(fault, *of_patch.values())
         mode = _mode(fault)
     system = system_of_fault(fault, names, options["paper"])
     critical = found["critical_length"]
@@ -286,20 +295,6 @@ def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) 
     if length.beyond and formulas.between_localised_and_crack(a, b):
         rows.append(f"      {length.beyond}")
     return rows
-
-
-def _patch(fault: Fault, given: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The behaviour of a weakening patch with the fault's friction; None if there is none."""
-    if given["outside_zeta"] is not None:
-        from ..lengths.weakening_patch import patch_answer
-
-        return patch_answer(fault, given["outside_zeta"], given["outside_a"], given["width"])
-    if any(value is not None for value in given.values()):
-        raise ParameterError(
-            "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
-            "surroundings, negative where they strengthen"
-        )
-    return None
 
 
 def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:

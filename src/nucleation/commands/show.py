@@ -77,34 +77,12 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
 
 
 def _lines(dataset: xr.Dataset, kind: str) -> list[str]:
-    """The content of a dataset, and its command, date, code and versions."""
+    """The content of a dataset, or the outcome of a simulation; command, date, code, versions."""
     attributes = dataset.attrs
-    is_simulation = kind == "simulation"
-    lines = _simulation_lines(dataset) if is_simulation else str(dataset).splitlines()
-    for name in ("command", "created"):
-        if name in attributes:
-            lines.append(f"{name}: {attributes[name]}")
-    if "code_digest" in attributes:
-        digest = attributes["code_digest"]
-        verdict = ""
-        if is_simulation:
-            from ..simulation.checkpoints import simulation_code
-
-            differs = digest != simulation_code(parameters_of(dataset))
-            verdict = f", {'NOT ' if differs else ''}that of this installation"
-        lines.append(f"code: {digest[:16]}{verdict}")
-    if "key" in attributes:
-        lines.append(f"key in the workflow: {attributes['key']}")
-    if "versions" in attributes:
-        versions = json.loads(attributes["versions"])
-        listed = ", ".join(f"{name} {version}" for name, version in versions.items())
-        lines.append(f"versions: {listed}")
-    return lines
-
-
-def _simulation_lines(dataset: xr.Dataset) -> list[str]:
-    """Parameters, outcome, record, theory and event of a simulation."""
-    attributes = dataset.attrs
+    own = ("command", "created", "code_digest", "key", "versions")
+    described = [f"{name}: {attributes[name]}" for name in own if name in attributes]
+    if kind != "simulation":
+        return [*str(dataset).splitlines(), *described]
     sizes = dataset.sizes
     run = parameters_of(dataset)
     try:
@@ -123,4 +101,5 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
         f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points",
         f"theory: {theory_text}",
         *event_lines(extract(dataset), theory),
+        *described,
     ]

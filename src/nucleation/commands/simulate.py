@@ -130,17 +130,6 @@ def _plan_lines(run: Run) -> list[str]:
     return [*lines, until, f"memory: about {estimated_megabytes(run):.0f} MB"]
 
 
-def _command(output: Path, run: Run) -> str:
-    """A command line that makes the dataset again, with all parameters that are not the paper's."""
-    usual = PAPER_RUN.to_dict()
-    follow = ("block_length", "end_time", "time_after_event", "correlation_length")
-    words = []
-    for name, value in run.to_dict().items():
-        if name in follow or value != usual.get(name):
-            words.append(f"--{name.replace('_', '-')}={value}")
-    return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
-
-
 def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
     from ..datasets import netcdf, provenance
@@ -148,8 +137,15 @@ def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) 
     from ..simulation.checkpoints import Stopped, run_to_file, simulation_code
     from ..simulation.progress import Progress
 
+    # the command makes the dataset again, with all parameters that are not the paper's
+    usual, words = PAPER_RUN.to_dict(), []
+    follow = ("block_length", "end_time", "time_after_event", "correlation_length")
+    for name, value in run.to_dict().items():
+        if name in follow or value != usual.get(name):
+            words.append(f"--{name.replace('_', '-')}={value}")
+    again = shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
     digest = simulation_code(run)
-    attributes = provenance.attributes(run.to_dict(), digest, _command(output, run))
+    attributes = provenance.attributes(run.to_dict(), digest, again)
     progress = Progress(run, sys.stderr)
     try:
         dataset, path = run_to_file(

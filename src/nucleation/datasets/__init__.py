@@ -5,4 +5,4 @@ This wing imports nothing else of the package.
 
 
 class DatasetError(ValueError):
-    """A variable is not declared, or results are damaged, incomplete or from another project."""
+    """A variable is not declared, or results or their code are damaged, changed or foreign."""

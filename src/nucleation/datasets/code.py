@@ -12,10 +12,11 @@ import importlib
 import importlib.metadata
 import importlib.util
 import sys
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
+
+from . import DatasetError
 
 PACKAGES = ("nucleation", "replication")
 _ROOT = Path(__file__).resolve().parents[2]
@@ -39,10 +40,6 @@ _DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
 _COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
 # fields of syntax trees without meaning here, or unknown to some Python versions
 _UNCOUNTED = {"ctx", "kind", "type_comment", "type_ignores", "type_params"}
-
-
-class CodeError(RuntimeError):
-    """Code differs from the code that a job was planned with, or can't be read."""
 
 
 class _Source(NamedTuple):
@@ -108,16 +105,22 @@ def _version(library: str) -> str:
 
 @cache
 def _source(module: str) -> _Source:
-    """A parsed module; the result is the same for every Python version."""
     path = _file(module)
     if path is None:
-        raise CodeError(f"{module} is no module of the package")
+        raise DatasetError(f"{module} is no module of the package")
+    return _parsed(path, path.read_bytes())
+
+
+@cache  # code that is read anew and is unchanged is not parsed again
+def _parsed(path: Path, content: bytes) -> _Source:
+    """A parsed module; the result is the same for every Python version."""
     try:
-        tree = ast.parse(path.read_bytes())
+        tree = ast.parse(content)
     except SyntaxError as error:
-        raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
+        raise DatasetError(f"{path}:{error.lineno}: {error.msg}") from None
     imports: list[tuple[int, str, str]] = []
-    words = "\0".join(_words(tree, imports))
+    words: list[str] = []
+    _collect(tree, words, imports)
     own, others = [], set()
     for level, name, inner in imports:
         root = name.partition(".")[0]
@@ -125,7 +128,7 @@ def _source(module: str) -> _Source:
             own.append((level, name, inner))
         elif root not in sys.stdlib_module_names:
             others.add(root)
-    return _Source(hashlib.sha256(words.encode()).hexdigest(), own, others)
+    return _Source(hashlib.sha256("\0".join(words).encode()).hexdigest(), own, others)
 
 
 @cache
@@ -150,8 +153,8 @@ def _file(module: str) -> Path | None:
     return None
 
 
-def _words(node: object, imports: list[tuple[int, str, str]]) -> Iterator[str]:
-    """The words of a syntax tree, or of a value in one; its imports are added to the list."""
+def _collect(node: object, words: list[str], imports: list[tuple[int, str, str]]) -> None:
+    """Add the words of a syntax tree, or of a value in one, and its imports to two lists."""
     match node:
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):
             return
@@ -164,15 +167,15 @@ def _words(node: object, imports: list[tuple[int, str, str]]) -> Iterator[str]:
         case ast.ImportFrom():
             imports += [(node.level, node.module or "", alias.name) for alias in node.names]
     if isinstance(node, list):
-        yield "["
+        words.append("[")
         for item in node:
-            yield from _words(item, imports)
-        yield "]"
+            _collect(item, words, imports)
+        words.append("]")
     elif isinstance(node, ast.AST):
-        yield type(node).__name__
+        words.append(type(node).__name__)
         for field, value in ast.iter_fields(node):
             if field not in _UNCOUNTED and value is not None:
-                yield field
-                yield from _words(value, imports)
+                words.append(field)
+                _collect(value, words, imports)
     else:
-        yield repr(node)
+        words.append(repr(node))

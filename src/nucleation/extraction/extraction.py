@@ -66,8 +66,8 @@ class Record:
         missing = [name for name in names if name not in self.simulation]
         if missing:
             raise DatasetError(
-                f"{', '.join(missing)}: not recorded, as the run's recording.record is "
-                f"{self.run.recording.record}; simulate with interface"
+                f"{', '.join(missing)}: not recorded, as the run's record is "
+                f"{self.run.stepping.record}; simulate with interface"
             )
 
     @cached_property

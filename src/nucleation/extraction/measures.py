@@ -73,7 +73,7 @@ def measure(record: Record) -> dict[str, float]:
     its edge, or if its interface is not recorded.
     """
     given = record.run
-    if given.fault.loading != "edge" or given.recording.record == "lengths":
+    if given.fault.loading != "edge" or given.stepping.record == "lengths":
         return {}
     sizes = record.simulation["step_size"].values[1:]
     normal = record.simulation["sigma_yy"].values

@@ -93,7 +93,7 @@ class Block(Checked):
 
 @dataclasses.dataclass(frozen=True)
 class Stepping(Checked):
-    """Control of the time integration."""
+    """Control of the time integration, and the data that are recorded."""
 
     end_time: float = quantity("simulated time", "(0.0, 1e12) s", symbol="t", default=16.0)
     time_after_event: float = quantity(
@@ -117,6 +117,12 @@ class Stepping(Checked):
     )
     shortest_step: float = quantity(
         "shortest time step, below which the run ends as failed", "(0.0, 1.0) s", default=1.0e-12
+    )
+    record: str = quantity(
+        "recorded data of a simulation: all fields of the interface; or only the data for lengths "
+        "and the stability of the patch, in single precision",
+        choices=("interface", "lengths"),
+        default="interface",
     )
 
 
@@ -188,15 +194,3 @@ def spectral_density(omega: ArrayLike, correlation: float) -> Array:
     half_spacing = 0.5 * MEAN_SQUARE * correlation
     half = half_spacing * np.asarray(omega, dtype=float)
     return correlation * np.sinc(half / np.pi) ** 8
-
-
-@dataclasses.dataclass(frozen=True)
-class Recording(Checked):
-    """Which data a simulation records."""
-
-    record: str = quantity(
-        "recorded data of a simulation: all fields of the interface; or only the data for lengths "
-        "and the stability of the patch, in single precision",
-        choices=("interface", "lengths"),
-        default="interface",
-    )

@@ -21,7 +21,6 @@ NOISE_OF_MESH = "perturbation lost in the mesh's noise"
 OF_MESHES = (COARSE_X, COARSE_Y, ROUGHNESS, NOISE_OF_MESH)
 """Topics of warnings about meshes."""
 
-FRICTION = "friction changes along the patch"
 
 _UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
@@ -54,13 +53,6 @@ _STEPS_PER_PERIOD = 8.0
 
 _SHORT_BLOCK = 2.0
 """Block length over the critical length below which the far end affects the patch."""
-
-_CHANGE_OF_FRICTION = 0.2
-"""Smallest relative change of a or b from V to V/10 that causes a warning.
-
-Slip rates at the front are about V/10. The change is 0.03 with the paper's scales; b of the
-regularised Dieterich-Ruina law halves with V = 10 v0.
-"""
 
 
 def advice(run: Run, critical: float) -> Iterator[Advice]:
@@ -99,7 +91,6 @@ def advice(run: Run, critical: float) -> Iterator[Advice]:
         )
     if run.fault.loading == "edge":
         yield from _of_patches(run, critical)
-        yield from _changing_friction(run)
         yield from _of_perturbation(run, critical)
 
 
@@ -131,29 +122,6 @@ def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
             f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
             f"critical length, {critical:.3g} m; recommended are 4 to 6 times",
         )
-
-
-def _changing_friction(run: Run) -> Iterator[Advice]:
-    """Friction laws with scales v* and v0 so large that a and b change along the patch."""
-    friction, velocity = run.law, run.fault.velocity
-    _, a, zeta = friction.expansion(velocity)
-    _, a_near, zeta_near = friction.expansion(velocity * 0.1)
-    b, b_near = a + zeta, a_near + zeta_near
-    change = max(abs(a_near / a - 1.0), abs(b_near - b) / max(a, abs(b)))
-    if change < _CHANGE_OF_FRICTION:
-        return
-    scales = ", ".join(
-        f"{name} = {getattr(friction, name):g} m/s"
-        for name in ("slip_rate_scale", "regularisation_slip_rate")
-        if hasattr(friction, name)
-    )
-    yield (
-        FRICTION,
-        change,
-        f"{scales} beside V = {velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, {a_near:.3g}, "
-        f"{b_near:.3g} at V/10, which changes L_s; give smaller scales unless these are intended "
-        "(docs/creeping_patch.md)",
-    )
 
 
 def _zone(run: Run, critical: float) -> float:

@@ -30,7 +30,7 @@ def fault(run: Run) -> str:
     """
     known = sections()
     of_solution = [name for name in known["block"] if name != "height"]
-    for section in ("stepping", "perturbation", "recording"):
+    for section in ("stepping", "recording", "perturbation"):
         of_solution += known[section]
     return identity(run, *of_solution, "second_n_y", "second_grading")
 

@@ -8,12 +8,12 @@ from types import MappingProxyType
 from typing import Any
 
 from ..fault.flat import SECOND_BODY
-from ..model.friction import law_declarations
+from ..model.friction import Friction, law_declarations
 from ..model.friction.constants import CONSTANTS, ZETA_OVER_A
 from ..model.heterogeneity import Heterogeneity
 from ..model.hints import hint
 from ..model.quantities import ParameterError, Quantity, check, declarations
-from ..model.settings import Block, Perturbation, Recording, Start, Stepping
+from ..model.settings import Block, Perturbation, Start, Stepping
 from ..model.units import parse
 from ..theory.values import QUANTITIES
 
@@ -23,7 +23,6 @@ GROUPS: dict[str, Any] = {
     "stepping": Stepping,
     "perturbation": Perturbation,
     "heterogeneity": Heterogeneity,
-    "recording": Recording,
 }
 """The parts of a run beside its fault and its friction law."""
 
@@ -36,11 +35,8 @@ OF_GROUPS = {
 _OF_SECOND = ("far_side", "shear_modulus", "poisson_ratio", "density", "height", "n_y", "grading")
 
 
-@cache
-def law_entries() -> dict[str, Quantity]:
-    """Declarations of the parameters of all friction laws by their names in a run."""
-    entries = law_declarations()
-    return {"friction_law" if name == "law" else name: entry for name, entry in entries.items()}
+OF_LAWS = {Friction.called.get(name, name): entry for name, entry in law_declarations().items()}
+"""Declarations of the parameters of all friction laws by their names in a run."""
 
 
 @cache
@@ -50,14 +46,14 @@ def sections() -> Mapping[str, tuple[str, ...]]:
     loading = ("normal_stress", "velocity", "initial_state", "loading")
     found = {
         "material": ("shear_modulus", "poisson_ratio", "density", "plane"),
-        "friction": tuple(law_entries()),
+        "friction": tuple(OF_LAWS),
         "loading": (*loading, *OF_GROUPS["start"]),
         "block": ("height", *block),
-        "stepping": tuple(OF_GROUPS["stepping"]),
+        "stepping": tuple(name for name in OF_GROUPS["stepping"] if name != "record"),
         "perturbation": tuple(OF_GROUPS["perturbation"]),
         "heterogeneity": tuple(OF_GROUPS["heterogeneity"]),
         "second_body": ("second_body", *(f"second_{name}" for name in _OF_SECOND)),
-        "recording": tuple(OF_GROUPS["recording"]),
+        "recording": ("record",),
     }
     return MappingProxyType(found)
 
@@ -65,7 +61,7 @@ def sections() -> Mapping[str, tuple[str, ...]]:
 @cache
 def parameters() -> Mapping[str, Quantity]:
     """The declarations of all parameters of a run and of the constants of friction, by name."""
-    known = {**QUANTITIES, **law_entries(), "second_body": SECOND_BODY, "zeta_over_a": ZETA_OVER_A}
+    known = {**QUANTITIES, **OF_LAWS, "second_body": SECOND_BODY, "zeta_over_a": ZETA_OVER_A}
     for entries in OF_GROUPS.values():
         known |= entries
     found = {}

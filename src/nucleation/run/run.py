@@ -15,10 +15,10 @@ from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
 from ..model.quantities import ParameterError
-from ..model.settings import Block, Perturbation, Recording, Start, Stepping
+from ..model.settings import Block, Perturbation, Start, Stepping
 from ..theory.evaluation import single_system
 from .complete import complete, flat, time_to_length, zone_length
-from .names import GROUPS, OF_GROUPS, law_entries, read, sections
+from .names import GROUPS, OF_GROUPS, OF_LAWS, read, sections
 
 if TYPE_CHECKING:
     from ..theory.creep.patches import Patches
@@ -70,7 +70,6 @@ class Run:
     stepping: Stepping
     perturbation: Perturbation
     heterogeneity: Heterogeneity
-    recording: Recording
 
     def __init__(self, fault: Fault, **values: Any) -> None:
         self._set(complete(fault, read(values)))
@@ -164,7 +163,7 @@ class Run:
             kept = [name for name in changed if not name.startswith("second_")]
             changed = {name: changed[name] for name in (*kept, "second_body")}
             changed |= {name: x for name, x in given.items() if name.startswith("second_")}
-        of_law = {name: x for name, x in given.items() if name in law_entries()}
+        of_law = {name: x for name, x in given.items() if name in OF_LAWS}
         if "friction_law" in of_law:
             of_law["law"] = of_law.pop("friction_law")
         law = with_constants(
@@ -172,7 +171,7 @@ class Run:
             changed["velocity"],
             given,
         )
-        for name in (*law_entries(), *CONSTANTS):
+        for name in (*OF_LAWS, *CONSTANTS):
             changed.pop(name, None)
         for name, value in vars(law).items():
             changed[law.called.get(name, name)] = value
@@ -181,43 +180,26 @@ class Run:
     @property
     def upper(self) -> Body:
         """The first block."""
-        fault, block = self.fault, self.block
-        material = Material(
-            fault.shear_modulus,
-            fault.poisson_ratio,
-            fault.density,
-            fault.plane,
-        )
-        return Body(
-            material,
-            block.length,
-            fault.height,
-            block.n_x,
-            block.n_y,
-            block.grading,
-            fault.far_side,
-        )
+        return self._body("")
 
     @property
     def below(self) -> Body | None:
         """The second block, or None on a rigid base."""
+        return None if math.isinf(self.fault.second_shear_modulus) else self._body("second_")
+
+    def _body(self, prefix: str) -> Body:
+        """The block whose parameters of the fault have the prefix."""
         fault, block = self.fault, self.block
-        if math.isinf(fault.second_shear_modulus):
-            return None
-        material = Material(
-            fault.second_shear_modulus,
-            fault.second_poisson_ratio,
-            fault.second_density,
-            fault.plane,
-        )
+        names = ("shear_modulus", "poisson_ratio", "density")
+        values = {name: getattr(fault, prefix + name) for name in names}
         return Body(
-            material,
+            Material(**values, plane=fault.plane),
             block.length,
-            fault.second_height,
+            getattr(fault, f"{prefix}height"),
             block.n_x,
-            block.second_n_y or block.n_y,
-            block.second_grading or block.grading,
-            str(fault.second_far_side),
+            getattr(block, f"{prefix}n_y") or block.n_y,
+            getattr(block, f"{prefix}grading") or block.grading,
+            str(getattr(fault, f"{prefix}far_side")),
         )
 
     @property

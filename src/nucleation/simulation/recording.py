@@ -55,7 +55,7 @@ class Recorder:
         self._drive = dynamics.drive
         self._velocity = run.fault.velocity
         self._longest_pause = LONGEST_PAUSE * run.memory_time
-        self._fields = INTERFACE if run.recording.record == "interface" else FOR_LENGTHS
+        self._fields = INTERFACE if run.stepping.record == "interface" else FOR_LENGTHS
         self._rows: list[tuple[float, ...]] = []  # of PER_STEP
         self._frame_times: list[float] = []
         self._frames: list[Array] = []  # of the fields

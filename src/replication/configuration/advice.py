@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 
 from nucleation.run.advice import (
-    FRICTION,
     NOISE_OF_MESH,
     OF_MESHES,
     ROUGHNESS,
@@ -24,10 +23,8 @@ def warned(runs: Iterable[StudyRun]) -> list[tuple[str, list[StudyRun]]]:
     found: dict[tuple[str, str], list[tuple[float, str, StudyRun]]] = {}
     for run in runs:
         meant: tuple[str, ...] = ()
-        if run.role == "patch_theory":  # its faults have such friction on purpose
-            meant = (FRICTION,)
         if run.role in (*REFINEMENTS, "patch_theory"):  # these measure the noise
-            meant += (ROUGHNESS, NOISE_OF_MESH)
+            meant = (ROUGHNESS, NOISE_OF_MESH)
         for topic, badness, text in advice(run.run, run.critical_length):
             if topic not in meant:
                 found.setdefault((run.study, topic), []).append((badness, text, run))

@@ -217,7 +217,7 @@ def problems_of_run(key: str, run: StudyRun, settings: Settings) -> Iterator[str
             f"in [{extraction.drop:g}, 1), or be left out"
         )
     low = extraction.edge_threshold_low
-    if run.run.recording.record == "lengths" and low < STUCK_BELOW:
+    if run.run.stepping.record == "lengths" and low < STUCK_BELOW:
         problems.append(
             "record = lengths is not allowed with extraction.edge_threshold_low "
             f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must "

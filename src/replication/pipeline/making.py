@@ -34,7 +34,7 @@ SIMULATE = "nucleation.simulation.run:simulate"
 UNFINISHED = "unfinished"  # directory of checkpoints, and of records of runs that failed
 _LENGTHS = "lengths/"  # directory of the tables of studies
 
-_EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
+_EXPECTED = (DatasetError, ParameterError, OSError)
 """Errors that are reported in one line: their cause is not in the code."""
 
 _OF_MACHINE = ("wall_seconds", "peak_megabytes")
@@ -76,13 +76,13 @@ def make(
 
 
 def verify(recipe: Recipe) -> None:
-    """Load all code of a recipe; CodeError unless code and sources are those of the plan."""
+    """Load all code of a recipe; DatasetError unless code and sources are those of the plan."""
     recipes = (recipe, *recipe.parts)
     for roots in dict.fromkeys(one.roots for one in recipes):
         code.load(*roots)
     for one in recipes:
         if one.key_now() != one.key:
-            raise code.CodeError(
+            raise DatasetError(
                 f"the code, the parameters or the sources of {one.name} have changed since this "
                 "job was planned: start the workflow again"
             )
