@@ -113,3 +113,9 @@ def test_lengths_of_arrays_are_those_of_each_fault():
         for key, answer in alone.items():
             own = np.broadcast_to(found[key].value, 2)[i]
             assert own == pytest.approx(answer.value, nan_ok=True), key
+
+
+def test_a_notebook_shows_values_with_units():
+    shown = Fault(**ROCK)._repr_html_().splitlines()
+    assert "normal_stress         50000000.0 Pa" in shown
+    assert "a                     0.01" in shown

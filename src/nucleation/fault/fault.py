@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import inspect
 import math
 from collections.abc import Callable, Mapping
@@ -158,6 +159,15 @@ class Fault:
         """Names of the parameters with a value; with ``[name]`` they make ``**fault`` possible."""
         names = [field.name for field in dataclasses.fields(self)]
         return [n for n in names if getattr(self, n) is not None and not self._follows(n)]
+
+    def _repr_html_(self) -> str:
+        """The parameters with their units, for a notebook."""
+        lines = []
+        for name in self.keys():
+            unit = QUANTITIES[name].unit if name in QUANTITIES else "1"
+            shown = f"{name:<22}{getattr(self, name)}"
+            lines.append(shown if unit == "1" else f"{shown} {unit}")
+        return f"<pre>{html.escape(chr(10).join(lines))}</pre>"
 
     def _follows(self, name: str) -> bool:
         """Whether a value follows from others: zeta has b's, the first body or the law has it."""
