@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from nucleation import commands
-from nucleation.api import Fault
+from nucleation.api import Fault, ParameterError
 from nucleation.theory.creep import slow_slip
 from nucleation.theory.creep.lengths import LONGEST
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.pair import LayerPair
+from replication.configuration.load import configure
 
 SEED, NUMBER, QUICK = 34, 300, 12
 LONGEST_SPECIMEN = 1e7  # m
@@ -85,7 +86,7 @@ def option(value):
 
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
-def test_one_answer_by_library_command_and_study(cost, capsys, number):
+def test_one_answer_by_library_and_command(cost, capsys, number):
     """Each length is finite or has a reason, and is the same however the fault is given."""
     given, loading = random_fault(number)
     fault = Fault(**given, evolution=("aging", "slip")[number % 2])
@@ -126,3 +127,33 @@ def test_one_answer_by_library_command_and_study(cost, capsys, number):
     for key, entry in told.items():
         assert entry["value"] == (found[key].value if found[key].exists else None), key
         assert (entry["status"], entry["reason"]) == (found[key].status, found[key].reason)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(0, NUMBER, 10))
+def test_a_study_has_the_lengths_of_its_fault(number):
+    """L_s is located within 1e-3; a study refuses, with a reason, what no simulation can have."""
+    given, _ = random_fault(number)
+    fault = Fault(**given)
+    if math.isinf(fault.height) or math.isnan(fault.critical_length()):
+        return
+    values = {key: value for key, value in fault.to_dict().items() if "far_side" not in key}
+    values["second_body"] = "deformable"
+    if math.isinf(fault.second_shear_modulus):
+        del values["second_shear_modulus"]
+        values["second_body"] = "rigid"
+    values["friction_law"] = "dieterich_ruina"
+    values["regularisation_slip_rate"] = 1e-6 * fault.velocity
+    study = {"defaults": values, "runs": [{"seed": 1}]}
+    try:
+        (run,) = configure({"studies": {"own": study}}).runs_of("own")
+    except ParameterError as error:
+        assert "is not allowed" in str(error) or "no friction law has" in str(error)
+        return
+    own = run.run.fault
+    of_law = ("friction", "a", "zeta", "slip_distance")
+    rest = {key: value for key, value in given.items() if key not in of_law}
+    by_law = Fault(**rest, friction_law=own.friction_law)
+    assert own.critical_length() == pytest.approx(fault.critical_length(), rel=1e-9)
+    stable = by_law.stability_length()
+    assert own.stability_length() == pytest.approx(stable, rel=1e-3, nan_ok=True)
