@@ -230,8 +230,8 @@ def _pair_steps(parameters: Run) -> dict[str, float]:
     found = {}
     for bottom, seconds in zip(BOTTOMS, times, strict=True):
         found[f"pair_step_over_one_{bottom}"] = seconds / base
-    of_pair = Operator(body_of(pairs[0]), 1e6).megabytes
-    own = Operator(body_of(one), 1e6).megabytes
+    of_pair = body_of(pairs[0]).operator_megabytes
+    own = body_of(one).operator_megabytes
     found["pair_operator_over_one_mb"] = of_pair / own
     return found
 

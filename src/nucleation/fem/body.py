@@ -135,6 +135,16 @@ class Body:
         """Whether the base, or the lower far side, is held along y."""
         return len(self.layers) == 1 or self.layers[1].held[1]
 
+    @property
+    def operator_megabytes(self) -> float:
+        """Memory of ``K + s M`` for one s, once all of its parts are in use (MB)."""
+        n = self.modes.n_x
+        levels = [layer.levels for layer in self.layers]
+        numbers = sum(each * (9 * n + 2 * each) for each in levels)
+        if len(levels) == 2:
+            numbers += 13 * n + 2 * sum(levels) ** 2
+        return 8e-6 * numbers
+
     def split(self, values: Array) -> list[Array]:
         """Views of an array over levels: each layer's."""
         above = self.layers[0].levels

@@ -132,8 +132,7 @@ class BlockModes(_Modes):
         inner = np.array(forces[:-1])
         # sum_i F_i cos(theta_m i): scipy's type 3 counts the first entry once, others twice
         inner[0] *= 2.0
-        along_y = fft.dct(inner, type=3) / self.n_x
-        return np.array([np.zeros(self.n_x), along_y]), forces[-1]
+        return np.array([np.zeros(self.n_x), self.cosine_amplitudes(inner)]), forces[-1]
 
 
 class PeriodModes(_Modes):

@@ -105,16 +105,6 @@ class Operator:
             self.forces[:, 0] = np.tile(0.5 * np.eye(2).ravel(), 2)
             self.by_slip[:, 0] = 0.5, 0.0
 
-    @property
-    def megabytes(self) -> float:
-        """Memory that the operator holds once all of its parts are in use (MB)."""
-        n = self.body.modes.n_x
-        levels = [layer.levels for layer in self.body.layers]
-        numbers = sum(each * (9 * n + 2 * each) for each in levels)
-        if len(levels) == 2:
-            numbers += 13 * n + 2 * sum(levels) ** 2
-        return 8e-6 * numbers
-
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
         swept = Field(np.empty_like(load.modes), edge)

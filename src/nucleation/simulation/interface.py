@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
-from functools import cache, cached_property
+from functools import cache
 from inspect import getmembers, getsource, isfunction
 from sys import modules
 from typing import NamedTuple
@@ -152,6 +152,8 @@ class Interface:
         most = MOST_ITERATIONS_FROM_REST if past.at_rest else MOST_ITERATIONS
         w, p = response.w, response.tangential
         normal = response.normal + self.extra_normal
+        # whether the law is the same at all nodes
+        even = not any(map(np.ndim, (*law.constants, law.slip_distance)))
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
             found = compiled_law(
@@ -219,18 +221,12 @@ class Interface:
                 UNCHANGED * self.tolerance,
                 least,
             )
-            anew = reach if self._even else rates.size
+            anew = reach if even else rates.size
             p, normal = operator.apply(change_of_w)
             p += response.tangential
             normal += response.normal
             normal += self.extra_normal
         raise NewtonFailure(f"no convergence in {most} iterations")
-
-    @cached_property
-    def _even(self) -> bool:
-        """Whether the law is the same at all nodes."""
-        values = *self.friction.constants, self.friction.slip_distance
-        return all(np.ndim(value) == 0 for value in values)
 
 
 def _solved(

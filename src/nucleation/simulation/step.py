@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections import OrderedDict
 from collections.abc import Mapping
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -136,7 +136,9 @@ class Dynamics:
         self.drive = drive
         self.scheme = scheme
         self.grid = body.grid
-        self._operators: OrderedDict[float, Operator] = OrderedDict()
+        most = max(4, int(OPERATOR_MEMORY / body.operator_megabytes))
+        # ``K + s M`` by s (1/s^2), those used recently
+        self.operator = lru_cache(most)(partial(Operator, body))
         self._slip_distance = float(np.min(interface.friction.slip_distance))
 
     def advance(
@@ -195,17 +197,6 @@ class Dynamics:
             step.first,
         )
 
-    def operator(self, s: float) -> Operator:
-        """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
-        if s not in self._operators:
-            operator = Operator(self.body, s)
-            most = max(4, int(OPERATOR_MEMORY / operator.megabytes))
-            while len(self._operators) >= most:
-                self._operators.popitem(last=False)
-            self._operators[s] = operator
-        self._operators.move_to_end(s)
-        return self._operators[s]
-
     def driven(self, time: float) -> tuple[Imposed, Field]:
         """Boundary conditions at a time (s), and the load (N/m) with the inertia of the frame."""
         imposed, load = self.drive.at(time), self.drive.load(time)
@@ -222,8 +213,7 @@ class Dynamics:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
         for c, motion in zip(step.body.past, state.motions, strict=False):
-            terms.append((c, motion.displacement))
-            terms.append((c * step.body.beta, motion.velocity))
+            terms += [(c, motion.displacement), (c * step.body.beta, motion.velocity)]
         return self.body.inertia_load(step.s, terms, load)
 
     def _driving_force(
