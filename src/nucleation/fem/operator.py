@@ -77,6 +77,7 @@ class Operator:
             self.by_slip = np.array([[1.0], [0.0]])
         self._no_load = np.zeros(self.modal.shape)
         self._last_key: tuple[bytes, type] | None = None
+        self._last_blocks: Blocks
         self.edge: EdgeValues | None = None
         if body.modes.has_edge:
             series = None if len(self.factors) == 1 else (self.compliance, self.forces)
@@ -315,43 +316,29 @@ class Operator:
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> Blocks:
         """Dense blocks of D and N (N/m per m) between some of the nodes 1..n_x, sorted."""
         key = (nodes.tobytes(), dtype)
-        if key != self._last_key:  # mostly the same nodes slip in the next step
-            self._last_key = key
-            blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
-            self._last_blocks = blocks[0], blocks[1]
-            d, h = self._first_columns
-            if self.edge is None:
-                between = np.subtract.outer(nodes, nodes)
-                blocks[:] = d[between], h[between]
-            else:
-                edge_kernels.interface_blocks(
-                    d,
-                    h,
-                    self.body.modes.n_x,
-                    nodes,
-                    *blocks,
-                )
-                self._add_edge(nodes, self.edge, *blocks)
-        return self._last_blocks
-
-    def _add_edge(
-        self,
-        nodes: NDArray[np.intp],
-        edge: EdgeValues,
-        stiffness: NDArray,
-        coupling: NDArray,
-    ) -> None:
-        """Add the influence of the right edge to the blocks of D and N."""
+        if key == self._last_key:  # mostly the same nodes slip in the next step
+            return self._last_blocks
+        blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+        stiffness, coupling = blocks
+        self._last_key, self._last_blocks = key, (stiffness, coupling)
+        d, h = self._first_columns
+        edge = self.edge
+        if edge is None:
+            between = np.subtract.outer(nodes, nodes)
+            blocks[:] = d[between], h[between]
+            return self._last_blocks
+        edge_kernels.interface_blocks(d, h, self.body.modes.n_x, nodes, stiffness, coupling)
+        # the nodes that feel the right edge
         felt = np.abs(edge.diagonal) > EDGE_FELT * self.diagonal
         reach = int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1
         near = int(np.searchsorted(nodes, reach))
-        if near == nodes.size:
-            return
         own = nodes[near:]
-        tangential, normal = edge.to_interface
-        tangential = tangential[:, own - 1]
-        response = edge.response[:, own - 1]
-        stiffness[near:, near:] += tangential.T @ response
-        coupling[near:, near:] += normal[:, own].T @ response
-        if own[-1] == self.body.modes.n_x:
-            coupling[-1, near:] += tangential[0]
+        if own.size:
+            tangential, normal = edge.to_interface
+            tangential = tangential[:, own - 1]
+            response = edge.response[:, own - 1]
+            stiffness[near:, near:] += tangential.T @ response
+            coupling[near:, near:] += normal[:, own].T @ response
+            if own[-1] == self.body.modes.n_x:
+                coupling[-1, near:] += tangential[0]
+        return self._last_blocks

@@ -66,8 +66,7 @@ class EdgeValues:
             self.schur = factors[0].schur()
             self.compliance = _inverse_within(self.schur, slice(1, None))
         else:
-            modal = self._put_in_series(*series)
-            self.compliance = self._compliance_of_pair(moves)
+            modal = self._put_in_series(*series, moves)
         one, nothing = np.ones(body.modes.n_x), np.zeros((2, body.modes.n_x))
         rows = np.moveaxis(body.modes.scale * modal, 1, 0)
         by_edge = [body.modes.forces(row, one, nothing) for row in rows]
@@ -82,8 +81,8 @@ class EdgeValues:
         normal[:, -1] = self.schur[:, 0]
         self.to_interface = tangential, normal
 
-    def _put_in_series(self, compliance: Array, forces: Array) -> Array:
-        """Set `schur`, and return forces on the modes of w and u_y per edge value."""
+    def _put_in_series(self, compliance: Array, forces: Array, moves: bool) -> Array:
+        """Set `schur` and `compliance`; return forces on the modes of w and u_y per edge value."""
         above, below = (layer.to_modes() for layer in self._factors)
         mirror = np.array([1.0, -1.0])[:, None, None]
         x, y = np.concatenate((above, below * mirror), axis=1)
@@ -95,6 +94,12 @@ class EdgeValues:
         moved_x = xx * x + xy * y
         moved_y = xy * x + yy * y
         self.schur = stiffness - self._body.modes.scale * (x @ moved_x.T + y @ moved_y.T)
+        held = self._body.is_held_along_y
+        independent = np.delete(np.eye(len(x)), n, axis=1)
+        independent[n, 0] = -1.0  # the corner, mirrored
+        own = slice(None if held or moves else 1, -1 if held else None)
+        inverse = _inverse_within(independent.T @ self.schur @ independent, own)
+        self.compliance = independent @ inverse @ independent.T
         own_x = np.concatenate((np.zeros_like(above[0]), below[0]))  # on w2
         own_y = y.copy()
         own_y[n:] = 0.0  # the upper block's own
@@ -102,21 +107,6 @@ class EdgeValues:
         from_below = xx2 * x + xy2 * y
         from_above = yx1 * x + yy1 * y
         return np.array([from_below - own_x, own_y - from_above])
-
-    def _compliance_of_pair(self, moves: bool) -> Array:
-        above = self._body.layers[0].levels
-        held = self._body.is_held_along_y
-        independent = np.delete(
-            np.eye(len(self.schur)),
-            above,
-            axis=1,
-        )
-        independent[above, 0] = -1.0  # the corner, mirrored
-        first = None if held or moves else 1
-        last = -1 if held else None
-        stiffness = independent.T @ self.schur @ independent
-        inverse = _inverse_within(stiffness, slice(first, last))
-        return independent @ inverse @ independent.T
 
     def residual(
         self,
