@@ -38,13 +38,7 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
 
 
 def _height_dependence(evidence: Evidence, role: str) -> list[float]:
-    ratios = [
-        row["length"] / row["critical_length"]
-        for row in _heights(
-            evidence,
-            role,
-        )
-    ]
+    ratios = [row["length"] / row["critical_length"] for row in _heights(evidence, role)]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
@@ -74,11 +68,7 @@ def _linear_stage(evidence: Evidence) -> list[float]:
     changes = []
     for varied in evidence.rows(JUDGED):
         if varied["evolution"] != "aging" or varied["initial_state"] != 1.0:
-            base = evidence.row(
-                JUDGED,
-                "aging",
-                varied["height"],
-            )
+            base = evidence.row(JUDGED, "aging", varied["height"])
             ratio = evidence.stability_length(varied) / evidence.stability_length(base)
             changes.append(ratio - 1.0)
     if not changes:

@@ -99,13 +99,7 @@ class _Law:
         else:
             law = self.growth(run["kind"], run["correlation_length"])
             drop = law.drop(strength)
-            found |= dict(
-                zip(
-                    LAW,
-                    (drop.length, drop.low, drop.high),
-                    strict=True,
-                )
-            )
+            found |= dict(zip(LAW, (drop.length, drop.low, drop.high), strict=True))
         found["front_length"] = law.closed_form(self.history, strength).front_length
         return found
 
@@ -123,12 +117,7 @@ def drop_files(
         own, patches, critical = parameters.fault, parameters.patches, run["critical_length"]
         stress = parameters.start.initial_shear_stress / own.normal_stress
         try:
-            history = mode_history(
-                patches,
-                critical,
-                own.initial_state,
-                stress,
-            )
+            history = mode_history(patches, critical, own.initial_state, stress)
             laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
         except NoLength:
             continue
@@ -158,14 +147,7 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
         "curve_strength": ("curve", CURVE_STRENGTHS),
     }
     along = ("case", "curve")
-    lines = {
-        name: (along, line)
-        for name, line in zip(
-            list(CURVES)[3:],
-            values,
-            strict=True,
-        )
-    }
+    lines = {n: (along, line) for n, line in zip(list(CURVES)[3:], values, strict=True)}
     return annotate(xr.Dataset(columns | lines), CURVES)
 
 
@@ -248,11 +230,8 @@ def weakening_files(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> dict[st
     rows = []
     for lengths in drops:
         complete = lengths.assign(zeta_over_a=lengths["zeta"] / lengths["a"])
-        for row in rows_of(
-            complete,
-            names=WEAKENING.keys() - EXPECTED.keys(),
-        ):
-            rows.append(row | by_fault[row["fault"]])
+        found = rows_of(complete, names=WEAKENING.keys() - EXPECTED.keys())
+        rows += [row | by_fault[row["fault"]] for row in found]
     listed = table(rows, WEAKENING)
     return {".nc": listed.merge(weakening_curves(runs)), ".csv": to_csv(listed)}
 
@@ -267,10 +246,8 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
     for run in runs:
         parameters = Run.from_dict(run["parameters"])
         base = "rigid" if parameters.below is None else "deformable"
-        systems.setdefault(
-            (run["study"], base, parameters.fault.height),
-            [],
-        ).append(run)
+        key = run["study"], base, parameters.fault.height
+        systems.setdefault(key, []).append(run)
     ratios = list(ratios)
     rows = []
     for (study, base, height), own in systems.items():
@@ -291,11 +268,7 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
         rows.append((study, base, height, is_high, *np.transpose(lengths)))
     columns: dict[str, Any] = {"curve_ratio": ("curve", ratios)}
     drawn = [name for name in WEAKENING_CURVES if name not in columns]
-    for name, values in zip(
-        drawn,
-        zip(*rows, strict=True),
-        strict=True,
-    ):
+    for name, values in zip(drawn, zip(*rows, strict=True), strict=True):
         along = ("system", "curve")[: np.ndim(values)]
         columns[name] = (along, np.array(values))
     return annotate(xr.Dataset(columns), WEAKENING_CURVES)

@@ -138,11 +138,17 @@ def lengths_table(
         simulations,
         strict=True,
     ):
-        row = _row(run, simulation, settings)
-        own_fault = row["fault"]
-        if own_fault not in by_theory:
-            by_theory[own_fault] = _stability(run)
-        rows.append(row | by_theory[own_fault])
+        row = description(run)
+        if row["fault"] not in by_theory:
+            by_theory[row["fault"]] = _stability(run)
+        record = Record(simulation, settings)
+        found = extract(simulation, settings)
+        reached = record.lengths[-1] if record.onset is None else found["length"]
+        row |= by_theory[row["fault"]] | found | measure(record)
+        row |= {name: simulation.attrs[name] for name in DIAGNOSTICS}
+        row["simulated_time"] = float(simulation["step_time"].values[-1])
+        row["reached_length"] = float(reached)
+        rows.append(row)
     measured = all(row.keys() >= MEASURES.keys() for row in rows)
     return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
 
@@ -228,21 +234,6 @@ def description(run: Row) -> Row:
         "strength": 0.0 if quiet else values["strength"],
         "fault": fault(parameters),
         "ensemble": ensemble(parameters),
-    }
-
-
-def _row(run: Row, simulation: xr.Dataset, settings: ExtractionSettings) -> Row:
-    """A row of the table, without the theory's L_s."""
-    record = Record(simulation, settings)
-    measured = extract(simulation, settings)
-    reached = record.lengths[-1] if record.onset is None else measured["length"]
-    return {
-        **description(run),
-        **measured,
-        **measure(record),
-        **{name: simulation.attrs[name] for name in DIAGNOSTICS},
-        "simulated_time": float(simulation["step_time"].values[-1]),
-        "reached_length": float(reached),
     }
 
 

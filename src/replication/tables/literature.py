@@ -95,22 +95,8 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
         is_crack = described["name"] == "rubin_ampuero_crack"
         for slip_rate in SLIP_RATES:
             found = zone_length(simulation, slip_rate, definition)
-            far = far_ahead(
-                simulation,
-                slip_rate,
-                parameters.law.slip_distance,
-            )
-            expanding = (
-                float(
-                    expanding_length(
-                        fault,
-                        slip_rate,
-                        *far,
-                    )
-                )
-                if is_crack
-                else math.nan
-            )
+            far = far_ahead(simulation, slip_rate, parameters.law.slip_distance)
+            expanding = expanding_length(fault, slip_rate, *far) if is_crack else math.nan
             row = {
                 **described,
                 "id": run["id"],
@@ -119,7 +105,7 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
                 "difference": found / described["formula_length"] - 1.0,
                 "far_slip_rate": far[0],
                 "far_state_ratio": far[1],
-                "finite_speed_length": expanding,
+                "finite_speed_length": float(expanding),
             }
             for column, share in OTHER_SHARES.items():
                 other = definition._replace(part=1.0, share=share)

@@ -100,15 +100,7 @@ def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
     if run.below is not None:
         bodies["second_"] = changes["second_height"] = run.below.height
     for body, height in bodies.items():
-        changes[f"{body}n_y"] = round(
-            min(
-                max(
-                    height * nodes / length,
-                    ROWS[0],
-                ),
-                ROWS[1],
-            )
-        )
+        changes[f"{body}n_y"] = round(float(np.clip(height * nodes / length, *ROWS)))
         changes[f"{body}grading"] = GRADING if height > GRADED * length else 1.0
     return run.replaced(**changes)
 
@@ -130,15 +122,8 @@ def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexAr
         first_mode = np.fft.rfft(log_rate)[1]
         amplitudes.append(np.conj(first_mode) * 2.0 / nodes)
     samples = np.array(amplitudes[SKIPPED::INTERVAL])
-    past = np.stack(
-        [samples[1:-1], samples[:-2]],
-        axis=1,
-    )
-    (p, q), *_ = np.linalg.lstsq(
-        past,
-        samples[2:],
-        rcond=None,
-    )
+    past = np.stack([samples[1:-1], samples[:-2]], axis=1)
+    (p, q), *_ = np.linalg.lstsq(past, samples[2:], rcond=None)
     growth = np.roots([1.0, -p, -q])
     rates = np.log(growth) / (dynamics.scheme.steady_step(rung) * INTERVAL)
     return rates[np.argsort(-rates.real)]
@@ -171,55 +156,35 @@ ENDLESS = 1e3  # m
 SOFT, STIFF = 3.1e9, 9.3e9  # Pa
 
 
-def _pair(
-    modulus: float,
-    second_modulus: float,
-    poisson_ratio: float = 1.0 / 3.0,
-    second_poisson_ratio: float = 0.2,
-    **changes: Any,
-) -> Row:
-    """Parameters of two layers."""
-    pair = {
-        "shear_modulus": modulus,
-        "second_shear_modulus": second_modulus,
-        "poisson_ratio": poisson_ratio,
-        "second_poisson_ratio": second_poisson_ratio,
-        "plane": "strain",
-        "second_body": "deformable",
-        "second_density": 2400.0,
-        "second_far_side": "free",
-    }
-    return pair | changes
-
-
-_FREE: Row = {"height": 0.2, "second_height": 0.6 * 0.2}  # higher: bending needs finer elements
-_CLAMPED: Row = {"height": 0.05, "second_height": 0.6 * 0.05, "second_far_side": "clamped"}
-_ROLLER = _CLAMPED | {"second_far_side": "roller"}
+_BODIES: Row = {
+    "poisson_ratio": 1.0 / 3.0,
+    "second_poisson_ratio": 0.2,
+    "plane": "strain",
+    "second_body": "deformable",
+    "second_density": 2400.0,
+    "second_far_side": "free",
+}
+_ABOVE = _BODIES | {"shear_modulus": STIFF, "second_shear_modulus": SOFT}
+_BELOW = _BODIES | {"shear_modulus": SOFT, "second_shear_modulus": STIFF}
+_LOW: Row = {"height": 0.05, "second_height": 0.6 * 0.05}
+_LAYERS: dict[str, Row] = {
+    "free": {"height": 0.2, "second_height": 0.6 * 0.2},  # higher: bending needs finer elements
+    "clamped": _LOW | {"second_far_side": "clamped"},
+    "roller": _LOW | {"second_far_side": "roller"},
+}
+_MUCH_STIFFER: Row = {"poisson_ratio": 0.0, "second_poisson_ratio": 0.0}
 
 THIN_LAYERS = {
-    "stiff above, free": _pair(STIFF, SOFT, **_FREE),
-    "stiff below, free": _pair(SOFT, STIFF, **_FREE),
-    "stiff above, clamped": _pair(STIFF, SOFT, **_CLAMPED),
-    "stiff below, clamped": _pair(SOFT, STIFF, **_CLAMPED),
-    "stiff above, roller": _pair(STIFF, SOFT, **_ROLLER),
-    "stiff below, roller": _pair(SOFT, STIFF, **_ROLLER),
+    f"stiff {place}, {side}": pair | layer
+    for side, layer in _LAYERS.items()
+    for place, pair in (("above", _ABOVE), ("below", _BELOW))
 }
 
 HALF_SPACES = {
-    "half-spaces, stiff below": _pair(SOFT, STIFF),
-    "half-spaces, stiff above": _pair(STIFF, SOFT),
-    "half-spaces, ten times, below": _pair(
-        SOFT,
-        10.0 * SOFT,
-        0.0,
-        0.0,
-    ),
-    "half-spaces, ten times, above": _pair(
-        10.0 * SOFT,
-        SOFT,
-        0.0,
-        0.0,
-    ),
+    "half-spaces, stiff below": _BELOW,
+    "half-spaces, stiff above": _ABOVE,
+    "half-spaces, ten times, below": _BELOW | _MUCH_STIFFER | {"second_shear_modulus": 10.0 * SOFT},
+    "half-spaces, ten times, above": _ABOVE | _MUCH_STIFFER | {"shear_modulus": 10.0 * SOFT},
 }
 """Layers without a height have one at which their far sides do not matter."""
 
@@ -245,15 +210,14 @@ def mode_row(run: Run, ratio: float, critical: float) -> Row:
 
 def _table(rows: list[Row]) -> xr.Dataset:
     """Modes on ``run``, and their rates on ``branch`` as well."""
-    rates: dict[str, Any] = {}
+    along = ("run", "branch")
     measured, theory = (
         np.array([row.pop(kind) for row in rows]) for kind in ("measured", "theory")
     )
-    along = ("run", "branch")
+    found = xr.Dataset({name: ("run", [row[name] for row in rows]) for name in rows[0]})
     for kind, both in (("measured", measured), ("theory", theory)):
-        rates[f"{kind}_growth"] = (along, both.real)
-        rates[f"{kind}_frequency"] = (along, both.imag)
-    found = xr.Dataset({name: ("run", [row[name] for row in rows]) for name in rows[0]} | rates)
+        found[f"{kind}_growth"] = (along, both.real)
+        found[f"{kind}_frequency"] = (along, both.imag)
     ratio = found["mode_wavenumber"] / found["critical_wavenumber"]
     apart = np.abs(measured - theory) / np.abs(theory)
     found = found.assign(wavenumber_over_critical=ratio, disagreement=(along, apart))
@@ -272,28 +236,14 @@ def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MOD
     for height in heights:
         own = run.replaced(height=height)
         critical = _critical(own)
-        rows += [
-            {
-                "height": height,
-                **mode_row(
-                    own,
-                    ratio,
-                    critical,
-                ),
-            }
-            for ratio in ratios
-        ]
+        rows += [{"height": height} | mode_row(own, ratio, critical) for ratio in ratios]
     return _table(rows)
 
 
 def dispersion_files(base: Run) -> dict[str, Any]:
     """The same for the configuration's fault; its heights have the paper's ratios to the L_c."""
     own, papers = (
-        on_rigid_base(
-            one.fault,
-            math.inf,
-        ).critical_length()
-        for one in (base, PAPER_RUN)
+        on_rigid_base(one.fault, math.inf).critical_length() for one in (base, PAPER_RUN)
     )
     heights = [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
     found = dispersion(base, heights)
@@ -315,14 +265,7 @@ def pair_modes(
         for ratio in ratios:
             height = DEEP * 2.0 * np.pi / (ratio * critical)
             run = base.replaced(**{"height": height, "second_height": height} | pair)
-            rows.append(
-                _described(name, run)
-                | mode_row(
-                    run,
-                    ratio,
-                    critical,
-                )
-            )
+            rows.append(_described(name, run) | mode_row(run, ratio, critical))
     return _table(rows)
 
 

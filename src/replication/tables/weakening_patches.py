@@ -77,10 +77,7 @@ def patch_of(run: Run) -> WeakeningPatch:
     if own.varies == "zeta":
         return WeakeningPatch(outside._replace(zeta=outside.zeta * factor), outside)
     less = outside.a * (1.0 - factor)  # b is the same
-    inside = outside._replace(
-        a=outside.a - less,
-        zeta=outside.zeta + less,
-    )
+    inside = outside._replace(a=outside.a - less, zeta=outside.zeta + less)
     return WeakeningPatch(inside, outside)
 
 
@@ -104,13 +101,8 @@ def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Datase
         run = Run.from_dict(entry["parameters"])
         row = {"id": entry["id"], **_of_patch(run)}
         row["fastest"] = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
-        status = str(simulation.attrs.get("status", ""))
-        dropped = status.startswith(Outcome.AFTER_EVENT.value)
-        row["outcome"] = outcome(
-            row["fastest"],
-            row["dynamic_rate"],
-            dropped,
-        )
+        dropped = simulation.attrs.get("status", "").startswith(Outcome.AFTER_EVENT.value)
+        row["outcome"] = outcome(row["fastest"], row["dynamic_rate"], dropped)
         rows.append(row)
     return table(rows, COLUMNS)
 
@@ -152,15 +144,7 @@ def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
     keys = [frame["varies"], frame["zeta_over_a"].round(4), frame["strengthening"].round(4)]
     found = []
     for key, own in frame.groupby(keys):
-        found.append(
-            dict(
-                zip(
-                    BOUNDS,
-                    (*key, *bounds_of(own)),
-                    strict=True,
-                )
-            )
-        )
+        found.append(dict(zip(BOUNDS, (*key, *bounds_of(own)), strict=True)))
     return table(found, BOUNDS)
 
 
