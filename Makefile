@@ -137,7 +137,7 @@ $(STAMP): environment.txt
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
-	$(BIN)/python -P -c 'from replication.pipeline.launch import compile_imports; \
+	$(BIN)/python -c 'from workflow.install import compile_imports; \
 		compile_imports("nucleation", "replication", "snakemake.cli")'
 	@touch $(ENVIRONMENT)/environment.stamp
 

@@ -53,7 +53,7 @@ os.environ["NUMBA_CACHE_DIR"] = str(launch["cache_of_numba"](Path(SOURCE, "nucle
 
 from replication.configuration.advice import summary_of_meshes, warned
 from replication.configuration.checks import directory_problem
-from replication.configuration.load import completed, configure
+from replication.configuration.load import configure
 from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
 from replication.configuration.roles import PAIRS as PAIR_ROLES
 from replication.configuration.runs import first_realisations, varied

@@ -1,10 +1,7 @@
 """What a configuration leaves out has the value of the default one, its studies too."""
 
-import pytest
 from configurations import CONFIG, papers
 
-from nucleation.model.quantities import ParameterError
-from replication.configuration import load as module
 from replication.configuration.load import configure, load
 from replication.configuration.roles import JUDGED, LONGER, PAPERS
 
@@ -44,13 +41,3 @@ def test_later_files_are_stronger(tmp_path):
     both = load(tmp_path / "one.yaml", tmp_path / "two.yaml")
     assert (both.results, list(both.studies)) == ("two", ["mine"])
     assert (both.base.stepping.end_time, both.base.stepping.tolerance) == (40.0, 5e-3)
-
-
-def test_without_a_checkout_one_line_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(module, "DEFAULTS", (tmp_path / "config.yaml",))
-    for ask in (load, lambda: configure({"results": "mine"})):
-        with pytest.raises(ParameterError) as caught:
-            ask()
-        assert "lacks the key studies" in str(caught.value)
-        assert "a checkout of the project" in str(caught.value)
-        assert "\n" not in str(caught.value)

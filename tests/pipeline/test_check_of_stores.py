@@ -53,7 +53,7 @@ def test_anything_with_the_name_of_an_entry_is_found_and_pruned(store, make, mon
 def test_an_entry_without_all_expected_files_is_found(store):
     expected = {"results/a.csv": "store/" + f"{KEY}/result.csv"}
     results = store.directory.parent
-    assert check.check_results(results, expected) == []
+    assert list(check.check_results(results, expected)) == []
     expected["results/a.nc"] = f"store/{KEY}/result.nc"
     ((_, state, reason),) = check.check_results(results, expected)
     assert state == "damaged" and "lacks files" in reason

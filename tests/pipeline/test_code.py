@@ -167,9 +167,9 @@ def test_what_jobs_load_has_bytecode(tmp_path):
     (package / "__init__.py").write_text("import quarry\n")
     (package / "room.py").write_text("")
     (tmp_path / "quarry.py").write_text("")
-    program = "from replication.pipeline.launch import compile_imports; compile_imports('house')"
+    program = "from workflow.install import compile_imports; compile_imports('house')"
     given = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
-    given["PYTHONPATH"] = os.pathsep.join([str(tmp_path), SOURCE])
+    given["PYTHONPATH"] = os.pathsep.join([str(tmp_path), str(Path(SOURCE).parent)])
     subprocess.run([sys.executable, "-c", program], env=given, check=True)
     kept = {path.name.partition(".")[0] for path in tmp_path.rglob("*.pyc")}
     assert kept == {"quarry", "__init__", "room"}

@@ -7,7 +7,6 @@ import time
 
 import pytest
 
-from replication.pipeline import batches
 from replication.pipeline.batches import side_by_side
 
 NAMES = ["first", "second", "third", "fourth"]
@@ -72,11 +71,3 @@ def test_a_signal_reaches_every_process(tmp_path, number):
         side_by_side(work, NAMES, 2)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["first", "second"]
     assert signal.getsignal(number) == before
-
-
-@pytest.mark.parametrize("cores", [1, 2])
-def test_a_batch_tells_how_far_it_is(monkeypatch, capsys, cores):
-    monkeypatch.setattr(batches, "PAUSE", 0.0)
-    side_by_side(lambda number: None, NAMES, cores, batches.tally(4))
-    told = capsys.readouterr().err.splitlines()
-    assert told == [f"{n} of 4 runs done" for n in (1, 2, 3)]

@@ -184,29 +184,22 @@ def _merged(first: Any, later: Any) -> Any:
 def completed(values: Any) -> Any:
     """A configuration with studies: those of the default one if it has none itself.
 
-    A study that has a name of the paper's and no role is that study with changes. A ParameterError
-    if there is no default configuration, because the library is not in a checkout.
+    A study that has a name of the paper's and no role is that study with changes.
     """
     if not isinstance(values, dict):
         return values
-    in_checkout = all(path.is_file() for path in DEFAULTS)
     if "studies" not in values:
-        if not in_checkout:
-            raise ParameterError(
-                "the configuration lacks the key studies: only a checkout of the project has the "
-                "paper's, in config/config.yaml"
-            )
         return _merged(functools.reduce(_merged, map(read_yaml, DEFAULTS)), values)
     studies = values["studies"]
-    if not isinstance(studies, dict) or not in_checkout:
+    if not isinstance(studies, dict):
         return values
     changed = {
-        name
+        name: section
         for name, section in studies.items()
         if isinstance(section, dict) and "role" not in section
     }
     papers = read_yaml(DEFAULTS[0])["studies"] if changed else {}
-    named = {name: papers[name] | studies[name] for name in studies if name in changed & {*papers}}
+    named = {name: papers[name] | changed[name] for name in changed if name in papers}
     return {**values, "studies": studies | named}
 
 

@@ -1,13 +1,12 @@
-"""Batches: work on several cores, and how many parts are made."""
+"""Batches: work on several cores."""
 
 import multiprocessing
 import os
 import signal
 import sys
-import time
 import traceback
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from threading import Thread
@@ -16,45 +15,21 @@ from typing import Any
 
 from nucleation.simulation.checkpoints import SIGNALS
 
-from . import LOGGER, PROGRESS
-
-PAUSE = 60.0  # s between two lines of progress
 _TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
-
-
-def tally(number: int) -> Callable[[int], None]:
-    """A function that counts parts of a batch, and reports now and then how many are made."""
-    made: set[int] = set()
-    last = [time.monotonic()]
-
-    def done(part: int) -> None:
-        made.add(part)
-        now = time.monotonic()
-        if len(made) < number and now >= last[0] + PAUSE:
-            last[0] = now
-            LOGGER.log(PROGRESS, f"{len(made)} of {number} runs done")
-
-    return done
 
 
 def side_by_side(
     work: Callable[[int], Any],
     names: Sequence[str],
     cores: int,
-    done: Callable[[int], object] = bool,
 ) -> list[Any]:
     """The values of a function of 0, 1, ..., computed by a forked process for each core.
 
     If a call fails, those that have begun are finished, no other one begins, and SystemExit has the
-    reasons. Signals that stop a job are passed on to its processes. After each call this process
-    calls `done` with the number.
+    reasons. Signals that stop a job are passed on to its processes.
     """
     if min(len(names), cores) < 2:
-        values = []
-        for i in range(len(names)):
-            values.append(work(i))
-            done(i)
-        return values
+        return [work(i) for i in range(len(names))]
     context = multiprocessing.get_context("fork")
     pool = ProcessPoolExecutor(
         min(len(names), cores), context, initializer=_begin, initargs=(work, context.Event())
@@ -68,19 +43,17 @@ def side_by_side(
     before = {number: signal.signal(number, pass_on) for number in SIGNALS}
     try:
         with pool:
-            calls: dict[Future[Any], int] = {pool.submit(_call, i): i for i in range(len(names))}
-            for call in calls:
-                call.add_done_callback(lambda ended: done(calls[ended]))
+            calls = [pool.submit(_call, i) for i in range(len(names))]
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
     reasons = []
-    for call, i in calls.items():
+    for call, name in zip(calls, names, strict=True):
         match call.exception():
             case SystemExit(code=reason):
                 reasons.append(str(reason))
             case BrokenProcessPool():
-                reasons.append(f"{names[i]} is not made: a process was killed")
+                reasons.append(f"{name} is not made: a process was killed")
             case Exception() as error:
                 reasons.append(f"{type(error).__name__}: {error}")
     if reasons:

@@ -45,14 +45,29 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in text)
 
 
-def check_results(results: Path, expected: Expected) -> list[Finding]:
+def check_results(results: Path, expected: Expected) -> Iterator[Finding]:
     """Compare results with those that the present configuration and code make.
 
-    Among the findings are the entries that are not in use.
+    First wrong entries, then files that show something else, then the entries that are not in use.
     """
     store = Store(results / "store")
-    idle = [(store.entry(key), UNUSED, "make prune removes it") for key in unused(store, expected)]
-    return [*_entries(store, expected), *_shown(results, expected), *idle]
+    names: dict[str | None, set[str]] = {}
+    for target in expected.values():
+        names.setdefault(key_in(target), set()).add(os.path.basename(target))
+    for key in store.listed():
+        entry = store.entry(key)
+        try:
+            read_note(entry, whole=True, names=names.get(key, ()))
+        except DatasetError as error:
+            state = "foreign" if "another key" in str(error) else "damaged"
+            yield (entry, state, f"{error}: make it again, and it is moved aside")
+    for path in sorted(store.directory.glob(".*.tmp")):
+        yield (path, "incomplete", _HALF)
+    for path in sorted(store.directory.glob(f"{DAMAGED}*")):
+        yield (path, "damaged", "it was moved aside, since it is not what it should be")
+    yield from _shown(results, expected)
+    for key in unused(store, expected):
+        yield (store.entry(key), UNUSED, "make prune removes it")
 
 
 def unused(store: Store, expected: Expected) -> list[str]:
@@ -75,24 +90,6 @@ def unused(store: Store, expected: Expected) -> list[str]:
                 message = f"{file} can't be read ({error!r}): delete it, plan again"
                 raise DatasetError(message) from None
     return [key for key in store.listed() if key not in used]
-
-
-def _entries(store: Store, expected: Expected) -> Iterator[Finding]:
-    """Wrong entries, and files that processes have left between the entries."""
-    names: dict[str | None, set[str]] = {}
-    for target in expected.values():
-        names.setdefault(key_in(target), set()).add(os.path.basename(target))
-    for key in store.listed():
-        entry = store.entry(key)
-        try:
-            read_note(entry, whole=True, names=names.get(key, ()))
-        except DatasetError as error:
-            state = "foreign" if "another key" in str(error) else "damaged"
-            yield (entry, state, f"{error}: make it again, and it is moved aside")
-    for path in sorted(store.directory.glob(".*.tmp")):
-        yield (path, "incomplete", _HALF)
-    for path in sorted(store.directory.glob(f"{DAMAGED}*")):
-        yield (path, "damaged", "it was moved aside, since it is not what it should be")
 
 
 def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
@@ -125,9 +122,7 @@ def prune(results: Path, expected: Expected, remove: bool) -> str:
         name = ""
         with contextlib.suppress(DatasetError):
             name = str(read_note(entry).get("name", ""))[:200]
-        whole = entry.is_dir() and not entry.is_symlink()  # it may be anything else
-        megabytes = sum(file.lstat().st_size for file in entry.iterdir()) / 1e6 if whole else 0.0
-        lines.append(f"{entry}  {plain(name)}  {megabytes:.1f} MB")
+        lines.append(f"{entry}  {plain(name)}")
         if remove:
             try:
                 store.remove(key)
@@ -144,7 +139,7 @@ def main(command: str, results: str, expected_file: str) -> None:
         if command == "prune":
             print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
             return
-        findings = check_results(Path(results), expected)
+        findings = list(check_results(Path(results), expected))
     except (DatasetError, OSError) as error:
         sys.exit(plain(str(error)))
     for path, state, reason in findings:

@@ -16,7 +16,6 @@ import contextlib
 import hashlib
 import importlib.util
 import os
-import pkgutil
 import py_compile
 import re
 import sys
@@ -54,20 +53,6 @@ def cache_of_numba(root: Path) -> Path:
         if uses_numba or "friction" in source.parts:  # friction laws are compiled too
             digest.update(content)
     return root / "__pycache__" / f"numba-{digest.hexdigest()[:16]}"
-
-
-def compile_imports(*packages: str) -> None:
-    """Import all modules of packages, so that Python keeps bytecode of all that they load.
-
-    uv makes no bytecode, and where PYTHONDONTWRITEBYTECODE is set each job would compile 1600
-    modules again, for two seconds.
-    """
-    sys.dont_write_bytecode = False
-    for name in packages:
-        found = importlib.import_module(name)
-        for module in pkgutil.walk_packages(getattr(found, "__path__", ()), name + "."):
-            if not module.name.endswith("__main__"):
-                importlib.import_module(module.name)
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:

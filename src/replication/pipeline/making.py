@@ -26,7 +26,7 @@ from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event
 from . import LOGGER
-from .batches import side_by_side, tally
+from .batches import side_by_side
 from .recipes import Recipe, key_in
 from .store import STEM, Store, others, read_note
 
@@ -125,7 +125,7 @@ class _Maker:
             return "", function(number, result)
 
         names = [part.name for part in parts]
-        made = side_by_side(one, names, cores, tally(len(names)))
+        made = side_by_side(one, names, cores)
         failures = [failure for failure, _ in made if failure]
         if failures and len(names) > 1:
             failures.insert(0, f"{len(failures)} of {len(names)} runs failed, the others are kept:")

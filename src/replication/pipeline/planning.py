@@ -77,8 +77,8 @@ class Plan:
         if kept:
             LOGGER.info(f"Of these jobs a run starts none, as a store has their results: {kept}")
         if self._shown:
-            taken = f", {self._taken} of them taken from other stores" if self._taken else ""
-            LOGGER.info(f"Shown without a job: {self._shown} results{taken}")
+            taken = f"{self._taken} of them taken from other stores"
+            LOGGER.info(f"Shown without a job: {self._shown} results, {taken}")
 
     @cached_property
     def prefix(self) -> str:

@@ -141,17 +141,7 @@ def read(path: str | Path) -> Recipe:
 
 def as_json(values: Any) -> str:
     """Values as JSON, equal values as equal text; TypeError if one has no such form."""
-    return json.dumps(values, sort_keys=True, default=_converted)
-
-
-def _converted(value: Any) -> Any:
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
-    if hasattr(value, "items"):
-        return dict(value.items())
-    if hasattr(value, "tolist"):  # NumPy
-        return value.tolist()
-    raise TypeError(f"{value!r} can't be part of a key")
+    return json.dumps(values, sort_keys=True, default=vars)  # a recipe in another one
 
 
 def key_in(path: str | Path) -> str | None:

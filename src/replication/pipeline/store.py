@@ -171,15 +171,10 @@ class Store:
         A store that is out of reach is reported and removed from the list.
         """
         for other in list(others):
-            try:
+            with _reported("taken from", other, others):
                 if os.path.lexists(other.entry(key) / NOTE):
                     self._copy(other.entry(key), names)
                     return other.directory
-            except (OSError, DatasetError) as error:
-                reason = " ".join(f"{type(error).__name__}: {error}".split())
-                LOGGER.warning(f"Not taken from {other.directory}: {reason}")
-                if not isinstance(error, (DatasetError, FileNotFoundError)):
-                    others.remove(other)
         return None
 
     def give(self, key: str, others: "list[Store]") -> None:
@@ -188,13 +183,9 @@ class Store:
         One that is out of reach is reported and removed from the list.
         """
         for other in list(others):
-            try:
+            with _reported("kept in", other, others):
                 if os.access(other.directory, os.W_OK) and not is_right(other.entry(key)):
                     other._copy(self.entry(key), ())
-            except (OSError, DatasetError) as error:
-                reason = " ".join(f"{type(error).__name__}: {error}".split())
-                LOGGER.warning(f"Not kept in {other.directory}: {reason}")
-                others.remove(other)
 
     def _copy(self, entry: Path, names: Collection[str]) -> None:
         """Copy the note of another store's entry, and the files that it names, once checked."""
@@ -254,6 +245,18 @@ class Store:
             gone.unlink()
         else:
             shutil.rmtree(gone)
+
+
+@contextlib.contextmanager
+def _reported(done: str, other: Store, others: list[Store]) -> Iterator[None]:
+    """Report what can't be done with a store; one that is out of reach is removed from the list."""
+    try:
+        yield
+    except (OSError, DatasetError) as error:
+        reason = " ".join(f"{type(error).__name__}: {error}".split())
+        LOGGER.warning(f"Not {done} {other.directory}: {reason}")
+        if not isinstance(error, (DatasetError, FileNotFoundError)):
+            others.remove(other)
 
 
 def others(strict: bool = True) -> list[Store]:
