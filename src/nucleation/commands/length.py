@@ -298,7 +298,7 @@ def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) 
 
 
 def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:
-    """The smallest width W_c, the behaviour of a patch of a width (m), and the cells of a mesh."""
+    """The smallest width W_c, and the behaviour of a patch of a width (m)."""
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch["smallest_width"]
     rows: list[Row] = []
@@ -315,7 +315,4 @@ def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) ->
                 from ..lengths.weakening_patch import SETTING
 
                 rows.append(f"      simulated: {SETTING}")
-    if not math.isnan(patch["cell_size"]):
-        cell = f"{patch['cell_size']:.3g} m"
-        rows.append(("cells", cell, "", "or less: three in a process zone (Day et al., 2005)"))
     return ["", *wrapped(head), *table(rows)]

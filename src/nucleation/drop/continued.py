@@ -116,20 +116,15 @@ def roughness_weights(
     before = 0
     for at in steps.round().astype(int):
         duration = path.time[at] - path.time[before]
-        # a sudden start would itself excite the mode
-        begun = _smooth_step((path.time[at] - start) / rise)
+        # from 0 to 1, all derivatives continuous: a sudden start would itself excite the mode
+        u = (path.time[at] - start) / rise
+        begun = float(u >= 1.0)
+        if 0.0 < u < 1.0:
+            begun = 0.5 * (1.0 + np.tanh((u - 0.5) / (u * (1.0 - u))))
         weights = duration * share * begun * moving(path.length[at], x)
         added = added + weights * np.exp(-exponent[at])
         before = at
         yield exponent[at].real, added
-
-
-def _smooth_step(u: float) -> float:
-    """From 0 at u = 0 to 1 at u = 1, all of its derivatives continuous."""
-    if not 0.0 < u < 1.0:
-        return float(u >= 1.0)
-    slope = (u - 0.5) / (u * (1.0 - u))
-    return float(0.5 * (1.0 + np.tanh(slope)))
 
 
 def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArray]:

@@ -41,21 +41,15 @@ ROOT_OF_MEDIAN = np.sqrt(np.log(2.0))  # sigma times this is 1 where half have r
 
 
 class Drop(NamedTuple):
-    """The expected drop: its median, and the values that 16 and 84 % of realisations are below."""
+    """Length (m) at the drop: its median, and what 16 and 84 % of realisations are below."""
 
-    length: float  # m
+    length: float
     low: float
     high: float
-    time: float  # s
-    time_low: float
-    time_high: float
-
-
-NO_DROP = Drop(*6 * (np.nan,))
 
 
 class ClosedForm(NamedTuple):
-    """The drop in one line: median length (m) from three numbers, and where growth begins.
+    """The drop in one line: median length (m), and where growth begins.
 
     With its advancing front the patch begins to grow its mode at ``front_length``, within a few
     per cent of the L_s of steady creep.
@@ -63,8 +57,6 @@ class ClosedForm(NamedTuple):
 
     front_length: float  # m
     length: float  # m
-    front_speed: float  # dL/dt, m/s
-    growth_slope: float  # d Re Lambda/dL, 1/(m s)
     effective: float  # eps_eff
 
 
@@ -82,15 +74,14 @@ class Growth:
         """The expected drop at a relative strength; NaN where the law does not apply."""
         reached = self.log_amplitude >= np.log(1.0 / (strength * ROOT_OF_MEDIAN))
         if reached.all() or not reached[-1]:
-            return NO_DROP
+            return Drop(np.nan, np.nan, np.nan)
         parts = self._dropped(strength)
         lengths = np.interp(
             (MEDIAN, EARLY, LATE),
             parts,
             self.length,
         )
-        times = np.interp(lengths, self.length, self.time)
-        return Drop(*lengths.tolist(), *times.tolist())
+        return Drop(*lengths.tolist())
 
     def _dropped(self, strength: float) -> Array:
         """The part of the realisations that have dropped by each length; it never decreases."""
@@ -138,13 +129,7 @@ class Growth:
         effective = float(strength * ROOT_OF_MEDIAN * np.exp(initial))
         square = 2.0 * speed * np.log(1.0 / effective) / slope
         delay = np.sqrt(max(square, 0.0))
-        return ClosedForm(
-            front_length=start,
-            length=start + float(delay),
-            front_speed=speed,
-            growth_slope=slope,
-            effective=effective,
-        )
+        return ClosedForm(start, start + float(delay), effective)
 
 
 def growth(
@@ -161,7 +146,11 @@ def growth(
     if declared.kind == "strength":
         return grown(path, _log_amplitude_of_roughness(history, path, declared))
     log_power = trend(history, np.log(_power(history, declared)))(path.length)
-    return grown(path, 0.5 * _log_variance(path, log_power))
+    # log int exp(log_power + 2 int_s^t Re Lambda) ds, without overflow
+    exponent = 2.0 * exponent_of(path).real
+    step = path.time[1] - path.time[0]
+    terms = log_power - exponent + np.log(step)
+    return grown(path, 0.5 * (exponent + np.logaddexp.accumulate(terms)))
 
 
 def _power(
@@ -169,7 +158,7 @@ def _power(
     declared: Perturbation,
 ) -> Array:
     """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
-    memory = history.memory
+    memory = history.patches.memory
     omega = history.rate.imag
     spectrum = spectral_density(omega, declared.correlation_time * memory)
     if declared.kind == "normal_load":
@@ -237,14 +226,3 @@ def grown(
         exponent=exponent_of(path).real,
         per_period=speed * 2.0 * np.pi / path.rate.imag,
     )
-
-
-def _log_variance(
-    path: CreepPath,
-    log_power: Array,
-) -> Array:
-    """``log int exp(log_power + 2 int_s^t Re Lambda) ds``, without overflow."""
-    exponent = 2.0 * exponent_of(path).real
-    step = path.time[1] - path.time[0]
-    terms = log_power - exponent + np.log(step)
-    return exponent + np.logaddexp.accumulate(terms)

@@ -31,13 +31,6 @@ THICK = 0.5  # height over the patch's length above which a block is thick
 THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
 
 
-class Block(NamedTuple):
-    """The block of a simulation, whose far end a long patch feels."""
-
-    length: float  # m
-    height: float  # m
-
-
 class ExpectedDrop(NamedTuple):
     """The expected drop of a fault under a declared perturbation; lengths in m.
 
@@ -82,12 +75,12 @@ def expected_drop(
     critical: float,
     initial_state: float,
     initial_stress: float = 0.0,
-    block: Block | None = None,
+    block: tuple[float, float] | None = None,
 ) -> ExpectedDrop:
     """The expected drop of one fault with its friction law, pushed at its edge.
 
-    L_c is in m, phi0 in s, the initial shear stress over sigma0. Raises NoLength if nothing is
-    perturbed or no patch turns unstable.
+    L_c is in m, phi0 in s, the initial shear stress over sigma0; a simulated block has a length and
+    a height (m). Raises NoLength if nothing is perturbed or no patch turns unstable.
     """
     if not declared.acts:
         raise NoLength("nothing is perturbed: without a strength the drop depends on round-off")
@@ -140,7 +133,7 @@ def _doubts(
     history: ModeHistory,
     known: ExpectedDrop,
     critical: float,
-    block: Block | None,
+    block: tuple[float, float] | None,
 ) -> Iterator[str]:
     """Why the answer is uncertain, a text for each reason."""
     if known.slips_slowly:
@@ -209,16 +202,17 @@ def _doubts_of_law(
         )
 
 
-def _doubts_of_block(known: ExpectedDrop, block: Block) -> Iterator[str]:
+def _doubts_of_block(known: ExpectedDrop, block: tuple[float, float]) -> Iterator[str]:
     """Whether the patch feels the far end of its block when it drops."""
     highest = np.fmax(known.law.high, known.runaway_length)
-    if highest > NEAR_END * block.length:
+    length, height = block
+    if highest > NEAR_END * length:
         yield (
-            f"the patch would be {highest / block.length:.2g} of the block long, and would feel "
+            f"the patch would be {highest / length:.2g} of the block long, and would feel "
             "the block's far end"
         )
     elif feels_far_end(known.length, block):
-        reach = (known.length + block.height) / block.length
+        reach = (known.length + height) / length
         yield (
             f"the block is thick: its height and the patch together are {reach:.2g} of its length "
             f"(the law was compared up to {THICK_REACH:g}), so that the patch feels the far end; "
@@ -226,12 +220,12 @@ def _doubts_of_block(known: ExpectedDrop, block: Block) -> Iterator[str]:
         )
 
 
-def feels_far_end(length: float, block: Block) -> bool:
+def feels_far_end(length: float, block: tuple[float, float]) -> bool:
     """Whether a patch of a length (m) in a thick block feels the far end.
 
     A thin block's end has no effect at a distance of some heights. In a thick one its effect
     decreases with the distance over ``L + H``: simulated drops in blocks of H = 1.2 m that are 8, 6
     and 4 L_c long came 2.9, 5.8 and 9.8 % later than by the law, at 0.26, 0.34 and 0.51.
     """
-    is_thick = block.height > THICK * length
-    return is_thick and length + block.height > THICK_REACH * block.length
+    whole, height = block
+    return height > THICK * length and length + height > THICK_REACH * whole

@@ -56,11 +56,6 @@ class ModeHistory:
     strength: ComplexArray  # g (1/s) of a relative change of friction at each place
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each place
 
-    @property
-    def memory(self) -> float:
-        """D/V (s)."""
-        return self.patches.memory
-
 
 def mode_history(
     patches: Patches,

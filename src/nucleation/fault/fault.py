@@ -373,7 +373,6 @@ class Fault:
             scale = 1.0 if correlation_length is None else correlation_length
             declared = Perturbation(perturbation, strength, correlation_time, scale)
             found |= answers_of_drop(self, declared)
-        found["process_zone"] = answer.process_zone_answer(self)
         return answer.Lengths(found | answer.answers_of_literature(self, weakening_rate))
 
     def specimen(

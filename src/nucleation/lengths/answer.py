@@ -36,6 +36,7 @@ _HALVINGS = 60  # of the interval of log k in which the process zone is searched
 _SPAN = 1e6  # ratio of the longest one of the search to L_b/2, and of that to the shortest
 
 _CRITICAL = declared("critical length", "(0, inf) m")
+_KNOWN = {length.key: length for length in LENGTHS}
 
 FIELDS = ("value", "low", "high", "status", "reason", "doubt")
 
@@ -149,29 +150,20 @@ def _with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
 
 def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
     """L_c and L_s."""
-    critical = _critical_answer(fault)
-    length, error, status, reason = stability_answers(fault)
-    low, high = length * (1.0 - error), length * (1.0 + error)
-    stability = Answer(length, low, high, status, reason)
-    return {"critical_length": critical, "stability_length": stability}
 
-
-def _critical_answer(fault: FaultLike) -> Answer:
     def point(one: Systems, critical: float) -> tuple[float, str, str]:
         if np.isnan(critical):
             raise NoLength(stability_reason(one), STABLE)
         return critical, VALUE, ""
 
     rows = at_each(fault, point, rows=3)
-    length = rows[:1].astype(float)[0]
-    warn_of_implausible("critical_length", length, _CRITICAL)
-    return Answer(
-        length,
-        length,
-        length,
-        rows[1],
-        rows[2],
-    )
+    longest = rows[:1].astype(float)[0]
+    warn_of_implausible("critical_length", longest, _CRITICAL)
+    critical = Answer(longest, longest, longest, rows[1], rows[2])
+    length, error, status, reason = stability_answers(fault)
+    low, high = length * (1.0 - error), length * (1.0 + error)
+    stability = Answer(length, low, high, status, reason)
+    return {"critical_length": critical, "stability_length": stability}
 
 
 def process_zone(fault: FaultLike) -> Any:
@@ -202,38 +194,22 @@ def process_zone(fault: FaultLike) -> Any:
     return evaluate(fault, zones)[0]
 
 
-def process_zone_answer(fault: FaultLike) -> Answer:
-    """The process zone of the bodies as they are."""
-    length = process_zone(fault)
-
-    def reason_of(value: float, b: float) -> str:
-        return "" if np.isfinite(value) else f"needs b > 0: b = {b:.4g}"
-
-    status = _elementwise(lambda x: VALUE if np.isfinite(x) else UNKNOWN, length)
-    reason = _elementwise(reason_of, length, fault.b)
-    return Answer(length, length, length, status, reason)
-
-
 def answers_of_literature(
     fault: FaultLike, weakening_rate: Values | None = None
 ) -> dict[str, Answer]:
-    """The lengths of the literature, with W (Pa/m) of Uenishi and Rice's."""
+    """The process zone and the lengths of the literature, with W (Pa/m) of Uenishi and Rice's."""
     second = fault.second_shear_modulus
     differ = (second != fault.shear_modulus) | (fault.second_poisson_ratio != fault.poisson_ratio)
     of_two = bool(np.any(np.isfinite(second) & differ))
     used = [one for one in LENGTHS if of_two or one.system != TWO_MATERIALS]
     values = values_of(fault, weakening_rate, used)
-    return {
-        one.key: _literature_answer(
-            one,
-            values[one.key],
-            fault,
-        )
-        for one in used
-    }
+    found = {one.key: _answer(one, values[one.key], fault) for one in used}
+    # which needs b > 0 as well
+    zone = _answer(_KNOWN["state_evolution"], process_zone(fault), fault)
+    return {"process_zone": zone} | found
 
 
-def _literature_answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:
+def _answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:
     """A length of the literature; NaN means a stable fault if zeta <= 0, else another range."""
     facts = one.facts(fault)
     names = list(facts)

@@ -25,7 +25,6 @@ from ..model.material import Material
 from ..theory.evaluation import bodies_differ
 from ..theory.values import FaultLike, Values
 from ..theory.weakening_patch import weakening_patch_values
-from .answer import process_zone
 
 TABLE = "patch_outcomes.csv"
 
@@ -51,9 +50,6 @@ ROOM = 2.6
 _ROUNDING = 1e-6  # relative, of zeta/a and r
 
 NO_WIDTH = "no W_c: the patch is stable, or its surroundings are not"
-
-_CELLS = 3.0
-"""Cells in a process zone that resolve it (Day and others, 2005)."""
 
 
 class Simulated(NamedTuple):
@@ -112,8 +108,7 @@ def patch_answer(
 ) -> dict[str, Any]:
     """The behaviour of a weakening patch of a width (m) among strengthening surroundings.
 
-    W_c (m) and W/W_c, NaN if no patch nucleates or without a width; the behaviour in words; and the
-    largest cell (m) that resolves the process zone, NaN if there is none.
+    W_c (m) and W/W_c, NaN if no patch nucleates or without a width; and the behaviour in words.
     """
     smallest = float(weakening_patch_values(fault, outside_zeta, outside_a))
     ratio = math.nan if width is None else width / smallest
@@ -125,7 +120,6 @@ def patch_answer(
         "smallest_width": smallest,
         "width_ratio": ratio,
         "outcome": outcome,
-        "cell_size": float(process_zone(fault)) / _CELLS,
     }
 
 

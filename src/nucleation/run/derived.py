@@ -54,7 +54,7 @@ def identity(run: Run, *excluded: str) -> str:
 
 def drop_of_run(run: Run) -> "ExpectedDrop":
     """The expected drop of a uniform run that is pushed at its edge; raises NoLength."""
-    from ..drop.expected_drop import Block, expected_drop
+    from ..drop.expected_drop import expected_drop
 
     require_uniform_edge(run, "the law of the drop")
     fault = run.fault
@@ -64,5 +64,5 @@ def drop_of_run(run: Run) -> "ExpectedDrop":
         critical_length_of(single_system(fault)),
         fault.initial_state,
         run.start.initial_shear_stress / fault.normal_stress,
-        Block(run.block.length, fault.height),
+        (run.block.length, fault.height),
     )

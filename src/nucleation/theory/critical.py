@@ -182,7 +182,9 @@ def _brackets(systems: Systems) -> Array:
         )
         for height in heights
     ]
-    bottom = LONG_WAVES * systems.pair.contrast / np.fmax.reduce(finite)  # all layers are thin
+    ratios = [body.zone_ratio for body in systems.pair.deformable]
+    contrast = np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
+    bottom = LONG_WAVES * contrast / np.fmax.reduce(finite)  # all layers are thin
     high = SATURATION / np.fmin.reduce(finite)
     top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])  # stable beyond
     rows = np.arange(bottom.size)

@@ -118,12 +118,6 @@ class LayerPair(NamedTuple):
         layers = [layer for body in self.deformable for layer in (body.zone, body)]
         return [layer.height for layer in layers if layer is not None]
 
-    @property
-    def contrast(self) -> Array:
-        """The greatest contrast of a zone with its body, the softer over the stiffer modulus."""
-        ratios = [body.zone_ratio for body in self.deformable]
-        return np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
-
     def at(self, index: NDArray) -> LayerPair:
         """The pairs of an index or a mask."""
         return LayerPair(*(body and body.at(index) for body in self))

@@ -15,8 +15,6 @@ BEYOND = "beyond"
 UNKNOWN = "unknown"
 """The theory or the formula does not apply to this fault."""
 
-STATUSES = (VALUE, STABLE, BEYOND, UNKNOWN)
-
 
 class NoLength(ValueError):
     """This fault has no such length: L_c, L_s, L_run or the length at the drop.

@@ -90,11 +90,6 @@ class _SlowSlip:
         state = np.log(speed) - shape
         return np.stack([np.broadcast_to(np.log(rate), state.shape), state])
 
-    def keep(self, lengths: Array) -> None:
-        """Leave out the other lengths."""
-        self.stiffness = self.stiffness[lengths]
-        self.steady = self.steady[lengths]
-
     def rates(
         self,
         logs: Array,
@@ -127,6 +122,7 @@ class _SlowSlip:
         return rate * by_rate, by_state, law.slip_speed(rate) / self.velocity
 
 
+@np.errstate(all="ignore")  # steps that are too long overflow, and are tried again
 def lifetimes(
     patches: Patches,
     lengths: Array,
@@ -140,16 +136,7 @@ def lifetimes(
     Raises NoLength if the creep opens the fault, or where more than MOST_STEPS are needed.
     """
     slow = _SlowSlip(patches, lengths, number)
-    with np.errstate(all="ignore"):  # steps that are too long overflow, and are tried again
-        return _integrated(slow, slow.disturbed(disturbances), duration)
-
-
-def _integrated(
-    slow: _SlowSlip,
-    logs: Array,
-    duration: float,
-) -> Array:
-    """Times at which the largest slip rate exceeds FAST V."""
+    logs = slow.disturbed(disturbances)
     stages = np.empty((len(WEIGHTS) + 1, *logs.shape))
     slow.rates(logs, stages[0])
     found = np.full(logs.shape[1:3], np.inf)
@@ -179,7 +166,7 @@ def _integrated(
         if not kept.any():
             return found
         if not kept.all():
-            slow.keep(kept)
+            slow.stiffness, slow.steady = slow.stiffness[kept], slow.steady[kept]
             rows, time, step = rows[kept], time[kept], step[kept]
             logs = logs[:, kept]
             stages = np.ascontiguousarray(stages[:, :, kept])
