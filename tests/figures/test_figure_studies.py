@@ -75,26 +75,19 @@ def grid(rows):
     return (x / y).ravel(), {"height": x.ravel().tolist(), "zeta_over_a": y.ravel().tolist()}
 
 
-def test_few_values_of_a_second_number_are_named_and_many_are_shades():
-    theory, varied = grid(2)
+def test_values_of_a_second_number_are_named():
+    theory, varied = grid(9)
     axes = draw(theory, 0.8 * theory, **varied).axes[0]
     assert axes.get_xlabel() == "Height $H$ (m)"
-    assert r"simulation, $\zeta/a=1$" in axes.get_legend_handles_labels()[1]
-    theory, varied = grid(9)
-    figure = draw(theory, 0.8 * theory, **varied, evolution=["aging", "slip"] * 45)
-    axes, bar = figure.axes
-    assert bar.get_ylabel() == r"Weakening over direct effect $\zeta/a$"
-    labels = axes.get_legend_handles_labels()[1]
-    assert set(labels) == {"theory", "simulation, aging", "simulation, slip"}
-    assert len({c[0].get_color() for c in axes.containers}) == 9
-    assert set(zip(varied["height"], 0.8 * theory, strict=True)) < points(figure)
+    assert r"simulation, $\zeta/a=9$" in axes.get_legend_handles_labels()[1]
+    assert len(axes.containers) == 9
 
 
 def test_every_fault_is_drawn_where_many_numbers_vary():
     """More kinds than marks are named in the title; realisations of a fault share their mark."""
-    many = list(range(1, 11))
+    many = list(range(1, 31))
     figure = draw(many, many, height=many, n_x=many, initial_state=many, seed=many)
-    assert figure.axes[0].get_title("left") == "also varied: initial state"
+    assert figure.axes[0].get_title("left") == "also varied: elements along x, initial state"
     assert set(zip(many, many, strict=True)) < points(figure)
     axes = draw([1, 1], [0.9, 0.8], seed=[1, 2]).axes[0]
     assert axes.get_legend_handles_labels()[1] == ["theory", "simulation"]
@@ -132,12 +125,12 @@ def test_every_symbol_can_be_typeset():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["curve", "shades", "points"])
+@pytest.mark.parametrize("kind", ["curve", "grid", "points"])
 def test_nothing_is_cut_or_overlaps(kind):
     varied = {"height": np.geomspace(0.005, 0.1, 5).tolist()}
     if kind == "points":
         varied |= {"n_x": [100, 200, 300, 400, 500], "initial_state": [1.0, 2.0, 3.0, 4.0, 5.0]}
-    if kind == "shades":
+    if kind == "grid":
         varied = grid(9)[1]
     size = len(varied["height"])
     figure = draw(np.linspace(1, 2, size), np.linspace(0.9, 1.5, size), **varied)

@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from nucleation.model.quantities import Quantity
@@ -20,7 +18,7 @@ from . import laws
 Curves = Mapping[str, Mapping[str, Sequence[float] | Array]]
 
 _DASHES = ("-", "--", "-.", ":")  # of the theory's curves, so that equal ones are seen
-_FEW = 8  # so many kinds are in the legend, more are shaded by a number
+_FEW = 24  # so many kinds have marks and places in the legend
 _WIDE = 4.0  # ratio of the largest to the smallest value above which an axis is logarithmic
 
 _GREEK = "epsilon|mu|nu|phi|rho|sigma|tau|theta|xi|zeta"
@@ -43,52 +41,33 @@ def draw(
 ) -> Figure:
     """Draw lengths (m) of one study over the number with most values, marked by all others.
 
-    If there are many kinds of runs, the number with most values but one is a shade. If no number is
-    varied, the theory's length is the abscissa. `theory` has closely spaced curves by kind; without
-    one the theory of the runs is connected. Runs without an event are crosses at the lower edge.
+    If there are too many kinds of runs, the title names the others. If no number is varied, the
+    theory's length is the abscissa. `theory` has closely spaced curves by kind; without one the
+    theory of the runs is connected. Runs without an event are crosses at the lower edge.
     """
     # realisations of one fault have the same mark
     declared = {name: Quantity(**own) for name, own in entries.items() if name != "seed"}
     numbers = [name for name, entry in declared.items() if not entry.choices]
     numbers.sort(key=lambda name: -len(set(varied[name])))
-    shade, title = "", ""
+    title = ""
     others = [name for name in declared if name not in numbers[:1]]
     kinds = _kinds(varied, declared, others)
-    if len(set(kinds)) > _FEW and len(numbers) > 1:
-        shade = numbers[1]
-        others.remove(shade)
-        kinds = _kinds(varied, declared, others)
-        if len(set(kinds)) > _FEW:
-            title = f"also varied: {', '.join(map(_named, others))}"
-            kinds = [""] * len(kinds)
+    if len(set(kinds)) > _FEW:
+        title = f"also varied: {', '.join(map(_named, others))}"
+        kinds = [""] * len(kinds)
     x = varied[numbers[0]] if numbers else table["critical_length"].values
     rows = table.assign(
         x=("run", np.asarray(x, dtype=float)),
         kind=("run", kinds),
     )
-    rows["shade"] = ("run", np.asarray(varied[shade] if shade else np.zeros(len(kinds))))
-
     names = list(dict.fromkeys(kinds))
     figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
-    colours = ScalarMappable()
-    colours.set_array(rows["shade"])
-    if _is_wide(rows["shade"].values):
-        colours.set_norm(LogNorm())
-    colours.autoscale()
-    several = bool(shade) or len(names) > 1
-    axes.plot(
-        [],
-        [],
-        color=style.GUIDE if several else style.THEORY,
-        label="theory",
-    )
-    for own in laws.groups(rows.sortby("x"), "kind", "shade"):
-        kind = str(own["kind"].values[0])
-        number = names.index(kind)
+    several = len(names) > 1
+    axes.plot([], [], color=style.GUIDE if several else style.THEORY, label="theory")
+    for number, kind in enumerate(names):
+        own = laws.where(rows, kind=kind).sortby("x")
         marker, colour = style.look(number)
-        look: style.Options = {
-            "color": colours.to_rgba(own["shade"].values[0]) if shade else colour
-        }
+        look: style.Options = {"color": colour}
         line = dict(look) if several else {"color": style.THEORY}
         curve = theory.get(kind, {"x": own["x"], "length": own["critical_length"]})
         line["marker"] = "_" if np.size(curve["x"]) == 1 else ""
@@ -104,18 +83,8 @@ def draw(
         known = np.isfinite(own["length"].values)
         label = f"simulation, {kind}" if kind else "simulation"
         if known.any():
-            laws.draw(
-                axes,
-                "x",
-                laws.where(
-                    own,
-                    known,
-                ),
-                "length",
-                marker=marker,
-                label=label,
-                **look,
-            )
+            dropped = laws.where(own, known)
+            laws.draw(axes, "x", dropped, "length", marker=marker, label=label, **look)
         if not known.all():
             lost = own["x"].values[~known]
             label = f"no event ({np.isnan(rows['length'].values).sum()} of {len(kinds)})"
@@ -128,16 +97,13 @@ def draw(
                 label=label,
                 **look,
             )
-    if shade:
-        bar = figure.colorbar(
-            colours,
-            ax=axes,
-            label=_label(shade, declared[shade]),
-        )
-        if _is_wide(rows["shade"].values):
-            style.plain_numbers(bar.ax.yaxis)
     label = "Theory's critical length $L_c$ (m)"
-    axes.set_xlabel(_label(numbers[0], declared[numbers[0]]) if numbers else label)
+    if numbers:
+        entry, words = declared[numbers[0]], _named(numbers[0])
+        unit = "" if entry.unit == "1" else f" ({entry.unit})"
+        symbol = f" ${_symbol(entry)}$" if _symbol(entry) else ""
+        label = words[0].upper() + words[1:] + symbol + unit
+    axes.set_xlabel(label)
     axes.set_ylabel("Length at the drop $L$ (m)")
     axes.set_title(title, fontsize=style.SMALL, wrap=True)
     _scale(axes, "x", rows["x"].values)
@@ -202,23 +168,10 @@ def _named(name: str) -> str:
     return words[0].lower() + words[1:]
 
 
-def _label(name: str, entry: Quantity) -> str:
-    """The label of an axis."""
-    words = _named(name)
-    symbol = _symbol(entry)
-    text = words[0].upper() + words[1:] + (f" ${symbol}$" if symbol else "")
-    return text if entry.unit == "1" else f"{text} ({entry.unit})"
-
-
-def _is_wide(values: Array) -> bool:
-    """Whether an axis with these values is logarithmic."""
-    known = values[np.isfinite(values)]
-    return bool(known.size and known.min() > 0.0 and known.max() > _WIDE * known.min())
-
-
 def _scale(axes: Axes, which: str, values: Array) -> None:
     """Set the scale of an axis, with plain numbers at its ticks if it has less than two decades."""
-    if _is_wide(values):
+    known = values[np.isfinite(values)]
+    if known.size and known.min() > 0.0 and known.max() > _WIDE * known.min():
         axes.set(**{f"{which}scale": "log"})
-        if np.nanmax(values) < 100.0 * np.nanmin(values):
+        if known.max() < 100.0 * known.min():
             style.plain_numbers({"x": axes.xaxis, "y": axes.yaxis}[which])
