@@ -213,31 +213,6 @@ rule figure_patch_theory:
         JOB
 
 
-def theory_of_identical_blocks():
-    """The theory's lengths over the height, by study of identical blocks."""
-    found = {}
-    for study in in_role("pairs_identical"):
-        found |= theory_curves(one_of_each_fault(runs_of(study)), settings)
-    return found
-
-
-rule figure_pairs:
-    """Two deformable bodies"""
-    input:
-        table=f"{RESULTS}/pairs.nc",
-        recipe=recipe("figure_pairs"),
-    output:
-        drawn("figure_pairs"),
-    log:
-        f"{RESULTS}/logs/figures/figure_pairs.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_pairs:draw",
-        theory=lambda wildcards: theory_of_identical_blocks(),
-    shell:
-        JOB
-
-
 rule figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:
@@ -250,7 +225,7 @@ rule figure_2_simulated:
         f"{RESULTS}/logs/figures/figure_2_simulated.log",
     localrule: True
     params:
-        call="replication.figures.figure_pairs:draw_contrast",
+        call="replication.figures.figure_2_simulated:draw",
     shell:
         JOB
 

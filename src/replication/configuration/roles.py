@@ -139,7 +139,7 @@ ROLES = {
         several=True,
         runs=(_PAIR,),
     ),
-    # the same, identical blocks, for `figure_pairs`
+    # the same, identical blocks
     "pairs_identical": _Role(
         several=True,
         runs=(_PAIR,),

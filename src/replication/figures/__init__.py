@@ -19,7 +19,6 @@ ROLES: dict[str, tuple[str, ...]] = {
     "figure_map": ("map",),
     "figure_patch_stability": ("paper",),
     "figure_patch_theory": ("converged",),
-    "figure_pairs": ("pairs_identical",),
     "figure_2_simulated": ("pairs_identical", "figure_2_simulated"),
     "figure_literature": ("literature",),
 }

@@ -1,11 +1,11 @@
-"""Figures of two deformable bodies, from a made-up table."""
+"""Figure 2 with simulations, from a made-up table."""
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from nucleation.theory.closed_forms import bimaterial_length_ratio
-from replication.figures import figure_pairs
+from replication.figures import figure_2_simulated
 from replication.figures.theory import looks
 
 
@@ -35,29 +35,10 @@ def table():
     return xr.concat([one, other], dim="run")
 
 
-def test_identical_blocks_and_ratios(table):
-    """The mean of the realisations, 0.75, with their range as bars; a finer mesh is a check."""
-    other = {"n_x": ("run", [1600]), "seed": ("run", [9]), "ensemble": ("run", ["finer"])}
-    table = xr.concat([table, table.isel(run=[0]).assign(other)], dim="run")
-    x = np.geomspace(0.01, 1.0, 31)
-    left, right = figure_pairs.draw(table, {"": {"x": x, "length": np.sqrt(x)}}).axes
-    np.testing.assert_array_equal(left.lines[0].get_ydata(), np.sqrt(x))
-    np.testing.assert_allclose(left.containers[0][0].get_ydata(), 0.3)
-    (stability,) = (line for line in left.lines if line.get_marker() == "D")
-    np.testing.assert_allclose(stability.get_ydata(), 0.2)
-    np.testing.assert_allclose(right.lines[0].get_ydata(), 0.75)
-    assert right.lines[0].get_xdata().size == 3  # those of other friction are elsewhere
-    for axes, unit in ((left, 0.4), (right, 1.0)):
-        for bar in axes.collections[0].get_segments():
-            np.testing.assert_allclose(bar[:, 1], (0.7 * unit, 0.8 * unit))
-    connected = figure_pairs.draw(table, {}).axes[0].lines[0]
-    assert connected.get_xdata().tolist() == [0.01, 0.1, 1.0]
-
-
 def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(table, theory):
     unknown = table["f_beta"].values == 0.1
     lost = table["stability_ratio"].where(~xr.DataArray(unknown, dims="run"))
-    panels = figure_pairs.draw_contrast(table.assign(stability_ratio=lost), theory).axes[:2]
+    panels = figure_2_simulated.draw(table.assign(stability_ratio=lost), theory).axes[:2]
     papers = looks(theory["zeta_over_a"].values)
     for axes in panels:
         for weakening in (10.0, 1.0):
@@ -70,7 +51,7 @@ def test_colours_are_those_of_figure_2_and_runs_without_a_length_are_marked(tabl
 
 
 def test_figure_2_has_both_senses_in_units_without_contrast(table, theory):
-    left, right = figure_pairs.draw_contrast(table, theory).axes[:2]
+    left, right = figure_2_simulated.draw(table, theory).axes[:2]
     assert len(left.containers) == 2
     for panel, ratio in ((left, 0.75), (right, 0.5)):
         for (points, _, bars), weakening in zip(panel.containers, (10.0, 1.0), strict=True):
