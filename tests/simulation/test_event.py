@@ -156,13 +156,6 @@ def test_width_of_a_ramp(width):
     assert front_width(COARSE, X, np.where(X < 0.8, state, 0.0)) == pytest.approx(1.0 / steepest)
 
 
-def test_no_front_has_no_width():
-    assert front_width(COARSE, X, np.full(X.size, 0.05)) == np.inf
-    assert front_width(COARSE, X, np.where(X < 1.2, 0.05, 100.0)) == np.inf, (
-        "not where it is sought"
-    )
-
-
 def test_a_patch_is_long_from_the_frame_nearest():
     slipping = X[None] <= np.array([0.0, 4.0, 5.0, 6.0])[:, None] * X[1] + 1e-9
     rates = np.where(slipping, 1e-5, 1e-20)
@@ -178,9 +171,13 @@ def test_the_patch_slips_faster_than_a_hundredth_of_the_imposed_velocity(rate, s
     assert (long_after(COARSE, X, np.array([0.0, 1.0]), rates) == -np.inf) == slips
 
 
-@pytest.mark.parametrize(("fall", "width"), [(0.9, np.inf), (1.1, 1.0)])
-def test_a_front_changes_the_logarithm_of_the_state_by_one(fall, width):
-    state = np.where(X < 0.3, 0.05, 0.05 * np.exp(fall))
+@pytest.mark.parametrize(
+    ("begin", "fall", "width"),
+    [(0.3, 0.9, np.inf), (0.3, 1.1, 1.0), (0.3, 0.0, np.inf), (1.2, 9.0, np.inf)],
+    ids=["small", "front", "even", "where no patch is sought"],
+)
+def test_a_front_changes_the_logarithm_of_the_state_by_one(begin, fall, width):
+    state = np.where(begin > X, 0.05, 0.05 * np.exp(fall))
     assert front_width(COARSE, X, state) == pytest.approx(width)
 
 

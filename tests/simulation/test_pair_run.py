@@ -35,14 +35,6 @@ def test_bodies_meet_at_the_interface():
         np.testing.assert_allclose(slip[1:], state.past_w[0], atol=1e-18)
 
 
-@pytest.mark.slow
-def test_identical_blocks_under_the_same_load_keep_sigma0():
-    """Slip does not change the normal stress of identical blocks, whatever happens."""
-    dataset = simulate(pair(second_n_y=4, time_after_event=0.002))
-    assert dataset["maximal_slip_rate"].max() > 1e-3  # through the event
-    np.testing.assert_allclose(dataset["sigma_yy"], -1e6, rtol=1e-6)
-
-
 def test_a_stiff_clamped_block_is_the_rigid_base():
     """Force and slip rates are the same, but for the base's own compliance."""
     short = {"end_time": 2.0, "longest_step": 0.4}

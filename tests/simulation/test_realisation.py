@@ -10,11 +10,7 @@ from nucleation.simulation.perturbed import (
     Series,
     Sheet,
     normals,
-    profile,
-    spline,
 )
-
-SPLINE = BSpline.basis_element(np.arange(-2.0, 3.0), extrapolate=False)
 
 
 def test_numbers_are_standard_normal_and_independent():
@@ -30,24 +26,6 @@ def test_numbers_never_change():
     np.testing.assert_allclose(
         normals(1, 1, 0, 3), [-0.48155270891676, 0.68738093117408, 0.10638599016041], rtol=1e-12
     )
-
-
-def test_splines_are_the_cubic_ones():
-    u = np.linspace(0.0, 0.999, 11)
-    expected = [SPLINE(u - i) for i in (-1, 0, 1, 2)]
-    np.testing.assert_allclose(spline(u), np.nan_to_num(expected), atol=1e-15)
-    fine = np.linspace(-2.0, 2.0, 4001)
-    assert np.trapezoid(SPLINE(fine) ** 2, fine) == pytest.approx(MEAN_SQUARE, rel=1e-9)
-
-
-def test_series_does_not_depend_on_what_was_asked_before():
-    times = np.linspace(0.0, 60.0, 500)
-    forth = Series(8, 0.05)
-    values = [forth.value(t) for t in times]
-    back = Series(8, 0.05)
-    assert values == [back.value(t) for t in times[::-1]][::-1]
-    assert Series(8, 0.05).value(times[300]) == values[300]
-    assert Series(9, 0.05).value(times[300]) != values[300]
 
 
 @pytest.mark.parametrize("made", [Series(4, 0.05), Sheet(4, 0.05, 0.1, np.linspace(0.0, 1.0, 7))])
@@ -83,12 +61,6 @@ def test_correlation_and_spectral_density_are_a_pair(scale):
     for omega in np.array([0.5, 2.0, 5.0]) / scale:
         transformed = np.trapezoid(values * np.cos(omega * lag), lag)
         assert spectral_density(omega, scale) == pytest.approx(transformed, abs=1e-6 * scale)
-
-
-def test_profile_is_the_same_on_every_mesh():
-    coarse, fine = np.linspace(0.0, 2.4, 401), np.linspace(0.0, 4.8, 3201)
-    np.testing.assert_allclose(profile(4, 0.01, coarse), profile(4, 0.01, fine)[:1601:4], atol=1e-9)
-    assert profile(4, 0.01, fine).std() == pytest.approx(1.0, abs=0.15)
 
 
 def test_sheet_is_the_same_on_every_mesh_and_in_every_order():

@@ -83,24 +83,22 @@ def recorded(start, times, rates):
     return recorder.dataset()
 
 
-def test_a_frame_every_forty_steps(start):
-    times = 1e-6 * MEMORY * np.arange(100)
-    record = recorded(start, times, np.full(100, V))
-    np.testing.assert_array_equal(record["time"], times[[0, 40, 80]])
+STEPS = np.arange(100)
 
 
-def test_a_frame_every_four_tenths_of_the_memory_time(start):
-    times = 0.05 * MEMORY * np.arange(25) * (1 + 1e-9)
-    record = recorded(start, times, np.full(25, V))
-    np.testing.assert_array_equal(record["time"], times[[0, 8, 16, 24]])
-
-
-def test_a_frame_when_a_slip_rate_has_changed_by_half_its_logarithm(start):
-    """For fast slip asinh(v / V) grows as log(v)."""
-    rates = 1e4 * V * np.exp(0.1001 * np.arange(21))
-    times = 1e-6 * MEMORY * np.arange(21)
-    record = recorded(start, times, rates)
-    np.testing.assert_array_equal(record["time"], times[[0, 5, 10, 15, 20]])
+@pytest.mark.parametrize(
+    ("times", "rates", "frames"),
+    [
+        (1e-6 * STEPS, V + 0.0 * STEPS, [0, 40, 80]),  # every forty steps
+        (0.05 * STEPS[:25] * (1 + 1e-9), V + 0.0 * STEPS[:25], [0, 8, 16, 24]),  # 0.4 D/V
+        # a slip rate has changed by half its logarithm: for fast slip asinh(v / V) grows as log(v)
+        (1e-6 * STEPS[:21], 1e4 * V * np.exp(0.1001 * STEPS[:21]), [0, 5, 10, 15, 20]),
+    ],
+    ids=["steps", "time", "slip rate"],
+)
+def test_when_frames_are_taken(start, times, rates, frames):
+    record = recorded(start, MEMORY * times, rates)
+    np.testing.assert_array_equal(record["time"], MEMORY * times[frames])
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from fem.assembled_problem import AssembledBlock
-from scipy.sparse import csr_array
 from two_bodies import RIGID, transfer_functions
 from two_bodies import Body as Layer
 
@@ -30,10 +28,6 @@ PARAMETERS = PAPER_RUN
 AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
 
 
-def relative(value, reference):
-    return np.abs(value - reference).max() / np.abs(reference).max()
-
-
 # -- the block's condensed stiffness and the transfer functions of Eq. (10) ----------------------
 
 
@@ -53,69 +47,6 @@ def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, b
         errors.append(np.abs(found - np.array(exact)).max() / exact[0])
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < bound
-
-
-# -- the periodic block is the assembled matrix, wrapped around -----------------------------------
-
-
-class WrappedBlock(AssembledBlock):
-    """The assembled matrices of one period, the last column of nodes being the first."""
-
-    def __init__(self, grid, material):
-        super().__init__(grid, material)
-        wrap = np.arange(self.stiffness.shape[0])
-        for nodes in (self.x, self.y):
-            wrap[nodes[:, -1]] = nodes[:, 0]
-        onto = csr_array((np.ones(wrap.size), (np.arange(wrap.size), wrap)), 2 * wrap.shape)
-        self.stiffness, self.mass = (onto.T @ m @ onto for m in (self.stiffness, self.mass))
-        self.x, self.y = self.x[:, :-1], self.y[:, :-1]
-        self.fixed[:] = True
-        self.fixed[self.x[1:]] = self.fixed[self.y[1:]] = False
-        self.free = ~self.fixed
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("s", [0.0, 1e8, 1e13])
-def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
-    rng = np.random.default_rng(1)
-    grid = Grid(0.7, 0.2, 9, 5, grading=3.0, periodic=True)
-    body, block = Body((grid, MATERIAL)), WrappedBlock(grid, MATERIAL)
-    operator = Operator(body, s)
-    field = body.zero_field()
-    field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
-    top = body.far_load(1e6, 4e5)
-    load = body.inertia_load(1e9, [(1.0, field)], top)
-    values, forces = np.zeros((2, block.mass.shape[0]))
-    values[block.x], values[block.y] = (u[:, 1:] for u in body.nodal_values(field))
-    forces[block.x[-1]], forces[block.y[-1]] = 4e5 * grid.dx, -1e6 * grid.dx
-    forces += 1e9 * block.mass @ values
-    w = 1e-6 * rng.normal(size=grid.n_x)
-    prescribed = np.zeros(block.mass.shape[0])
-    prescribed[block.x[0]] = w
-    u, reaction = block.solve(s, forces, prescribed)
-    response = operator.respond(load, w)
-    tangential, normal = response.tangential, response.normal[1:]
-    displacement = operator.balance(response, w)[0]
-    u_x, u_y = (u[:, 1:] for u in body.nodal_values(displacement))
-    assert relative(u_x, u[block.x]) < 1e-11
-    assert relative(u_y, u[block.y]) < 1e-11
-    assert relative(tangential, reaction[block.x[0]]) < 1e-11
-    assert relative(normal, reaction[block.y[0]]) < 1e-11
-    momentum = (block.mass @ values)[block.x].sum()
-    assert body.momentum_x(field) == pytest.approx(momentum, rel=1e-12)
-
-
-def test_periodic_tangent_is_the_matrix_of_apply():
-    grid = Grid(0.7, 0.2, 9, 4, periodic=True)
-    operator = Operator(Body((grid, MATERIAL)), 1e8)
-    columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
-    d, n = np.array([c[0] for c in columns]).T, np.array([c[1][1:] for c in columns]).T
-    nodes = np.array([1, 2, 6, 9])
-    stiffness, coupling = operator.tangent(nodes)
-    block = np.ix_(nodes - 1, nodes - 1)
-    assert relative(stiffness, d[block]) < 1e-13
-    assert relative(coupling, n[block]) < 1e-13
-    assert relative(operator.diagonal, np.diag(d)) < 1e-13
 
 
 # -- the time integration and Eq. (5) ------------------------------------------------------------
