@@ -10,7 +10,6 @@ from replication.claims.verdicts import (
     REASONED,
     WIDEST_ALLOWANCE,
     WORDS,
-    Estimate,
     Missing,
     Result,
     Verdict,
@@ -113,11 +112,11 @@ def test_words_are_intervals_with_a_reading():
     ],
 )
 def test_the_least_favourable_of_several_numbers_is_judged(expected, worst, low, high):
-    assert least_favourable(expected, [0.9, 1.05, 1.0]) == Estimate(worst, low, high)
+    assert least_favourable(expected, [0.9, 1.05, 1.0]) == (worst, low, high)
     assert least_favourable(expected, 0.9) == between(0.9)
     own = [between(0.9, 0.7, 1.1), between(1.05, 0.95, 1.15), between(1.0)]
-    assert least_favourable(expected, own) == next(one for one in own if one.value == worst)
-    assert math.isnan(least_favourable(expected, [1.0, math.nan]).value)
+    assert least_favourable(expected, own) == next(one for one in own if one[0] == worst)
+    assert math.isnan(least_favourable(expected, [1.0, math.nan])[0])
     with pytest.raises(ValueError):
         least_favourable(expected, [])
 

@@ -4,7 +4,6 @@ import json
 import math
 
 import netCDF4
-import numpy as np
 import pytest
 import xarray as xr
 from cf_units import Unit
@@ -12,11 +11,11 @@ from declared import VARIABLES
 
 from nucleation.datasets import netcdf
 from nucleation.datasets.provenance import attributes
-from nucleation.datasets.variables import Variable, annotate, table, to_csv
+from nucleation.datasets.variables import Variable, table, to_csv
 from nucleation.model import units
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
-from replication.tables.curves import CURVES, length_curve, main_text
+from replication.tables.curves import theory_dataset
 
 NUMBERS = {name: entry for name, entry in VARIABLES.items() if entry.units}
 
@@ -33,11 +32,11 @@ def test_units_are_those_of_udunits(written):
 
 FILES = {
     "table": lambda: table([{"id": "a", "length": 0.1}, {"id": "b", "length": math.nan}], COLUMNS),
-    "curve": lambda: annotate(
-        length_curve(main_text(PAPER_RUN.fault), np.array([0.01, 0.1])), CURVES
-    ).assign_coords(height=("height", [0.01, 0.1], CURVES["height"].attributes)),
+    "curve": lambda: theory_dataset(PAPER_RUN, CURVES),
     "simulation": lambda: simulate(SHORT),
 }
+CURVES = {"heights": [0.01, 0.1], "f_beta": [0.0, 0.1], "zeta_over_a": [1.0, 2.0]}
+CURVES["slip_rates"] = [1e-6, 1e-5]
 COLUMNS = {
     "id": Variable("", "name of the run"),
     "length": Variable("m", "length at the drop", "L"),

@@ -78,11 +78,11 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
             whose = " of the paper and of our runs" if same else ", and these runs have another"
             reason = f"It is an input{whose}. {reason}"
         reason = f"{reason} {note}".rstrip()
-        ours = worst(expected, result.found)
-        if not math.isnan(ours.value):
-            row |= {"ours": ours.value, "uncertainty": [ours.low, ours.high]}
+        value, *ends = worst(expected, result.found)
+        if not math.isnan(value):
+            row |= {"ours": value, "uncertainty": ends}
         if result.papers is not None:
-            other = worst(expected, result.papers).value
+            other, *_ = worst(expected, result.papers)
             row["on_papers_mesh"] = None if math.isnan(other) else other
     return row | {
         "paper": expected and expected.text,

@@ -67,13 +67,8 @@ class Missing(LookupError):
     """A claim needs a result that is not there; the message names it."""
 
 
-class Estimate(NamedTuple):
-    """A number of ours and the ends of its range."""
-
-    value: float
-    low: float
-    high: float
-
+Estimate = tuple[float, float, float]
+"""A number of ours and the ends of its range."""
 
 Found = Any
 """One number or several, also as an array; in a list each may be an Estimate."""
@@ -115,8 +110,7 @@ Computation = Callable[[Any], Found | Result]
 def between(value: float, *ends: float) -> Estimate:
     """A number with the range that contains it and some ends."""
     numbers = [float(value), *map(float, ends)]
-    low, high = min(numbers), max(numbers)
-    return Estimate(numbers[0], low, high)
+    return numbers[0], min(numbers), max(numbers)
 
 
 def formula(value: float, text: str = "") -> Expected:
@@ -185,18 +179,10 @@ def read(entry: Mapping[str, Any]) -> Expected:
 
 def _listed(found: Found) -> Array:
     """Value and ends of each number, (n, 3); the ends are NaN for one without a range."""
-    if isinstance(found, Estimate):
-        return np.array([found])
     several = found if isinstance(found, list) else np.ravel(found).tolist()
-    rows = [
-        one
-        if isinstance(
-            one,
-            Estimate,
-        )
-        else (one, math.nan, math.nan)
-        for one in several
-    ]
+    if isinstance(found, tuple):
+        several = [found]
+    rows = [one if isinstance(one, tuple) else (one, math.nan, math.nan) for one in several]
     return np.array(rows, float).reshape(-1, 3)
 
 
@@ -235,16 +221,17 @@ def holds(expected: Expected, ours: Estimate) -> bool | None:
 
     Our uncertainty towards a printed number widens its range; otherwise ranges do not matter.
     """
-    if math.isnan(ours.value):
+    value, least, most = ours
+    if math.isnan(value):
         return None
     low, high = expected.low, expected.high
     if expected.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(expected.value or 0.0)
-        low -= min(ours.high - ours.value, widest)
-        high += min(ours.value - ours.low, widest)
+        low -= min(most - value, widest)
+        high += min(value - least, widest)
     if expected.kind in ("number", "formula"):
-        return low <= ours.value <= high
-    return low < ours.value < high
+        return low <= value <= high
+    return low < value < high
 
 
 def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
@@ -258,7 +245,7 @@ def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
         if result.papers is not None:
             reason += f" On {result.mesh} {_near_one(result.papers)}."
         return Verdict.OPEN, reason
-    inside = expected.low <= ours.value <= expected.high
+    inside = expected.low <= ours[0] <= expected.high
     reason = _comparison(expected, ours, held, inside)
     if not held and result.explained is not None:
         without, sentence = result.explained
@@ -269,7 +256,7 @@ def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
         same = holds(expected, other)
         if same is not None:
             agrees = "holds as well" if held and same else "holds" if same else "does not hold"
-            reason += f" On {result.mesh} it {agrees}, with {other.value:.4g}."
+            reason += f" On {result.mesh} it {agrees}, with {other[0]:.4g}."
     if held:
         return (Verdict.REPLICATED if inside else Verdict.WIDENED), reason
     return (Verdict.NOT_SUPPORTED if expected.chosen else Verdict.NOT_REPLICATED), reason
@@ -292,20 +279,18 @@ def _comparison(
     inside: bool,
 ) -> str:
     """Sentences that compare our number with the paper's."""
-    value = expected.value or 0.0
+    value, least, most = ours
     if expected.kind == "formula":
-        difference = abs(ours.value - value) / (abs(value) or 1.0)
+        exact = expected.value or 0.0
+        difference = abs(value - exact) / (abs(exact) or 1.0)
         return f"The difference is {difference:.1g}."
     if expected.kind == "number":
         widened = ", but by less than its own range" if held and not inside else ""
         where = "within" if inside else "outside"
-        return f"{ours.value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
+        return f"{value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
     bound = expected.text.partition(": ")[2] or expected.text
-    reason = f"{ours.value:.4g} is {'' if held else 'not '}{bound}."
-    nearest = min(
-        (expected.low, expected.high),
-        key=lambda end: abs(end - ours.value),
-    )
-    if ours.low <= nearest <= ours.high:
+    reason = f"{value:.4g} is {'' if held else 'not '}{bound}."
+    nearest = min((expected.low, expected.high), key=lambda end: abs(end - value))
+    if least <= nearest <= most:
         reason += f" Its range reaches across the bound, {nearest:g}."
     return reason

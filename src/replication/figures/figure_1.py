@@ -5,16 +5,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from numpy.typing import ArrayLike
 
 from nucleation.pictures import style
 
 _MOTION = style.VERMILLION
-_INK = 0.55  # part of its colour that a body has, the rest is white
-_SIDE = 5.2  # bodies without ends reach from minus this x to this
+_INK = 0.55  # opacity of a body's colour
+_SIDE = 5.2  # x of the letters
 
 
 @style.styled()
@@ -62,13 +60,12 @@ def _draw_long_bodies(axes: Axes) -> None:
 
 def _draw_block_on_rigid_base(axes: Axes) -> None:
     """The right panel: the finite block, pushed at its left edge over a rigid body."""
-    tint = _tint(style.UPPER_BODY)
     axes.add_patch(
         Rectangle(
             (-3.7, 0.0),
             7.7,
             2.3,
-            facecolor=tint,
+            facecolor=(style.UPPER_BODY, _INK),
             edgecolor=style.BLACK,
         )
     )
@@ -106,41 +103,16 @@ def _draw_block_on_rigid_base(axes: Axes) -> None:
         (0.15, -0.55, r"rigid, $\mu^{(2)}\!\to\infty$"),
         (2.85, 1.15, "$H$"),
         (0.15, -1.95, "$L$"),
-        (5.45, 0.0, "$x$"),
+        (5.0, 0.36, "$x$"),
         (-4.0, 3.2, "$y$"),
     )
 
 
-def _tint(colour: str) -> Any:
-    """A body's colour, mixed with white."""
-    return 1.0 - _INK * (1.0 - np.array(to_rgb(colour)))
-
-
 def _draw_body(axes: Axes, low: float, high: float, colour: str) -> None:
-    """A body without ends: its colour and its edges fade to either side."""
-    _draw_band(axes, low, high, _tint(colour))
+    """A body without ends, across the whole panel."""
+    axes.axhspan(low, high, facecolor=(colour, _INK), linewidth=0.0)
     for edge in (low, high):
-        half = 0.015 if edge else 0.03  # the interface is the heavier line
-        _draw_band(axes, edge - half, edge + half, 0.0, zorder=1.0)
-
-
-def _draw_band(axes: Axes, low: float, high: float, colour: ArrayLike, zorder: float = 0.0) -> None:
-    """A horizontal band that is opaque inside and transparent at its ends."""
-    image = np.empty((1, 512, 4))
-    image[..., :3] = colour
-    image[..., 3] = np.clip(
-        (1.0 - np.abs(np.linspace(-1.0, 1.0, 512))) / 0.3,
-        0.0,
-        1.0,
-    )
-    place = (-_SIDE, _SIDE, low, high)
-    axes.imshow(
-        image,
-        extent=place,
-        aspect="equal",
-        interpolation="bilinear",
-        zorder=zorder,
-    )
+        axes.axhline(edge, color=style.BLACK, linewidth=0.9 if edge else 1.8)  # heavier interface
 
 
 def _draw_arrows(

@@ -74,21 +74,6 @@ def on_rigid_base(fault: Fault, height: Any) -> Fault:
     )
 
 
-def length_curve(fault: Fault, height: Any) -> xr.Dataset:
-    """L_c, wavenumber and frequency of blocks on a rigid base over their height (m) (Figure 3)."""
-    import xarray as xr
-
-    modes = on_rigid_base(fault, height).critical_mode()
-    values = {
-        "critical_length": modes.length,
-        "critical_wavenumber": modes.wavenumber,
-        "critical_frequency": modes.angular_frequency,
-        "thin_limit_length": thin_limit_length(height, fault),
-    }
-    on_height = {name: ("height", column) for name, column in values.items()}
-    return xr.Dataset(on_height, {"height": height})
-
-
 def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Dataset:
     """All curves of the linear theory, :data:`CURVES`, for the fault of a run.
 
@@ -96,18 +81,23 @@ def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Datas
     main text's rounded friction. Figure 2 has bimaterial half-spaces over those without contrast.
     Figure S1 has steady-state friction over slip rates (m/s), by the full law and expanded at V.
     """
-    f_beta, zeta_over_a, slip_rate = (
-        np.array(curves[name]) for name in ("f_beta", "zeta_over_a", "slip_rates")
+    import xarray as xr
+
+    f_beta, zeta_over_a, slip_rate, height = (
+        np.array(curves[name]) for name in ("f_beta", "zeta_over_a", "slip_rates", "heights")
     )
     law, velocity = base.law, base.fault.velocity
     state = law.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     logarithmic = logarithmic_friction(law, slip_rate, state, velocity)
     expansion = law.expansion(velocity)
     ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
-    found = length_curve(
-        main_text(base.fault),
-        np.array(curves["heights"]),
-    ).assign(
+    fault = main_text(base.fault)
+    modes = on_rigid_base(fault, height).critical_mode()
+    found = xr.Dataset().assign(
+        critical_length=("height", modes.length),
+        critical_wavenumber=("height", modes.wavenumber),
+        critical_frequency=("height", modes.angular_frequency),
+        thin_limit_length=("height", thin_limit_length(height, fault)),
         bimaterial_length_ratio=(("zeta_over_a", "f_beta"), ratio),
         steady_friction=("slip_rate", law.steady_coefficient(slip_rate)),
         steady_friction_logarithmic=("slip_rate", logarithmic),
@@ -116,5 +106,5 @@ def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Datas
         zeta=expansion.zeta,
         velocity=velocity,
     )
-    axes = {"zeta_over_a": zeta_over_a, "f_beta": f_beta, "slip_rate": slip_rate}
-    return annotate(found.assign_coords(axes), CURVES)
+    found = found.assign_coords(height=height, zeta_over_a=zeta_over_a)
+    return annotate(found.assign_coords(f_beta=f_beta, slip_rate=slip_rate), CURVES)
