@@ -229,7 +229,7 @@ def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_p
     assert lengths == ["2.513", "1.947", "True 0.005"] and said.startswith(advice)
     assert "2.513 m" in outside(light, tmp_path, *LENGTH)
     (tmp_path / "run.nc").touch()
-    for words in (["simulate", "new.nc"], ["show", "run.nc"], ["length", "--parameters", "run.nc"]):
+    for words in (["simulate", "new.nc"], ["show", "run.nc"]):
         said = outside(light, tmp_path, "-m", "nucleation", *words, code=2)
         assert f"Error: {advice}" in " ".join(said.split())
         assert "Traceback" not in said

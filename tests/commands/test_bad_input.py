@@ -71,7 +71,7 @@ SIMULATE = [
     (["new.nc", "--parameters", "broken.yaml"], ["broken.yaml is not valid YAML"]),
     (["new.nc", "--parameters", "unknown.yaml"], ["heigth = '5mm'", "did you mean height"]),
     (["new.nc", "--parameters", "twice.yaml"], ["height is given twice"]),
-    (["new.nc", "--parameters", "theory.nc"], ["theory.nc lacks the variables"]),
+    (["new.nc", "--parameters", "foreign.nc"], ["foreign.nc is not valid YAML"]),
 ]
 
 SHOW = [

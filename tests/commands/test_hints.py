@@ -12,9 +12,6 @@ FAULT = (
     ("command", "unknown", "answer"),
     [
         (["length"], "--Dc", "did you mean --slip-distance?"),
-        (["simulate", "run.nc"], "--Vpl", "did you mean --velocity?"),
-        (["length"], "-E", "give --shear-modulus: mu = E/(2 (1 + nu))"),
-        (["length"], "--a-b", "give --zeta: zeta = b - a"),
         (["show", "run.nc"], "--plott", "did you mean --plot?"),
     ],
 )

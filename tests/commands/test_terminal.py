@@ -1,11 +1,6 @@
 """What a person sees: lines fit the terminal, values have the units in which they were given."""
 
-import fcntl
-import os
-import pty
 import re
-import struct
-import termios
 
 import pytest
 from hypothesis import given
@@ -29,7 +24,6 @@ COMMANDS = {
     "simulate": ("simulate", "x.nc", *GRANITE, *STRESS, "--dry-run"),
     "mistake": ("length", "--shear-modulus", "30um"),
 }
-COMMANDS_WITH_HELP = ("length", "specimen", "simulate", "show")
 SYSTEM = ("length", "specimen", "simulate")
 
 
@@ -46,26 +40,6 @@ def test_lines_fit_and_words_are_those_of_a_file(nucleation, monkeypatch, comman
         assert max(map(len, narrow)) <= columns
         assert sorted(" ".join(narrow).split()) == sorted(" ".join(wide).split())
     assert max(map(len, wide)) > 80
-
-
-@pytest.mark.system
-def test_a_terminal_of_eighty_columns(program):
-    """A terminal wraps, and the same command into a pipe does not."""
-    child, terminal = pty.fork()
-    if child == 0:
-        os.environ.pop("COLUMNS", None)
-        os.execv(program[0], [*program, *COMMANDS["specimen"]])
-    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-    shown = b""
-    try:
-        while chunk := os.read(terminal, 4096):
-            shown += chunk
-    except OSError:  # the other end is closed
-        pass
-    os.waitpid(child, 0)
-    lines = shown.decode().splitlines()
-    assert 70 < max(map(len, lines)) <= 80
-    assert any(line.startswith("  ") for line in lines), "a hanging indent"
 
 
 def test_the_last_column_of_a_table_wraps(monkeypatch):

@@ -1,6 +1,6 @@
 """What a command is given: options of parameters, and the fault or the run that they define.
 
-Further parameters are those of a file, of the dataset of a simulation, or the paper's.
+Further parameters are those of a file or the paper's.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ import click
 
 from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
-from ..installed import require
 from ..model.friction.constants import CONSTANTS
 from ..model.hints import ImplausibleWarning
 from ..model.quantities import ParameterError, Quantity, declarations
@@ -117,8 +116,7 @@ source_options = together(
         "--parameters",
         "file",
         type=click.Path(exists=True, dir_okay=False, path_type=Path),
-        help="YAML or JSON file of parameters by the names of options, optionally with units; or "
-        "the dataset of an earlier simulation",
+        help="YAML or JSON file of parameters by the names of options, optionally with units",
     ),
     click.option(
         "--paper",
@@ -139,21 +137,11 @@ def fault_options(function: _Function) -> _Function:
 
 def _given(
     options: Mapping[str, Any], known: Mapping[str, Quantity], ignored: Collection[str] = ()
-) -> tuple[dict[str, Any], Run | None]:
-    """The known values of options and their file (SI units), and the run of their dataset."""
-    file = options["file"]
+) -> dict[str, Any]:
+    """The known values of options and of their file, in SI units."""
     own = {k: x for k, x in options.items() if x is not None and k in known}
-    if file is None:
-        return own, None
-    if file.suffix != ".nc":
-        return read_parameters(file, ignored, known) | own, None
-    if options["paper"]:
-        raise ParameterError("--paper is not allowed with a dataset, which has all values")
-    require("solver")
-    from ..datasets import netcdf
-    from ..extraction.extraction import parameters_of
-
-    return own, parameters_of(netcdf.read(file, requires=["slip_rate", "driving_force"]))
+    file = options["file"]
+    return read_parameters(file, ignored, known) | own if file else own
 
 
 def given_fault(
@@ -173,13 +161,13 @@ def given_fault(
         from ..run.names import parameters
 
         ignored = parameters().keys() - known.keys()
-    given, run = _given(options, known, ignored)
+    given = _given(options, known, ignored)
     for name in samples:
         if options.get(name) is not None:
             raise ParameterError(f"{name} is given twice: as an option and in the samples")
     given |= samples
     names = frozenset(given)
-    base = run.fault if run else PAPER if options["paper"] else None
+    base = PAPER if options["paper"] else None
     if base is None:
         given = {**sought, **given}
         law = given.get("friction_law") or given.keys() & {*LAW_NAMES}
@@ -207,24 +195,21 @@ def given_fault(
 def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
     """The run that options define (None: not given), names of what is given, if it is the paper's.
 
-    Without a dataset the sizes of the block and the times follow from the theory. Without any
-    constant of a fault it is the paper's.
+    The sizes of the block and the times follow from the theory. Without any constant of a fault it
+    is the paper's.
     """
     from ..run.names import parameters
     from ..run.run import PAPER_RUN, Run
 
-    given, base = _given(options, parameters())
+    given = _given(options, parameters())
     names = frozenset(given)
     if options["file"]:
         _refuse_ranges(given)
-    usual = base.perturbation.kind if base else "none"
-    if "seed" in given and given.get("perturbation", usual) == "none":
+    if "seed" in given and given.get("perturbation", "none") == "none":
         raise ParameterError(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
             f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
         )
-    if base is not None:
-        return base.replaced(**given), frozenset(base.to_dict()), False
     flat = declarations_of_flat()
     of_fault = {name: x for name, x in given.items() if name in flat}
     others = {name: x for name, x in given.items() if name not in flat}

@@ -124,11 +124,6 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
         from ..fault.files import read_samples
 
         columns = read_samples(samples)
-    if of_patch["outside_zeta"] is None and any(x is not None for x in of_patch.values()):
-        raise ParameterError(
-            "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
-            "surroundings, negative where they strengthen"
-        )
     with printed_warnings():
         fault, names, drawn = given_fault(options, columns, draws)
         if drawn:
@@ -154,6 +149,11 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
             from ..lengths.weakening_patch import patch_answer
 
             patch = patch_answer(fault, *of_patch.values())
+        elif any(value is not None for value in of_patch.values()):
+            raise ParameterError(
+                "outside_zeta is missing: give --outside-zeta, the velocity weakening of the "
+                "patch's surroundings, negative where they strengthen"
+            )
         mode = _mode(fault)
     system = system_of_fault(fault, names, options["paper"])
     critical = found["critical_length"]

@@ -80,8 +80,20 @@ def _described(key: str, answer: Answer) -> dict[str, Any]:
     return {
         "key": key,
         "title": TITLES[key],
-        "quantiles": dict(zip(labels, quantiles(counted).tolist(), strict=True)),
-        "errors": dict(zip(labels, errors_of_quantiles(counted).tolist(), strict=True)),
+        "quantiles": dict(
+            zip(
+                labels,
+                quantiles(counted).tolist(),
+                strict=True,
+            )
+        ),
+        "errors": dict(
+            zip(
+                labels,
+                errors_of_quantiles(counted).tolist(),
+                strict=True,
+            )
+        ),
         "share": float(there.mean()),
         "why_not": "; ".join(list(reasons)[:_REASONS]),
         "units": "m",
@@ -102,10 +114,22 @@ def _lines(found: Mapping[str, Any]) -> list[str]:
         if not length["share"]:
             nowhere.append(length["title"])
             continue
-        pairs = zip(length["quantiles"].values(), length["errors"].values(), strict=True)
+        pairs = zip(
+            length["quantiles"].values(),
+            length["errors"].values(),
+            strict=True,
+        )
         numbers = [as_sure(value, error) for value, error in pairs]
         rows.append([length["title"], *numbers, f"{length['share']:.1%}"])
-    lines = [*wrapped(*found["system"], "", text, ""), *table(rows, range(1, len(_HEAD)))]
+    lines = [
+        *wrapped(
+            *found["system"],
+            "",
+            text,
+            "",
+        ),
+        *table(rows, range(1, len(_HEAD))),
+    ]
     if nowhere:
         lines += wrapped("", f"without a value in any draw: {'; '.join(nowhere)}")
     remark = (
@@ -119,18 +143,12 @@ def as_sure(value: float, error: float) -> str:
     """A quantile with the digits that its standard error leaves, at most four.
 
     >>> as_sure(2.8083, 0.04), as_sure(8.09, 0.6), as_sure(4.89012, 1e-5), as_sure(12.3, 20.0)
-    ('2.81', '8.1', '4.890', '10')
+    ('2.81', '8.1', '4.89', '10')
     """
     if math.isinf(value):
         return "stable"
-    if not (value > 0.0 and math.isfinite(error)):
-        return f"{value:.1g}"
-    size = math.floor(math.log10(value))
-    digits = 4
-    if error > 0.0:
-        certain = size - math.floor(math.log10(error)) + 1
+    digits = 4 if error == 0.0 else 1
+    if value > 0.0 and 0.0 < error < math.inf:
+        certain = math.floor(math.log10(value)) - math.floor(math.log10(error)) + 1
         digits = min(max(certain, 1), 4)
-    if abs(size) > 4:
-        return f"{value:.{digits - 1}e}"
-    decimals = digits - 1 - size
-    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+    return f"{float(f'{value:.{digits}g}'):g}"

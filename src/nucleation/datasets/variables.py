@@ -29,20 +29,15 @@ class Variable(NamedTuple):
         return {name: text for name, text in self._asdict().items() if text}
 
 
-def some(columns: Mapping[str, Variable], names: str) -> dict[str, Variable]:
-    """Select declared variables, in the order of their names, which blanks separate."""
-    return {name: columns[name] for name in names.split()}
-
-
 def declared(text: str, known: Mapping[str, Variable] | None = None) -> dict[str, Variable]:
     """Columns of a table by lines of name, unit, long name and symbol, which bars separate.
 
-    A line without a bar has names of columns that are known already.
+    A line without a bar has names, between blanks, of columns that are known already.
     """
     found: dict[str, Variable] = {}
     for line in text.strip().splitlines():
         name, *entry = (cell.strip() for cell in line.split("|"))
-        found |= {name: Variable(*entry)} if entry else some(known or {}, name)
+        found |= {name: Variable(*entry)} if entry else {n: (known or {})[n] for n in name.split()}
     return found
 
 

@@ -57,31 +57,27 @@ def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
     own = {name: found.pop(name) for name in LAW_NAMES if name in found}
     law = found.get("friction_law")
     if isinstance(law, Friction):
-        found["friction_law"] = law.changed(own)
-    elif own or law:
-        found["friction_law"] = _law(law or LAW, own, found)
-    return found
-
-
-def _law(name: str, own: dict[str, Any], fault: Mapping[str, Any]) -> Friction:
-    """The friction law of a name, with further parameters, for a fault."""
+        return found | {"friction_law": law.changed(own)}
+    if not own and not law:
+        return found
+    name = law or LAW
     set_by_constants = law_class(name).set_by_expansion
     needed = {"velocity", "slip_distance"}
     given = [key for key in set_by_constants if key in own]
     if given:
-        clash = [constant for constant in ("friction", "a", "zeta", "b") if constant in fault]
+        clash = [constant for constant in ("friction", "a", "zeta", "b") if constant in found]
         if clash:
             text = f"{', '.join(given)} is not allowed together with {', '.join(clash)}"
             raise ParameterError(f"{text}, which sets it")
         needed |= {*set_by_constants}
     else:
         needed |= {"friction", "a"}
-    missing = sorted(needed - fault.keys() - own.keys())
+    missing = sorted(needed - found.keys() - own.keys())
     if missing:
         raise ParameterError(f"{', '.join(missing)} is missing: the friction law {name} needs it")
-    velocity, distance = (float(np.median(fault[key])) for key in ("velocity", "slip_distance"))
-    law = own_law(velocity, distance, fault.get("evolution", "aging"), name)
-    return law.changed(own)
+    velocity, distance = (float(np.median(found[key])) for key in ("velocity", "slip_distance"))
+    law = own_law(velocity, distance, found.get("evolution", "aging"), name)
+    return found | {"friction_law": law.changed(own)}
 
 
 def flat(fault: FaultLike) -> dict[str, Any]:

@@ -56,7 +56,7 @@ class Quantity:
     @property
     def element(self) -> "Quantity":
         """The declaration of one number of a tuple; of a single value, the declaration itself."""
-        return dataclasses.replace(self, kind="float") if self.many else self
+        return dataclasses.replace(self, kind="float", optional=False) if self.many else self
 
     @property
     def unit_suffix(self) -> str:
@@ -78,15 +78,13 @@ class Quantity:
         high = values <= self.high if self.closed[1] == "]" else values < self.high
         return low & high
 
-    def allows(self, value: object) -> bool:
+    def allows(self, value: Any) -> bool:
         """Whether a value has the declared type and range; no bool and no text is a number."""
         if value is None:
             return self.optional
         if self.many:
-            return isinstance(value, tuple) and bool(value) and all(map(self._allows_one, value))
-        return self._allows_one(value)
-
-    def _allows_one(self, value: Any) -> bool:
+            own = self.element
+            return isinstance(value, tuple) and bool(value) and all(map(own.allows, value))
         if self.choices:
             return value in self.choices
         if self.kind == "str":

@@ -80,7 +80,17 @@ def complete(
     Raises a ParameterError if the fault is no single one, has a zone, or lacks what a simulation
     needs.
     """
-    _require_single(fault)
+    for name in dict(fault):
+        value = getattr(fault, name)
+        if name in ZONE:
+            raise ParameterError(f"{name} is not allowed: no simulation has a zone")
+        if np.ndim(value):
+            raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
+    if fault.far_side not in ("free", "traction"):
+        raise ParameterError(
+            f"far_side = {fault.far_side!r} is not allowed: the far side of a simulated block is "
+            "free"
+        )
     for name in values:
         if not any(name in entries for entries in OF_GROUPS.values()):
             raise ParameterError(
@@ -112,20 +122,6 @@ def complete(
     if "end_time" not in found and not math.isnan(critical):
         found |= late_end(fault, Start(**of_start), critical) | found
     return flat(fault, law) | found
-
-
-def _require_single(fault: Fault) -> None:
-    for name in dict(fault):
-        value = getattr(fault, name)
-        if name in ZONE:
-            raise ParameterError(f"{name} is not allowed: no simulation has a zone")
-        if np.ndim(value):
-            raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
-    if fault.far_side not in ("free", "traction"):
-        raise ParameterError(
-            f"far_side = {fault.far_side!r} is not allowed: the far side of a simulated block is "
-            "free"
-        )
 
 
 def late_end(fault: Fault, start: Start, critical: float) -> dict[str, float]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import annotate, declared, some, table, to_csv
+from nucleation.datasets.variables import annotate, declared, table, to_csv
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
 from nucleation.model.settings import Perturbation
@@ -28,10 +28,10 @@ from .rows import SHARED, Row, rows_of
 
 # -- the law ------------------------------------------------------------------------------------
 
-MEASURED = some(
-    LENGTHS,
+MEASURED = declared(
     "study role id evolution height kind strength seed correlation_length n_x n_y "
     "block_length longest_step onset_time length critical_length",
+    LENGTHS,
 )
 
 LAW = declared("""

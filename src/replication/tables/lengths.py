@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import declared, some, table
+from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import MEASURED, Record, extract
 from nucleation.extraction.growth import follow_patch
@@ -88,11 +88,11 @@ _OF_SECOND_BODY = (
     "second_poisson_ratio",
 )
 
-COMPARED = some(
-    COLUMNS,
+COMPARED = declared(
     "id study role evolution height initial_state a zeta kind strength seed onset_time "
     "onset_time_low onset_time_high length length_low length_high critical_length "
     "stability_length stability_status status simulated_time reached_length",
+    COLUMNS,
 )
 """Columns of every CSV file; parameters are there if the runs differ in them."""
 
