@@ -11,23 +11,6 @@ from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
-from nucleation.theory.creep.linearised import log_state_derivatives
-
-
-@pytest.mark.parametrize("law", ["aging", "slip"])
-def test_log_state_derivatives(law):
-    friction = Friction(evolution=law)
-
-    def rate(v, psi):
-        return friction.state_rate(v, np.exp(psi)) * np.exp(-psi)
-
-    h = 1e-5
-    for v, psi in ((1e-5, -3.0), (2e-9, 1.0), (1e-3, -7.0)):
-        by_rate, by_psi = log_state_derivatives(friction, np.array(v), np.exp(psi))
-        numeric = (rate(v * (1 + h), psi) - rate(v * (1 - h), psi)) / (2 * h * v)
-        assert by_rate == pytest.approx(numeric, rel=1e-6)
-        assert by_psi == pytest.approx((rate(v, psi + h) - rate(v, psi - h)) / (2 * h), rel=1e-6)
-
 
 GRID = Grid(0.8, 0.02, 32, 5)
 OPERATOR = Operator(Body((GRID, PAPER_RUN.upper.material)), 0.0)

@@ -33,15 +33,15 @@ PERIODS, SKIPPED, FROZEN = 3.0, 0.5, 8  # followed, left out at first; instants 
 class Twin:
     """A kicked run beside the run it started from, and what is seen of the two."""
 
-    def __init__(self, frozen, instant, length, kick=KICK):
+    def __init__(self, frozen, instant, length):
         self.patch, self.dynamics = frozen, composed(PARAMETERS)
         patch, self.rate = self.freeze(instant)
         self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
         shape = np.zeros(PARAMETERS.block.n_x + 1)
         shape[patch.nodes] = patch.mode(self.rate)[1].real
-        past = instant.state.past_log_states + kick * shape / np.abs(shape).max()
+        past = instant.state.past_log_states + KICK * shape / np.abs(shape).max()
         self.state = dataclasses.replace(instant.state, past_log_states=past)
-        self.start, self.first_length = instant.state.time, length
+        self.start = instant.state.time
         self.end = self.start + 2.0 * np.pi * PERIODS / self.rate.imag
         self.time, self.amplitude, self.frozen, self.lengths = [], [], [], []
 
@@ -76,11 +76,12 @@ class Twin:
         return complex(np.polyfit(time[used], logs, 1)[0])
 
 
-def twins(shares, kick=KICK):
+@pytest.fixture(scope="module")
+def followed():
     """Twins of the run, each followed to its end."""
     threshold = ExtractionSettings().edge_threshold * PARAMETERS.fault.velocity
     frozen, x = freezer(PARAMETERS, threshold), composed(PARAMETERS).grid.x
-    length, waiting, active, found = 0.0, [*shares], [], []
+    length, waiting, active, found = 0.0, [*SHARES], [], []
     for instant in instants(PARAMETERS):
         rate = instant.report.interface.slip_rate
         length = max(length, float(slipping_edge(x, rate, threshold)))
@@ -89,16 +90,11 @@ def twins(shares, kick=KICK):
         active = [twin for twin in active if instant.state.time < twin.end]
         if waiting and length >= waiting[0] * THEORY:
             waiting.pop(0)
-            active.append(Twin(frozen, instant, length, kick))
+            active.append(Twin(frozen, instant, length))
             found.append(active[-1])
         if not (active or waiting):
-            return found, instant.state
+            return found
     raise AssertionError("the run ended before its twins")
-
-
-@pytest.fixture(scope="module")
-def followed():
-    return twins(SHARES)[0]
 
 
 def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):

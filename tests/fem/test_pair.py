@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from two_bodies import Body, transfer_functions
 
 from nucleation.fem.body import Body as ElasticBody
 from nucleation.fem.grid import Grid, Motion
@@ -45,25 +44,6 @@ def test_identical_blocks_do_not_couple_slip_to_normal_stress(s):
     w = np.random.default_rng(7).normal(size=grid.n_x)
     p, normal = operator.apply(w)
     assert np.abs(normal).max() < 1e-12 * np.abs(p).max()
-
-
-@pytest.mark.parametrize("bottom", BOTTOMS)
-def test_long_blocks_have_the_transfer_functions(bottom):
-    """D and N per mode tend to mu k G1 and mu k G2 of the theory, with the square of the mesh."""
-    heights, errors = (0.03, 0.05), []
-    for n in (1, 2, 4):
-        grids = [Grid(1.0, h, 60 * n, 6 * n) for h in heights]
-        modal = Operator(pair_of(grids, bottom), STATIC).modal
-        k = (np.array([2, 5, 9]) + 0.5) * np.pi  # of modes (m + 1/2) pi / L
-        g1, g2 = transfer_functions(
-            k, Body(UPPER, heights[0], "free"), Body(LOWER, heights[1], bottom)
-        )
-        # modes have the force 2/n_x sum of nodal ones: per length of the interface
-        found = modal[:, [2, 5, 9]] / (UPPER.shear_modulus * k * grids[0].dx)
-        errors.append(np.abs(found / np.array([g1, g2]) - 1.0).max())
-    orders = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert errors[-1] < 0.02
-    assert (np.abs(orders - 2.0) < 0.15).all(), (errors, orders)
 
 
 def test_a_translation_that_has_grown_from_rounding_is_taken_out():

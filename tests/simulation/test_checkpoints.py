@@ -1,5 +1,6 @@
 """Exact restart: a run that goes on from a checkpoint ends like one that never stopped."""
 
+import contextlib
 import io
 import os
 import signal
@@ -44,8 +45,15 @@ RUNS = {
 
 
 def checkpoint(path, fingerprint="this run", every=0.0):
-    log = io.StringIO()
-    return _Checkpoint(path, fingerprint, every=every, log=log), log
+    made = _Checkpoint(path, fingerprint)
+    made._every = every
+    return made
+
+
+def loaded(path):
+    """What a checkpoint of this run gives, and what is said of it."""
+    with contextlib.redirect_stderr(io.StringIO()) as log:
+        return checkpoint(path).load(), log.getvalue()
 
 
 def kept_at(parameters, steps):
@@ -82,7 +90,7 @@ def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
     record, stored = whole
     assert len(stored) == 7
     for number, arrays in enumerate(stored):
-        one, _ = checkpoint(tmp_path / f"{number}.npz")
+        one = checkpoint(tmp_path / f"{number}.npz")
         one.keep(lambda arrays=arrays: arrays)
         assert_same(simulate(COARSE, start=one.load()), record)
 
@@ -107,22 +115,22 @@ def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
         if len(steps) == 321:
             os.kill(os.getpid(), number)
 
-    one, _ = checkpoint(path, every=1e9)
+    one = checkpoint(path, every=1e9)
     message = f"stopped by {number.name}; a further run resumes"
     with pytest.raises(Stopped, match=message), one.listening():
         simulate(COARSE, progress=interrupt, keep=one.keep)
     assert {n: signal.getsignal(n) for n in SIGNALS} == before, "a job hears of signals again"
     assert len(steps) == 321
-    two, log = checkpoint(path)
-    assert_same(simulate(COARSE, start=two.load()), record)
-    assert f"resumes from {path}" in log.getvalue()
+    start, said = loaded(path)
+    assert_same(simulate(COARSE, start=start), record)
+    assert f"resumes from {path}" in said
 
 
 def test_checkpoints_are_written_every_so_often(tmp_path):
-    one, _ = checkpoint(tmp_path / "run.npz", every=1e9)
+    one = checkpoint(tmp_path / "run.npz", every=1e9)
     one.keep(lambda: pytest.fail("it is not yet time"))
     assert not list(tmp_path.iterdir())
-    two, _ = checkpoint(tmp_path / "run.npz", every=0.0)
+    two = checkpoint(tmp_path / "run.npz", every=0.0)
     for value in (np.array(1.0), np.array([[2, 3]]), np.array(True), np.empty(0)):
         two.keep(lambda value=value: {"value": value})
         np.testing.assert_array_equal(two.load()["value"], value, strict=True)
@@ -144,11 +152,11 @@ def test_environment_tells_how_often(tmp_path, monkeypatch):
 
 def test_checkpoint_of_another_run_is_refused(tmp_path):
     path = tmp_path / "run.npz"
-    checkpoint(path, "another run")[0].keep(lambda: {"value": np.array(1.0)})
-    mine, log = checkpoint(path)
-    assert mine.load() is None
-    assert "other code or parameters: the run starts at the beginning" in log.getvalue()
-    assert checkpoint(tmp_path / "none.npz")[0].load() is None
+    checkpoint(path, "another run").keep(lambda: {"value": np.array(1.0)})
+    arrays, said = loaded(path)
+    assert arrays is None
+    assert "other code or parameters: the run starts at the beginning" in said
+    assert checkpoint(tmp_path / "none.npz").load() is None
 
 
 @pytest.mark.slow
@@ -156,7 +164,7 @@ def test_no_damage_goes_unnoticed(tmp_path):
     """Bits flipped and ends cut off anywhere: refused with a message, or without effect."""
     path = tmp_path / "run.npz"
     arrays = {"numbers": np.random.default_rng(2).random(60), "count": np.array(3)}
-    checkpoint(path)[0].keep(lambda: arrays)
+    checkpoint(path).keep(lambda: arrays)
     whole = path.read_bytes()
     damaged = [whole[:length] for length in range(0, len(whole), 7)]
     for place in range(len(whole)):
@@ -166,21 +174,17 @@ def test_no_damage_goes_unnoticed(tmp_path):
     refused = 0
     for content in damaged:
         path.write_bytes(content)
-        one, log = checkpoint(path)
-        loaded = one.load()
-        if loaded is None:
+        found, said = loaded(path)
+        if found is None:
             refused += 1
-            assert "the run starts at the beginning" in log.getvalue()
+            assert "the run starts at the beginning" in said
         else:
-            assert loaded.keys() == arrays.keys()
-            for name, values in arrays.items():
-                np.testing.assert_array_equal(loaded[name], values)
+            np.testing.assert_equal(found, arrays)
     assert refused > 0.5 * len(damaged)  # the rest hit what carries no meaning, such as dates
 
 
 def test_pickled_checkpoint_is_not_executed(tmp_path):
     path = tmp_path / "run.npz"
     np.savez(path, fingerprint=np.array("this run"), value=np.array([{"a": 1}], dtype=object))
-    one, log = checkpoint(path)
-    assert one.load() is None
-    assert "damaged" in log.getvalue()
+    arrays, said = loaded(path)
+    assert arrays is None and "damaged" in said

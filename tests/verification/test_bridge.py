@@ -31,19 +31,30 @@ AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
 # -- the block's condensed stiffness and the transfer functions of Eq. (10) ----------------------
 
 
+BELOW = Material(9.0e9, 0.21, 2700.0)
+
+
 @pytest.mark.parametrize(
-    ("layer_number", "bound"), [(0.1, 1.5e-4), (1.0, 1.5e-4), (3.0, 3e-4), (10.0, 5e-3)]
+    ("layer_number", "bottom", "bound"),
+    [
+        (0.1, None, 1.5e-4),
+        (1.0, None, 1.5e-4),
+        (3.0, None, 3e-4),
+        (10.0, None, 5e-3),
+        *((1.0, bottom, 5e-4) for bottom in ("free", "clamped", "roller")),
+    ],
 )
-def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, bound):
+def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, bottom, bound):
     """Per mode ``D = mu k G1 dx`` and ``N = mu k G2 dx``, with second order in h."""
-    errors = []
+    errors, k = [], 1.5 * np.pi  # of the mode m = 1 of a block of 1 m
+    height, lower = layer_number / k, 1.6 * layer_number / k
+    second = RIGID if bottom is None else Layer(BELOW, lower, bottom)
+    exact = transfer_functions(k, Layer(MATERIAL, height, "free"), second)
     for n in (16, 32, 64, 128):
-        grid = Grid(length=1.0, height=layer_number / (1.5 * np.pi), n_x=n, n_y=n // 2)
-        operator = Operator(Body((grid, MATERIAL)), 0.0)
-        k = 1.5 * np.pi / grid.length  # the mode m = 1 of the block
-        scale = MATERIAL.shear_modulus * k * grid.dx
-        exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
-        found = operator.modal[:, 1] / scale
+        above, below = (Grid(1.0, h, n_x=n, n_y=n // 2) for h in (height, lower))
+        layers = [(above, MATERIAL)] if bottom is None else [(above, MATERIAL), (below, BELOW)]
+        modal = Operator(Body(*layers, far_side=bottom or "free"), 0.0).modal
+        found = modal[:, 1] / (MATERIAL.shear_modulus * k * above.dx)
         errors.append(np.abs(found - np.array(exact)).max() / exact[0])
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < bound

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -45,22 +45,13 @@ class _Checkpoint:
     """The checkpoint of one run, in a file beside that of its result.
 
     One with another fingerprint, of parameters and code, is refused, and so is a damaged one: the
-    archive has a checksum of each array, and the label their number. `every` is the wall time (s)
-    between checkpoints, by default :func:`interval`.
+    archive has a checksum of each array, and the label their number.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        fingerprint: str,
-        *,
-        every: float | None = None,
-        log: TextIO | None = None,
-    ) -> None:
+    def __init__(self, path: Path, fingerprint: str) -> None:
         self.path = path
         self._fingerprint = fingerprint
-        self._every = interval() if every is None else every
-        self._log = log or sys.stderr
+        self._every = interval()
         self._last = time.monotonic()
         self._signal: str | None = None  # name of the signal that stops the run
 
@@ -85,7 +76,7 @@ class _Checkpoint:
         message = f"{self.path} {state}: the run starts at the beginning"
         if resumes:
             message = f"the run resumes from {self.path}"
-        print(message, file=self._log, flush=True)
+        print(message, file=sys.stderr, flush=True)
         return arrays if resumes else None
 
     def keep(self, arrays: Callable[[], Arrays]) -> None:
