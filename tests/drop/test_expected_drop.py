@@ -155,12 +155,6 @@ def test_what_the_law_does_not_know(change, error, said):
         expected_drop(FAULT.replaced(**change))
 
 
-def test_every_doubt_is_told():
-    shaken = FAULT.replaced(strength=3e-3, block_length=0.4)
-    doubt = expected_drop(shaken).doubt
-    assert "bursts that come to rest" in doubt and "would feel the block's far end" in doubt
-
-
 def long_block(**changes):
     """The fault in a block with an end that has no effect."""
     return FAULT.replaced(block_length=20.0, **changes)

@@ -12,12 +12,9 @@ from two_bodies import (
     critical_lengths,
     critical_wavenumber,
     growth_rates,
-    system,
 )
 
 from nucleation.model.material import Material
-from nucleation.theory import critical as critical_module
-from nucleation.theory.critical import largest_crossings
 from nucleation.theory.spectrum import marginal_stiffness
 from nucleation.theory.status import NoLength
 from nucleation.theory.stiffness import FAR_SIDES
@@ -150,20 +147,6 @@ def test_marginal_stiffness_solves_its_quadratic(zeta, rho):
         assert np.isnan(minus) and np.isnan(plus)
     else:
         np.testing.assert_allclose([minus, plus], np.sort(expected), rtol=1e-10)
-
-
-def test_length_does_not_depend_on_the_number_of_points(monkeypatch):
-    rng = np.random.default_rng(3)
-    systems = [system(*random_system(rng)) for _ in range(200)]
-
-    def found():
-        return np.array([largest_crossings(one)[0] for one in systems])
-
-    usual = found()
-    assert 20 < np.isnan(usual).sum() < 180
-    for points in (100, 1000):
-        monkeypatch.setattr(critical_module, "POINTS", points)
-        np.testing.assert_allclose(found(), usual, rtol=1e-11)
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e5])

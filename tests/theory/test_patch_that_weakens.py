@@ -8,14 +8,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from asked import critical_length, spectrum, weakening_patch_length
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from nucleation.lengths.formulas import FINITE_PATCH
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import weakening_patch
-from nucleation.theory.pair import LayerPair, Layers
-from nucleation.theory.spectrum import Systems
 
 A = 0.01
 FAULT = {
@@ -123,17 +119,6 @@ def test_half_spaces_are_the_limit_of_long_periods():
     assert (4.0 * long - short) / 3.0 == pytest.approx(over_critical(0.5, 1.0), rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "strengthening", "value"),
-    [(0.5, 0.3, 0.52), (0.5, 1.0, 0.45), (0.5, 2.0, 0.41), (2.288, 0.43, 0.275)],
-)
-def test_an_earlier_evaluation_agrees(ratio, strengthening, value):
-    """Thresholds that were computed on a coarse grid in a period, which raises them."""
-    found = over_critical(ratio, strengthening)
-    assert found == pytest.approx(value, rel=0.025)
-    assert found < value
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "strong", "stronger"), [(0.1, 290.0, 2900.0), (1.0, 30.0, 300.0), (10.0, 9.0, 99.0)]
@@ -168,38 +153,6 @@ def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value)
     after = over_critical(0.5, 0.7, **OTHER, height=0.8)
     weakening_patch.patch_basis.cache_clear()
     assert after == pytest.approx(before, rel=1.5e-5)
-
-
-@pytest.mark.slow
-@settings(max_examples=5, deadline=None)
-@given(
-    ratio=st.floats(0.3, 10.0),
-    strengthening=st.floats(0.1, 5.0),
-    friction=st.floats(0.0, 0.6),
-    height=st.floats(0.05, 100.0),
-)
-def test_more_polynomials_change_nothing(ratio, strengthening, friction, height):
-    changed = {"friction": friction, "height": height, **OTHER}
-    before = over_critical(ratio, strengthening, **changed)
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(weakening_patch, "POLYNOMIALS", 24)
-        after = over_critical(ratio, strengthening, **changed)
-    assert after == pytest.approx(before, rel=3e-5)
-
-
-@pytest.mark.slow
-def test_wider_patches_keep_growing():
-    """The number of growing modes does not fall with the width, without bimaterial coupling."""
-    fault = FAULT | {"zeta": 0.5 * A}
-    body = Layers(np.array([30e9]), np.array([0.25]), np.array([math.inf]), "free")
-    constants = (0.6, A, 0.5 * A, 30e9 * 5e-6 / 50e6, 1.0)
-    inside = Systems(LayerPair(body, body), *(np.array([x]) for x in constants))
-    patch = weakening_patch.WeakeningPatch(inside, inside._replace(zeta=-inside.zeta))
-    critical = float(critical_length(**fault))
-    counts = [patch.growing_modes(x * critical, 32) for x in (0.3, 0.43, 0.45, 1.0, 2.0)]
-    assert counts == sorted(counts)
-    assert counts[:3] == [0, 0, 2]
-    assert counts[-1] >= 8
 
 
 @pytest.mark.slow

@@ -59,16 +59,6 @@ def test_half_space_of_the_paper():
         np.testing.assert_allclose([[a.xx, -a.xy], [-a.xy, a.yy]] @ m, np.eye(2), atol=1e-14)
 
 
-def test_thin_free_layer_is_a_plate():
-    """Stretching and bending stiffness of a plate, ``E' H k^2`` and ``E' H^3 k^4 / 12``."""
-    mu, nu, height, k = 3.1e9, 1 / 3, 1e-8, 1.0
-    modulus = 2 * mu / (1 - nu)
-    a = Body(Material(mu, nu), height, "traction").layers.stiffness(k)
-    # the compliance is the inverse; at its lower face a plate yields four times as much to shear
-    assert mu * k * a.det / a.xx == pytest.approx(modulus * height**3 * k**4 / 12, rel=1e-6)
-    assert mu * k * a.det / a.yy == pytest.approx(modulus * height * k**2 / 4, rel=1e-6)
-
-
 @pytest.mark.parametrize("k", [4e-7, 0.6, 45.0, -45.0, 900.0, 1e4])
 @pytest.mark.parametrize(("upper", "lower"), PAIRS)
 def test_transfer_functions_solve_the_layer_problem(upper, lower, k):

@@ -26,11 +26,15 @@ FIELDS = len(Answer._fields)
 def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answer]:
     """L_run and L under a declared perturbation."""
     missing = [name for name in ("velocity", "friction") if getattr(fault, name) is None]
+    reason = ""
     if missing:
-        which = " and ".join(missing)
-        return _alike(fault, _none(UNKNOWN, f"needs {which}: the drop depends on the friction law"))
-    if fault.loading != "edge":
-        return _alike(fault, _none(UNKNOWN, "it is known for a patch that is pushed at its edge"))
+        reason = f"needs {' and '.join(missing)}: the drop depends on the friction law"
+    elif fault.loading != "edge":
+        reason = "it is known for a patch that is pushed at its edge"
+    if reason:
+        none = _none(UNKNOWN, reason)
+        found = _answer(at_each(fault, lambda *_: none, rows=FIELDS))
+        return {"runaway_length": found, "drop_length": found}
     from .expected_drop import WEAK, expected_drop
 
     age = np.nan if fault.initial_state is None else fault.initial_state
@@ -76,19 +80,6 @@ def _none(status: str, reason: str) -> Answer:
         status,
         reason,
     )
-
-
-def _alike(fault: FaultLike, answer: Answer) -> dict[str, Answer]:
-    """The same answer about both lengths of all faults."""
-
-    found = _answer(
-        at_each(
-            fault,
-            lambda *_: answer,
-            rows=FIELDS,
-        )
-    )
-    return {"runaway_length": found, "drop_length": found}
 
 
 def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:

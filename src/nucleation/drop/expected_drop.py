@@ -98,7 +98,16 @@ def expected_drop(
         runaway_status=status,
         runaway_reason=reason,
     )
-    doubts = _doubts(history, known, critical, block)
+    if known.slips_slowly:
+        doubts = [*_doubts_of_runaway(patches)]
+    else:
+        doubts = [*_doubts_of_law(history, known.law, known.closed_form, critical)]
+    if status != VALUE and _weakening(patches) < WEAK:
+        doubts.append(
+            f"the patch may slip slowly beyond this length, since L_run is not known: {reason}"
+        )
+    if block is not None:
+        doubts += _doubts_of_block(known, block)
     return known._replace(doubt="; ".join(doubts))
 
 
@@ -127,24 +136,6 @@ def _weakening(patches: Patches) -> float:
     """zeta/a of the fault."""
     _, a, zeta = patches.constants
     return zeta / a
-
-
-def _doubts(
-    history: ModeHistory,
-    known: ExpectedDrop,
-    critical: float,
-    block: tuple[float, float] | None,
-) -> Iterator[str]:
-    """Why the answer is uncertain, a text for each reason."""
-    if known.slips_slowly:
-        yield from _doubts_of_runaway(history.patches)
-    else:
-        yield from _doubts_of_law(history, known.law, known.closed_form, critical)
-    if known.runaway_status != VALUE and _weakening(history.patches) < WEAK:
-        reason = known.runaway_reason
-        yield f"the patch may slip slowly beyond this length, since L_run is not known: {reason}"
-    if block is not None:
-        yield from _doubts_of_block(known, block)
 
 
 def _doubts_of_runaway(patches: Patches) -> Iterator[str]:

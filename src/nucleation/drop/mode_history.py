@@ -23,7 +23,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..theory.creep.front import Advance, advance, first_growing, oscillating
+from ..theory.creep.front import Advance, first_growing, oscillating
 from ..theory.creep.linearised import edge_slip, local_coefficients
 from ..theory.creep.patches import Patches
 from ..theory.status import STABLE, NoLength
@@ -74,7 +74,7 @@ def mode_history(
     stable = first_growing(patches, critical_length, initial_state, initial_stress)
     lengths = stable * np.linspace(FIRST, LAST, INSTANTS)
     for _ in range(NARROWED + 1):
-        found = advance(patches, lengths, initial_state, initial_stress)
+        found = Advance(patches, lengths, initial_state, initial_stress)
         rates = oscillating(found)
         known = followed(found.length, rates, stable)
         if known.size >= FEWEST:

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -79,8 +78,10 @@ def specimen_fit(
     The length is computed at 12 values in each decade, and each change between fitting and not
     fitting is located by Brent's method; an interval between two of these values is missed.
     """
-    _require_choice("unknown", unknown, UNKNOWNS.choices)
-    _require_choice("criterion", criterion, CRITERIA)
+    choices = (("unknown", unknown, UNKNOWNS.choices), ("criterion", criterion, CRITERIA))
+    for name, value, allowed in choices:
+        if value not in allowed:
+            raise ParameterError(f"{name} = {value!r} is not allowed: one of {', '.join(allowed)}")
     given = checked("length", length, SPECIMEN)
     low, high = _range(unknown, within)
     others = numbers_of(fault).items()
@@ -144,11 +145,6 @@ def specimen_fit(
         status,
         reason,
     )
-
-
-def _require_choice(name: str, value: str, allowed: Collection[str]) -> None:
-    if value not in allowed:
-        raise ParameterError(f"{name} = {value!r} is not allowed: one of {', '.join(allowed)}")
 
 
 def _range(unknown: str, within: Interval | None) -> Interval:

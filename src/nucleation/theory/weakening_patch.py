@@ -33,7 +33,6 @@ oscillation, which falls as ``1/q^2``. Its size is that which makes F = 1 the id
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -70,18 +69,6 @@ class _PatchBasis(NamedTuple):
     wavenumber: Array  # q, (points,)
     even: Array  # weights of F(q) + F(-q), (points, number^2)
     odd: Array  # weights of i [F(q) - F(-q)], (points, number^2)
-    number: int
-
-    def matrices(self, forward: ComplexArray, backward: ComplexArray) -> ComplexArray:
-        """Matrices of operators on the patch.
-
-        Returns: (operators, number, number).
-        """
-        found = (forward + backward) @ self.even
-        difference = forward - backward
-        if np.any(difference):
-            found = found + 1j * difference @ self.odd
-        return found.reshape(-1, self.number, self.number)
 
 
 @lru_cache(maxsize=8)
@@ -114,7 +101,6 @@ def patch_basis(number: int) -> _PatchBasis:
         wavenumber,
         weights * even.ravel(),
         weights * odd.ravel(),
-        number,
     )
 
 
@@ -146,8 +132,7 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
     return 2.0 ** (power + 0.5 * (nodes + 1.0)), 2.0 / np.pi * weights.T
 
 
-@dataclasses.dataclass(frozen=True)
-class WeakeningPatch:
+class WeakeningPatch(NamedTuple):
     """A patch in creep, of any width; both systems have fields of shape (1,) and one pair."""
 
     inside: Systems
@@ -177,47 +162,39 @@ class WeakeningPatch:
         basis = patch_basis(number)
         load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
         rate: ComplexArray = 1j * frequency[:, None].astype(complex)
-        within, around = self._friction(self.inside, rate), self._friction(self.outside, rate)
+        within, around = (
+            rate * (systems.a * rate - systems.zeta) / (1.0 + rate) for systems in self
+        )
         forward = 1.0 / (load * (1.0 - 1j * coupling) + around)
         backward = 1.0 / (load * (1.0 + 1j * coupling) + around)
-        response = basis.matrices(forward, backward)
+        response = (forward + backward) @ basis.even
+        difference = forward - backward
+        if np.any(difference):
+            response = response + 1j * difference @ basis.odd
+        response = response.reshape(-1, number, number)
         matrix = np.eye(number) - (around - within)[:, :, None] * response
         diagonal = np.diagonal(matrix, axis1=1, axis2=2)
         rest = np.linalg.det(matrix / diagonal[:, :, None])
         return np.concatenate([diagonal, rest[:, None]], axis=1)
 
-    @staticmethod
-    def _friction(systems: Systems, rate: ComplexArray) -> ComplexArray:
-        """c, how friction changes per slip, over sigma0/ell."""
-        return rate * (systems.a * rate - systems.zeta) / (1.0 + rate)
-
-    def _turn(
-        self,
-        width: float,
-        number: int,
-        sign: float,
-    ) -> float:
+    def _turn(self, width: float, number: int, sign: float) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
         stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
         scale = 1.0 + float(np.max(stiffest / np.minimum(self.inside.a, self.outside.a)))
-        for systems in (self.inside, self.outside):
+        for systems in self:
             scale += float(np.max(np.abs(systems.zeta / systems.a)))
         frequency = np.geomspace(SLOWEST, FASTEST * scale, FREQUENCIES)
         found = self.factors(width, number, sign * frequency)
         for _ in range(HALVINGS):
-            coarse = np.flatnonzero(np.abs(_turns(found)).max(axis=1) > TURN)
+            turns = np.angle(found[1:] / found[:-1])
+            coarse = np.flatnonzero(np.abs(turns).max(axis=1) > TURN)
             if not coarse.size:
                 break
             middle = np.sqrt(frequency[coarse] * frequency[coarse + 1])
             between = self.factors(width, number, sign * middle)
             frequency = np.insert(frequency, coarse + 1, middle)
             found = np.insert(found, coarse + 1, between, axis=0)
-        return -sign * float(_turns(found).sum())
-
-
-def _turns(factors: ComplexArray) -> Array:
-    """By how much (rad) the phases of factors change from each frequency to the next."""
-    return np.angle(factors[1:] / factors[:-1])
+        return -sign * float(np.angle(found[1:] / found[:-1]).sum())
 
 
 def smallest_width(patch: WeakeningPatch, critical: float) -> float:
@@ -227,7 +204,8 @@ def smallest_width(patch: WeakeningPatch, critical: float) -> float:
     """
 
     def grows(width: float) -> bool:
-        return patch.growing_modes(width, polynomials_for(width / critical)) > 0
+        polynomials = POLYNOMIALS * math.ceil(max(1.0, 0.5 * (1.0 + width / critical)))
+        return patch.growing_modes(width, polynomials) > 0
 
     low = NARROWEST * critical
     while grows(low):
@@ -238,11 +216,6 @@ def smallest_width(patch: WeakeningPatch, critical: float) -> float:
         if low > WIDEST * critical:
             return math.nan
     return bisected(grows, low, high, PRECISION)
-
-
-def polynomials_for(width_over_critical: float) -> int:
-    """The number of polynomials that a patch needs, by its width over L_c."""
-    return POLYNOMIALS * math.ceil(max(1.0, 0.5 * (1.0 + width_over_critical)))
 
 
 def weakening_patch_values(

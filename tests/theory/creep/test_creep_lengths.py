@@ -1,14 +1,12 @@
 """L_s of one fault and of many, against simulations and under changes that leave it alone."""
 
-import dataclasses
-
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from asked import critical_length, lengths_in_use, stability_length
+from asked import lengths_in_use, stability_length
 from configurations import CONFIG
-from parts import law_values, with_parts
+from parts import law_values
 
 from nucleation.api import Fault, Friction, ParameterError
 from nucleation.run.run import PAPER_RUN
@@ -93,18 +91,6 @@ def test_modes_are_doubled_where_they_do_not_resolve_the_patch():
     assert error < 1e-3
 
 
-def test_identical_half_spaces():
-    """A multiple of Eq. (6) that depends on zeta/a alone."""
-    bodies = {"second_shear_modulus": None, "friction": None}
-    ratios = [
-        stability_length(**FAULT | bodies | {"shear_modulus": mu}, zeta=0.016)
-        / critical_length(**FAULT | bodies | {"shear_modulus": mu}, zeta=0.016)
-        for mu in (3e9, 3e10)
-    ]
-    assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)
-    assert 0.5 < ratios[0] < 0.6
-
-
 def test_a_law_without_scales_is_one_of_constants():
     law = Friction(law="dieterich_ruina", regularisation_slip_rate=1e-16)
     fault = FAULT | {"height": 0.03, "zeta": 0.016}
@@ -113,19 +99,6 @@ def test_a_law_without_scales_is_one_of_constants():
     )
     with pytest.raises(ParameterError, match="velocity"):
         stability_length(**fault | {"velocity": None}, friction_law=law)
-
-
-def test_scales_of_friction_near_the_velocity():
-    """Ten times v* leaves friction with other a and b at the front: a quarter of L_s."""
-    law = Friction().with_expansion(1e-6, 0.65, 0.008, 0.004)
-    run = PAPER_RUN.replaced(height=1.0, velocity=1e-6, shear_modulus=3e10, **law_values(law))
-    own, constant = (stability_length_of(run.patches, length_of(run), x) for x in (False, True))
-    assert own / constant < 0.85
-    far = with_parts(run, law=dataclasses.replace(
-        law, slip_rate_scale=1e-12, regularisation_slip_rate=1e-14
-    ).with_expansion(1e-6, 0.65, 0.008, 0.004))  # fmt: skip
-    own, constant = (stability_length_of(far.patches, length_of(far), x) for x in (False, True))
-    assert own / constant > 0.99
 
 
 @pytest.mark.parametrize(("ratio", "percent"), [(1.0, 13), (2.2883, 5)])

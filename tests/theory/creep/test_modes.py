@@ -5,7 +5,6 @@ import pytest
 from two_bodies import RIGID, Body, Interface, system, transfer_functions
 
 from nucleation.model.material import Material
-from nucleation.theory.creep import response as module
 from nucleation.theory.creep.linearised import creep
 from nucleation.theory.creep.response import response
 
@@ -107,16 +106,3 @@ def test_the_push_takes_compression_off_a_softer_upper_block():
         for one in (softer, stiffer)
     ]
     assert means[0] < 1.0 < means[1]
-
-
-def test_very_thin_layers_are_like_less_thin_ones(monkeypatch):
-    """Beyond the tables' reach thickness is a factor."""
-    one = system(*pair(1e-3), FAULT)
-    plain = response(one, 0.2)
-    monkeypatch.setattr(module, "SLIMMEST", 100.0)
-    rough = response(one, 0.2)
-    waves = np.sin(2.0 * np.outer(plain.modes.theta, np.arange(1, 3)))
-    known = plain.modes.inverse @ waves
-    whole, scaled = (made.shear[:, 1:] @ known for made in (plain, rough))
-    assert scaled[4:] == pytest.approx(whole[4:], rel=0.03, abs=0.03 * np.abs(whole).max())
-    assert not np.array_equal(scaled, whole)

@@ -91,23 +91,6 @@ def test_half_spaces_by_another_code(ratio, length, within):
     assert abs(found - length) < within + error * found
 
 
-def test_energy_balance_of_the_strip():
-    """1.8 to 1.95 times (1/pi) sqrt(b/zeta), where fracture and strain energy balance."""
-    for ratio in (0.3, 0.8):
-        balance = math.sqrt((1.0 + ratio) / ratio) / math.pi
-        assert 1.75 < over_critical(ratio)[0] / balance < 1.98
-
-
-@pytest.mark.slow
-def test_the_curve_of_half_spaces_has_no_kinks():
-    """Lengths between others are those of a smooth curve, within the error."""
-    ratios = np.geomspace(0.25, 2.0, 7)
-    found, errors = np.transpose([over_critical(ratio, **HALF_SPACES) for ratio in ratios])
-    scaled = np.log(found * ratios / (1.0 + ratios))
-    smooth = np.polyval(np.polyfit(np.log(ratios), scaled, 2), np.log(ratios))
-    assert (np.abs(scaled - smooth) < errors).all()
-
-
 CHANGES = {
     "modes": {"FINENESS": 2 * slow_slip.FINENESS, "MODES_OF_ENDS": 2 * slow_slip.MODES_OF_ENDS},
     "longer": {"DURATION": 2.0 * runaway.DURATION, "MOST_STEPS": 2 * slow_slip.MOST_STEPS},

@@ -16,7 +16,6 @@ length of the shortest patch that has a growing mode.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +26,6 @@ from ..roots import bisected
 from ..status import BEYOND, NoLength
 from .linearised import (
     Creep,
-    FrozenPatch,
     creeping_patch,
     edge_slip,
     local_coefficients,
@@ -54,28 +52,25 @@ NARROW = 1e-4  # relative width of a bracket at which bisection ends
 REAL = 1e-9  # imaginary part below which a parabola's root is real
 
 
-class Advance(NamedTuple):
-    """A patch at some lengths as its front advances; all in SI units but the patches."""
+class Advance:
+    """The patch of one fault at some lengths (m) as its front advances; initial state in s.
 
-    length: Array  # L (m), (n,)
-    time: Array  # since the edge began to move (s)
-    speed: Array  # dL/dt (m/s)
-    patches: list[FrozenPatch]  # linearised; slip in D, time in D/V
-    creeps: list[Creep]
-    log_states: Array  # log(phi), phi in s, at the angles of the modes, (n, N)
-
-
-class _Front:
-    """The three equations of an advancing front, at some patch lengths (m)."""
+    It has the time since the edge began to move (s), `patches` that are linearised, with slip in D
+    and time in D/V, their creeps, and the logarithms of the state (s) at the angles of the modes.
+    """
 
     def __init__(
         self,
         patches: Patches,
-        length: Array,
+        lengths: ArrayLike,
         initial_state: float,
-        initial_stress: float,
-        number: int,
+        initial_stress: float = 0.0,
+        number: int = MORE_MODES,
     ) -> None:
+        if patches.loading != "edge":
+            raise NoLength(
+                "only a patch that is pushed at its edge has a theory of the advancing front"
+            )
         assert patches.law is not None
         self.law = patches.law
         self.velocity = patches.velocity
@@ -84,7 +79,7 @@ class _Front:
         self.initial_stress = initial_stress
         self.modes = mirror_modes(number)
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
-        self.length = length
+        self.length = length = np.atleast_1d(np.asarray(lengths, dtype=float))
         self.responses = [
             [patches.response(one, number) for one in length * np.exp(step)]
             for step in (-STEP, 0.0, STEP)
@@ -93,9 +88,18 @@ class _Front:
         self.friction = np.full((length.size, number), steady_friction)
         self.log_states = np.zeros_like(self.friction)
         self.rates = self.update_slip()
+        for _ in range(ROUNDS):
+            self.update_state()
+            self.update_slip()
+            self.update_rates()
+        self.creeps = [self.creep(i) for i in range(length.size)]
+        self.patches = []
+        for creep, log_state in zip(self.creeps, self.log_states, strict=True):
+            friction = local_coefficients(self.law, self.velocity, creep.slip_rate, log_state)
+            self.patches.append(creeping_patch(creep, friction))
 
     def update_slip(self) -> Array:
-        """Slip in balance with the strength, time and speed; each at three neighbouring lengths.
+        """Slip in balance with the strength, and time; each at three neighbouring lengths.
 
         Returns the modes' coefficients of the slip rate over V at a constant strength.
         """
@@ -110,7 +114,6 @@ class _Front:
         before, self.loaded, after = loaded
         self.by_length = (after - before) / (2.0 * STEP * self.length)
         self.time = self.loaded * self.distance / self.velocity
-        self.speed = self.velocity / (self.by_length * self.distance)
         return np.asarray(rates[1])
 
     def update_rates(self) -> None:
@@ -136,10 +139,11 @@ class _Front:
         log_state = self._state_ahead()
         along = [log_state]
         distances = self.length[:, None] * -np.diff(np.cos(theta))
-        steps = distances / self.speed[:, None]
+        speed = self.velocity / (self.by_length * self.distance)
+        steps = distances / speed[:, None]
         for j in range(FINE):
-            speed = 0.5 * (speeds[:, j] + speeds[:, j + 1])
-            log_state = _stepped(law, log_state, steps[:, j], speed)
+            middle = 0.5 * (speeds[:, j] + speeds[:, j + 1])
+            log_state = _stepped(law, log_state, steps[:, j], middle)
             along.append(log_state)
         rows = [
             np.interp(
@@ -201,39 +205,6 @@ def _stepped(
     return 2.0 * two_halves - one
 
 
-def advance(
-    patches: Patches,
-    lengths: ArrayLike,
-    initial_state: float,
-    initial_stress: float = 0.0,
-    number: int = MORE_MODES,
-) -> Advance:
-    """The patch of one fault at some lengths (m), with its advancing front; initial state in s."""
-    if patches.loading != "edge":
-        raise NoLength(
-            "only a patch that is pushed at its edge has a theory of the advancing front"
-        )
-    length = np.atleast_1d(np.asarray(lengths, dtype=float))
-    front = _Front(patches, length, initial_state, initial_stress, number)
-    for _ in range(ROUNDS):
-        front.update_state()
-        front.update_slip()
-        front.update_rates()
-    creeps = [front.creep(i) for i in range(length.size)]
-    frozen = []
-    for creep, log_state in zip(creeps, front.log_states, strict=True):
-        friction = local_coefficients(front.law, front.velocity, creep.slip_rate, log_state)
-        frozen.append(creeping_patch(creep, friction))
-    return Advance(
-        length=length,
-        time=front.time,
-        speed=front.speed,
-        patches=frozen,
-        creeps=creeps,
-        log_states=front.log_states,
-    )
-
-
 def oscillating(found: Advance) -> ComplexArray:
     """Lambda over V/D of each patch's fastest growing oscillating mode, NaN without one."""
     return np.array([patch.oscillating(OSCILLATING) for patch in found.patches])
@@ -259,7 +230,7 @@ def first_growing(
     """
 
     def advanced(lengths: ArrayLike) -> Advance:
-        return advance(patches, lengths, initial_state, initial_stress)
+        return Advance(patches, lengths, initial_state, initial_stress)
 
     low, high, pair = _bracket(advanced, critical)
     if np.isfinite(pair).all():
