@@ -20,9 +20,7 @@ BAD = {
         changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"],
     ),
     "zero height in list": (with_run(height=[0.01, 0]), [f"{LAST}.height[1] = 0 m"]),
-    "zero mesh": (changed("studies.paper.defaults.n_x", 0), ["n_x = 0", "integer in [8, 100000]"]),
     # wrong type
-    "truth for number": (changed("material.density", True), ["material.density = True"]),
     "runs are a mapping": (
         changed("studies.paper.runs", {"height": 0.1}), ["studies.paper.runs", "must be a list"],
     ),
@@ -32,22 +30,14 @@ BAD = {
         with_run(height=0.01, evolution="ageing"), [f"{LAST}.evolution = 'ageing'", "aging, slip"],
     ),
     "unknown key": (changed("material.densty", 1.0), ["densty", "mean density?"]),
-    "far from any key": (changed("loading.zzz", 1), ["loading.zzz = 1", "known keys: normal_st"]),
     "study's name": (changed("studies.a/b", {"runs": [{"height": 1}]}), ["'a/b'", "as a name"]),
     # missing, empty, repeated, contradictory
     "empty studies": (changed("studies", {}), ["studies = {} is empty"]),
     "no height": (with_run(evolution="slip"), [f"{LAST}: the run has no height"]),
     "value twice": (with_run(height=[0.2, 0.2]), [f"{LAST}.height = [0.2, 0.2] has a value twice"]),
-    "run twice": (
-        with_run(height=0.05),
-        [f"{LAST} gives the simulation paper-aging-H0.05-phi1 again", "runs[1]"],
-    ),
     "same run, other name": (
         with_run(height=0.05, n_x=400),
         [f"{LAST} gives the simulation paper-aging-H0.05-phi1-n_x400 again"],
-    ),
-    "range without end": (
-        with_run(height={"start": 0.1, "num": 3}), [f"{LAST}.height lacks the key stop"],
     ),
     "range backwards": (
         with_run(height={"start": 0.1, "stop": 0.01, "num": 3}),
@@ -77,9 +67,6 @@ BAD = {
         ["studies.x.runs[0]:", "zeta"],
     ),
     # beyond what a number can be, or a list
-    "integer beyond any float": (
-        changed("material.density", 10**400), ["density = 1000", "[0, 1e+06) kg/m^3"],
-    ),
     "list in a list": (
         study({**TALL, "velocity": [[1e-5]]}),
         [f"{RUN}.velocity[0] = [1e-05] m/s", "[1e-30, 1000) m/s"],
@@ -88,7 +75,6 @@ BAD = {
         changed("curves.heights", {"start": 0.1, "stop": 0.1 + 1e-9, "num": 50}),
         ["curves.heights: its 50 values from 0.1 on are not all different"],
     ),
-    "a run is nothing": (study(None), [f"{RUN} = None must be a mapping"]),
     # names and places
     "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
     "endless identifier": (

@@ -1,10 +1,8 @@
 """Units in the configuration, as people write them, and one vocabulary for all of its readers."""
 
-import numpy as np
 import pytest
 from configurations import messages, study
 
-from nucleation.fault import Fault
 from nucleation.fault.files import read_yaml
 from replication.configuration.load import configure
 
@@ -52,11 +50,3 @@ def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
     assert "kg is a unit of mass, but m is needed" in text
     assert "material.shear_modulus = '30 GPx'" in text and "not a known unit" in text
     assert "runs[0].n_x = '8.5' is not allowed: number of elements along x must be an in" in text
-
-
-def test_the_same_names_in_configuration_and_api():
-    own = {"height": 0.02, "slip_distance": 5e-6, "a": 0.01, "friction": 0.6}
-    (run,) = configure(study({"zeta_over_a": 0.5} | own)).runs
-    fault = Fault(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
-                  second_shear_modulus=np.inf, **own)  # fmt: skip
-    assert fault.critical_length() == pytest.approx(run.critical_length, rel=1e-6)

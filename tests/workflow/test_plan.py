@@ -161,16 +161,6 @@ def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     assert not (workflow.directory / "results" / "lengths.nc").exists()
 
 
-EXAMPLES = {"crustal_fault": 2, "granite_laboratory": 4, "length_map": 100, "rock": 18}
-
-
-@pytest.mark.parametrize(("name", "runs"), EXAMPLES.items())
-def test_examples_plan(workflow, name, runs):
-    example = dataclasses.replace(workflow, config=ROOT / "config" / "examples" / f"{name}.yaml")
-    expected = {"extract": 1, "draw_study": 1}
-    assert example.planned("figure_studies") == expected | {"simulate": runs}
-
-
 def test_configuration_of_ones_own_needs_no_target(workflow):
     """By default it makes its lengths and figures; the paper's are not among them."""
     defaults = {"n_x": 20, "n_y": 4, "end_time": 0.2}

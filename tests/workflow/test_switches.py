@@ -3,8 +3,6 @@
 import dataclasses
 import re
 import shutil
-import subprocess
-import sys
 
 import pytest
 
@@ -122,22 +120,8 @@ def test_a_run_beside_another_one_changes_nothing(copied):
     assert all((copied.directory / "results" / name).is_file() for name in FILES)
 
 
-def test_rules_are_listed_with_what_they_make(built):
-    listed = printed(built, "--list-rules")
-    (line,) = re.findall(r"^simulate\b.*(?:\n +.*)*", listed, re.M)
-    assert "simulat" in line.removeprefix("simulate")
-    assert set(re.findall(r"^(\w+)", listed, re.M)) >= RULES
-
-
 def test_lint_misses_no_log(built):
     assert "No log directive" not in built("--lint").stdout
-
-
-def test_report_has_figures_and_captions(built, tmp_path):
-    file = tmp_path / "report.html"
-    printed(built, "--report", str(file))
-    page = file.read_text()
-    assert "study_s" in page and RULES - {"draw_study"} <= set(re.findall(r"\w+", page))
 
 
 @pytest.mark.parametrize("lost", [False, True], ids=["notes", "no notes"])
@@ -163,10 +147,3 @@ def test_every_file_is_a_target(built, fresh):
     targets = [f"results/{file}" for file in FILES]
     assert built.planned(*targets) == {}
     assert fresh.planned(*targets) == {"simulate": 2, "extract": 1, "lengths": 1, "draw_study": 1}
-
-
-def test_a_clone_needs_no_flag(tmp_path, built):
-    """Snakemake finds the default profile where it looks for it, beside the Snakefile."""
-    command = [sys.executable, "-m", "snakemake", "table_s1", "--dry-run", "--directory", tmp_path]
-    done = subprocess.run(command, cwd=built.checkout, capture_output=True, text=True)
-    assert done.returncode == 0 and "table_s1" in done.stdout + done.stderr
