@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..model.quantities import quantity
 from ..model.settings import EVENT_DROP
 from ..model.units import Checked
-from ..simulation.event import SLIPPING, DropWatch
+from ..simulation.event import SLIPPING, has_dropped
 from ..types import Array
 
 RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
@@ -76,7 +76,7 @@ def find_onset(
         Times (s) and magnitudes of the force (N/m).
     window, drop : float
         Time (s) within which the force has to fall, and the fraction by which
-        (:class:`~nucleation.simulation.event.DropWatch`).
+        (:func:`~nucleation.simulation.event.has_dropped`).
     fast, long_enough, ruptures : ndarray of bool, shape (steps,)
         Whether the patch slips fast at these times, whether it has been longer than a few elements
         by then, and whether the interface slips as fast as in a rupture.
@@ -86,11 +86,11 @@ def find_onset(
     Onset or None
         None if there is no event.
     """
-    watch = DropWatch(window, drop)
+    maxima: list[tuple[float, float]] = []
 
     def falls(step: int) -> bool:
-        dropped = watch.dropped(time[step], force[step], fast[step])
-        return dropped and bool(long_enough[np.searchsorted(time, watch.since)])
+        dropped = has_dropped(maxima, window, drop, time[step], force[step], fast[step])
+        return dropped and bool(long_enough[np.searchsorted(time, maxima[0][0])])
 
     end = next(filter(falls, range(time.size)), None)
     if end is None:

@@ -168,7 +168,7 @@ def extract(
     if record.onset is None:
         recorded, drop = record.run.stepping.event_drop, settings.drop
         status = str(simulation.attrs.get("status"))
-        if drop > recorded and status.startswith(Outcome.AFTER_EVENT.value):
+        if drop > recorded and status.startswith(Outcome.AFTER_EVENT):
             warnings.warn(
                 f"the run ended after its event, a drop of the force by {recorded:g}, and before "
                 f"it fell by drop = {drop:g}: simulate with a larger stepping.event_drop "

@@ -6,7 +6,6 @@ system: their Schur complement.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,14 +14,8 @@ from . import edge_kernels, kernels
 from .body import Layer, product, transposed
 from .grid import Field
 
-
-class Before(NamedTuple):
-    """Displacements (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
-
-    coefficients: Sequence[float]  # c1 and c2
-    beta: float  # s
-    newest: Field
-    oldest: Field
+Before = tuple[Sequence[float], float, Field, Field]
+"""(c1, c2), beta (s), u_1 and u_2 (m) before a step with ``u = c1 u_1 + c2 u_2 + beta du/dt``."""
 
 
 class LayerFactors:

@@ -164,24 +164,24 @@ class Operator:
                 factors.substitute(part)
             return np.zeros_like(swept)
         rate = np.empty_like(swept)
-        given = (before.newest.modes, before.oldest.modes, rate)
+        (c1, c2), beta, newest, oldest = before
+        given = (newest.modes, oldest.modes, rate)
         for factors, *own in zip(
             self.factors,
             parts,
             *map(self.body.split, given),
             strict=True,
         ):
-            c1, c2 = before.coefficients
-            part, newest, oldest, own_rate = own
+            part, u1, u2, own_rate = own
             kernels.move(
                 factors.inverse,
                 factors.lower,
                 part,
                 c1,
                 c2,
-                before.beta,
-                newest,
-                oldest,
+                beta,
+                u1,
+                u2,
                 own_rate,
             )
         return rate

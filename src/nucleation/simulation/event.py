@@ -19,12 +19,11 @@ import enum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.settings import EVENT_DROP
 from ..run.run import Run
 from ..types import Array
 
 
-class Outcome(enum.Enum):
+class Outcome(enum.StrEnum):
     """How a run ended."""
 
     END_TIME = "completed: the end time was reached"
@@ -102,38 +101,25 @@ def patch_is_fast(
     return bool(time > run.memory_time and position <= NEAR * run.block.length)
 
 
-class DropWatch:
-    """Detects from step to step whether the force has dropped by a fraction in a time (s)."""
+def has_dropped(
+    maxima: list[tuple[float, float]],
+    window: float,
+    drop: float,
+    time: float,
+    force: float,
+    fast: bool = True,
+) -> bool:
+    """Take in the next force (N/m) and return whether it completes an abrupt drop.
 
-    def __init__(
-        self,
-        window: float,
-        drop: float = EVENT_DROP,
-    ) -> None:
-        self._window = window
-        self._drop = drop
-        # times (s) and forces (N/m) that may still matter: the falling maxima of the window
-        self.maxima: list[tuple[float, float]] = []
-
-    @property
-    def since(self) -> float:
-        """Time (s) of the window's largest force, from which a drop is counted."""
-        return self.maxima[0][0]
-
-    def dropped(
-        self,
-        time: float,
-        force: float,
-        fast: bool = True,
-    ) -> bool:
-        """Take in the next force and return whether it completes an abrupt drop."""
-        while self.maxima and self.maxima[-1][1] <= force:
-            self.maxima.pop()
-        self.maxima.append((time, force))
-        while self.maxima[0][0] < time - self._window:
-            self.maxima.pop(0)
-        largest = self.maxima[0][1]
-        return bool(fast) and force < (1.0 - self._drop) * largest
+    `maxima` are the times (s) and forces that may still matter, the falling maxima of the window
+    (s): it is kept up to date, and the drop counts from the first.
+    """
+    while maxima and maxima[-1][1] <= force:
+        maxima.pop()
+    maxima.append((time, force))
+    while maxima[0][0] < time - window:
+        maxima.pop(0)
+    return bool(fast) and force < (1.0 - drop) * maxima[0][1]
 
 
 def front_width(

@@ -15,8 +15,8 @@ from .event import (
     FEW,
     RESOLVED,
     WINDOW,
-    DropWatch,
     front_width,
+    has_dropped,
     long_after,
     patch_is_fast,
 )
@@ -62,7 +62,7 @@ class Recorder:
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
         self._energy = _Energy(dynamics) if self._fields == INTERFACE else None
-        self._watch = DropWatch(WINDOW * run.memory_time, run.stepping.event_drop)
+        self._maxima: list[tuple[float, float]] = []  # of the force
         self._patch_is_fast = False
         self._event_time = np.inf
         self._onset_time = np.inf
@@ -95,14 +95,17 @@ class Recorder:
         self._rows.append(row)
         fast = patch_is_fast(self.run, self._patch_is_fast, state.time, fastest, position)
         self._patch_is_fast = fast
-        dropped = self._watch.dropped(
+        dropped = has_dropped(
+            self._maxima,
+            WINDOW * self.run.memory_time,
+            self.run.stepping.event_drop,
             state.time,
             abs(report.driving_force),
             fast,
         )
         if dropped and np.isinf(self._event_time):
             # it is the event if the patch was long enough when the drop began
-            onset = self._watch.since
+            onset = self._maxima[0][0]
             times = np.array(self._frame_times)
             rates = np.array([fields[0] for fields in self._frames])
             if onset > long_after(
@@ -168,7 +171,7 @@ class Recorder:
             "frame_times": np.array(self._frame_times),
             "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
-            "watched": np.array(self._watch.maxima),
+            "watched": np.array(self._maxima),
             "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
             "own_burst": np.array(self._patch_is_fast),
             **({} if self._energy is None else self._energy.to_arrays()),
@@ -183,7 +186,7 @@ class Recorder:
         self._frames = list(arrays["frames"])
         self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
-        self._watch.maxima = [tuple(one) for one in arrays["watched"].tolist()]
+        self._maxima = [tuple(one) for one in arrays["watched"].tolist()]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._patch_is_fast = bool(arrays["own_burst"])
         if self._energy is not None:

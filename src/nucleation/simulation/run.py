@@ -40,7 +40,7 @@ class SimulationFailure(RuntimeError):
         state: State,
         reason: str,
     ) -> None:
-        super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
+        super().__init__(f"{outcome} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 
 
@@ -210,8 +210,8 @@ def simulate(
     if not all(np.isfinite(values).all() for values in dataset.variables.values()):
         outcome = Outcome.NOT_FINITE
     dataset.attrs |= {
-        "status": "; ".join([outcome.value, *recorder.remarks()]),
-        "completed": int(outcome.value.startswith("completed")),
+        "status": "; ".join([outcome, *recorder.remarks()]),
+        "completed": int(outcome.startswith("completed")),
         "steps": recorder.steps,
         "rejected_steps": control.rejected,
         "wall_seconds": earlier + time.perf_counter() - began,

@@ -17,7 +17,6 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ..fem.body import Body
-from ..fem.factors import Before
 from ..fem.grid import Field, Motion
 from ..fem.operator import Operator
 from ..fem.right_edge import foreseen_edge
@@ -159,7 +158,7 @@ class Dynamics:
         w = past.w + past.beta * (expected[1:] - imposed.velocity)
         foreseen = foreseen_edge(state.motions, step.length, state.last_step)
         newest, oldest = state.displacement, state.motions[-1].displacement
-        before = Before(step.body.past, step.body.beta, newest, oldest)
+        before = step.body.past, step.body.beta, newest, oldest
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:

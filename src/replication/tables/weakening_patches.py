@@ -101,7 +101,7 @@ def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Datase
         run = Run.from_dict(entry["parameters"])
         row = {"id": entry["id"], **_of_patch(run)}
         row["fastest"] = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
-        dropped = simulation.attrs.get("status", "").startswith(Outcome.AFTER_EVENT.value)
+        dropped = simulation.attrs.get("status", "").startswith(Outcome.AFTER_EVENT)
         row["outcome"] = outcome(row["fastest"], row["dynamic_rate"], dropped)
         rows.append(row)
     return table(rows, COLUMNS)
