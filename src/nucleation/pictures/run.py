@@ -217,7 +217,12 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     return start - margin, peak, end + margin
 
 
-def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
+def thin(
+    time: Array,
+    start: float,
+    end: float,
+    columns: int,
+) -> NDArray[np.intp]:
     """Indices of the times (s) that are drawn, at most one for each column of pixels.
 
     The first time in a column is kept, so that a fast event stays a step at its true time. One time

@@ -88,7 +88,13 @@ def _both_senses(rows: pd.DataFrame) -> tuple[Array, Array, Array, Array]:
 def _lengths(rows: pd.DataFrame, unit: pd.Series | float = 1.0) -> list[Estimate]:
     """The lengths at the drop over the theory's, in a unit, each with its realisations' range."""
     ratios = (rows[f"length_ratio{end}"] * unit for end in ("", "_low", "_high"))
-    return [between(*row) for row in zip(*ratios, strict=True)]
+    return [
+        between(*row)
+        for row in zip(
+            *ratios,
+            strict=True,
+        )
+    ]
 
 
 def _response(evidence: Tables, component: int) -> Array:
@@ -104,7 +110,10 @@ def _response(evidence: Tables, component: int) -> Array:
         raise Missing("No modes between half-spaces were simulated")
     ratio = high["second_shear_modulus"] / high["shear_modulus"]
     columns = ratio, high["poisson_ratio"], high["second_poisson_ratio"]
-    pairs = np.stack([column.values for column in columns], axis=1)
+    pairs = np.stack(
+        [column.values for column in columns],
+        axis=1,
+    )
     expected = np.array([printed.bimaterial_transfer(*pair)[component] for pair in pairs])
     return measured_response(high)[component] / expected[:, None]
 

@@ -88,4 +88,10 @@ def block_field(q: float, y: Array, nu: float) -> ComplexArray:
     odd = 4.0 * factor * np.sinh(near)
     even = (3.0 - 4.0 * nu) * np.cosh(near) + np.cosh(far)
     u_y = odd - 2.0 * q * y * even
-    return np.array([2.0 * u_x, 1j * u_y], np.complex128) / divisor
+    return (
+        np.array(
+            [2.0 * u_x, 1j * u_y],
+            np.complex128,
+        )
+        / divisor
+    )

@@ -38,7 +38,13 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
 
 
 def _height_dependence(evidence: Evidence, role: str) -> list[float]:
-    ratios = [row["length"] / row["critical_length"] for row in _heights(evidence, role)]
+    ratios = [
+        row["length"] / row["critical_length"]
+        for row in _heights(
+            evidence,
+            role,
+        )
+    ]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
@@ -91,7 +97,15 @@ def _strengthened(evidence: Evidence, role: str) -> list[float]:
     """Relative change of the strength by the healing that v0 alone causes without slip."""
     changes = []
     for run in evidence.each(role, evolution="slip"):
-        states = np.array([run["initial_state"], _healed_state(evidence, run)])
+        states = np.array(
+            [
+                run["initial_state"],
+                _healed_state(
+                    evidence,
+                    run,
+                ),
+            ]
+        )
         initial, healed = evidence.friction.coefficient(evidence.velocity, states)
         changes.append(float(healed / initial - 1.0))
     return changes
@@ -120,7 +134,10 @@ def _longer_blocks(evidence: Evidence) -> list[Estimate]:
     """Relative changes of the length at the drop between blocks of one height."""
     changes = [
         _relative_change(row, base)
-        for base, row in itertools.product(evidence.rows(LONGER), repeat=2)
+        for base, row in itertools.product(
+            evidence.rows(LONGER),
+            repeat=2,
+        )
         if row["block_length"] > base["block_length"] and row["height"] == base["height"]
     ]
     if not changes:
@@ -131,7 +148,13 @@ def _longer_blocks(evidence: Evidence) -> list[Estimate]:
 def _shortest_step(evidence: Evidence) -> Estimate:
     rows = evidence.rows(PAPERS)
     with_rupture = [
-        row for row in rows if row.get("simulated_time", 0.0) > row["onset_time_high"] + _RUPTURE
+        row
+        for row in rows
+        if row.get(
+            "simulated_time",
+            0.0,
+        )
+        > row["onset_time_high"] + _RUPTURE
     ]
     steps = [row["shortest_step"] / 1e-6 for row in with_rupture or rows]
     return between(float(np.median(steps)), *steps)

@@ -132,7 +132,14 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
+    parts[::2] = [
+        re.sub(
+            r"([|*_])",
+            r"\\\1",
+            part,
+        )
+        for part in parts[::2]
+    ]
     return "$".join(parts)
 
 
@@ -194,7 +201,14 @@ def write_article(
 ) -> dict[str, str]:
     """The step ``article``: its text from the template, the claims as JSON and the lengths."""
     rows = json.loads(claims.read_text("utf-8"))
-    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
+    return {
+        ".md": render(
+            template.read_text("utf-8"),
+            rows,
+            lengths,
+            beyond,
+        )
+    }
 
 
 def render(
@@ -222,7 +236,13 @@ def render(
         "percent": lambda value, places=0: (
             "–" if value is None else f"{100.0 * value:.{places}f} %"
         ),
-        "span": lambda values, number: span(values, lambda value: digits(value, number)),
+        "span": lambda values, number: span(
+            values,
+            lambda value: digits(
+                value,
+                number,
+            ),
+        ),
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}

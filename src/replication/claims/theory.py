@@ -71,7 +71,10 @@ def _logarithmic(evidence: Evidence) -> Array:
     """Logarithmic over full law around V and D/V."""
     law, velocity = evidence.friction, evidence.velocity
     factors = np.geomspace(0.1, 10.0, 41)
-    v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
+    v, phi = np.meshgrid(
+        velocity * factors,
+        law.steady_state(velocity) * factors,
+    )
     return logarithmic_friction(
         law,
         v,
@@ -128,7 +131,13 @@ def _softness(evidence: Evidence) -> float:
 
 def _eta(evidence: Evidence, **changes: float) -> float:
     """``L_c zeta sigma0/(mu ell)`` of two identical half-spaces."""
-    return float(main_text(evidence, **changes).critical_length() / _softness(evidence))
+    return float(
+        main_text(
+            evidence,
+            **changes,
+        ).critical_length()
+        / _softness(evidence)
+    )
 
 
 def _eta_over_largest(evidence: Evidence) -> Result:
@@ -243,7 +252,13 @@ def _strengthening_length(evidence: Evidence) -> list[float]:
 
 def _block(evidence: Evidence, component: int) -> Any:
     """G1 (component 0) or G2 (component 1) of a block on a rigid base over Eq. (10)."""
-    expected = [printed.block_transfer(q, evidence.nu)[component] for q in LAYER_NUMBERS]
+    expected = [
+        printed.block_transfer(
+            q,
+            evidence.nu,
+        )[component]
+        for q in LAYER_NUMBERS
+    ]
     return block(evidence, LAYER_NUMBERS).transfer_functions(1.0)[component] / expected
 
 

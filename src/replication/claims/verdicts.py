@@ -179,10 +179,25 @@ def read(entry: Mapping[str, Any]) -> Expected:
 
 def _listed(found: Found) -> Array:
     """Value and ends of each number, (n, 3); the ends are NaN for one without a range."""
-    several = found if isinstance(found, list) else np.ravel(found).tolist()
+    several = (
+        found
+        if isinstance(
+            found,
+            list,
+        )
+        else np.ravel(found).tolist()
+    )
     if isinstance(found, tuple):
         several = [found]
-    rows = [one if isinstance(one, tuple) else (one, math.nan, math.nan) for one in several]
+    rows = [
+        one
+        if isinstance(
+            one,
+            tuple,
+        )
+        else (one, math.nan, math.nan)
+        for one in several
+    ]
     return np.array(rows, float).reshape(-1, 3)
 
 
@@ -290,7 +305,10 @@ def _comparison(
         return f"{value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
     bound = expected.text.partition(": ")[2] or expected.text
     reason = f"{value:.4g} is {'' if held else 'not '}{bound}."
-    nearest = min((expected.low, expected.high), key=lambda end: abs(end - value))
+    nearest = min(
+        (expected.low, expected.high),
+        key=lambda end: abs(end - value),
+    )
     if least <= nearest <= most:
         reason += f" Its range reaches across the bound, {nearest:g}."
     return reason

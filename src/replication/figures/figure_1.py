@@ -108,7 +108,12 @@ def _draw_block_on_rigid_base(axes: Axes) -> None:
     )
 
 
-def _draw_body(axes: Axes, low: float, high: float, colour: str) -> None:
+def _draw_body(
+    axes: Axes,
+    low: float,
+    high: float,
+    colour: str,
+) -> None:
     """A body without ends, across the whole panel."""
     axes.axhspan(low, high, facecolor=(colour, _INK), linewidth=0.0)
     for edge in (low, high):

@@ -60,7 +60,12 @@ def draw(table: xr.Dataset, theory: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_weakening(axes: Axes, own: xr.Dataset, name: str, look: style.Options) -> None:
+def _draw_weakening(
+    axes: Axes,
+    own: xr.Dataset,
+    name: str,
+    look: style.Options,
+) -> None:
     """The curve of Eq. (9) and the simulated lengths of one zeta/a."""
     ratio = float(own["zeta_over_a"][0])
     weakening = rf"$\zeta/a={ratio:.3g}$"

@@ -38,7 +38,12 @@ _BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
 
 
 @style.styled()
-def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+def draw(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
     """Draw L_c over H, the paper's simulations, and slip rates of one of them in an inset.
 
     Of the realisations of one fault the mean is drawn.
@@ -62,7 +67,11 @@ def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: st
         label=label,
     )
     means = over_realisations(lengths)
-    drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
+    drawn = laws.where(
+        means,
+        np.isfinite(means["length"]),
+        role="paper",
+    )
     for name, old, (marker, size, colour, right), runs in laws.kinds(drawn):
         aside = ScaledTranslation(right / 72.0, 0.0, figure.dpi_scale_trans)
         marks: style.Options = {"marker": marker, "ms": size, "color": colour}

@@ -91,7 +91,12 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     axes.set(ylim=(0.45, 0.87), **_STRENGTH)
 
 
-def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> None:
+def _draw_law(
+    axes: Axes,
+    table: xr.Dataset,
+    own: xr.Dataset,
+    theory: float,
+) -> None:
     """The law's median and range, and its closed form, up to the strongest of some runs."""
     same_fault = table["curve_fault"].values == own["fault"].values[0]
     cases = np.flatnonzero(same_fault & (table["curve_kind"].values == own["kind"].values[0]))

@@ -49,20 +49,35 @@ def draw_stability(table: xr.Dataset, patches: Iterable[xr.Dataset]) -> Figure:
         heights.size - 1,
         min(_LEGEND_HEIGHTS, heights.size),
     ).round()
-    for i, (height, colour) in enumerate(zip(heights, shades, strict=True)):
+    for i, (height, colour) in enumerate(
+        zip(
+            heights,
+            shades,
+            strict=True,
+        )
+    ):
         if i in named:
             frequency.plot([], [], color=colour, label=f"$H={height:g}$ m")
         rows = laws.where(runs, height=height)
         for j in range(rows.sizes["run"]):
             row = rows.isel(run=j)
             patch = patches[int(row["patch"])]
-            _draw_instants((growth, frequency), patch, row, {"color": colour, "ls": "none"})
+            _draw_instants(
+                (growth, frequency),
+                patch,
+                row,
+                {"color": colour, "ls": "none"},
+            )
             length = float(row["stability_length"])
             if np.isfinite(length):
                 modulus = np.hypot(patch["mode_real"], patch["mode_imaginary"])
                 shape.plot(patch["x"] / length, modulus, lw=1.0, color=colour)
     memory_time = max(parameters_of(patch).memory_time for patch in patches)
-    for axes, (_, limits, label) in zip(panels, _PANELS, strict=False):
+    for axes, (_, limits, label) in zip(
+        panels,
+        _PANELS,
+        strict=False,
+    ):
         axes.set(
             xlim=(0.3, 0.8),
             ylim=np.array(limits) / memory_time,
@@ -137,7 +152,11 @@ def _draw_instants(
     ratio = patch["patch_length"].values / float(row["critical_length"])
     time = patch["instant_time"].values
     late = time > time.max() - _LATE * 2.0 * np.pi / float(patch["stability_frequency"])
-    for axes, (name, _, _) in zip(panels, _PANELS, strict=True):
+    for axes, (name, _, _) in zip(
+        panels,
+        _PANELS,
+        strict=True,
+    ):
         values = patch[f"oscillation_{name}"].values
         axes.plot(
             ratio[~late],

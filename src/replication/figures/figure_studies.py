@@ -63,7 +63,12 @@ def draw(
     names = list(dict.fromkeys(kinds))
     figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
     several = len(names) > 1
-    axes.plot([], [], color=style.GUIDE if several else style.THEORY, label="theory")
+    axes.plot(
+        [],
+        [],
+        color=style.GUIDE if several else style.THEORY,
+        label="theory",
+    )
     for number, kind in enumerate(names):
         own = laws.where(rows, kind=kind).sortby("x")
         marker, colour = style.look(number)
@@ -84,7 +89,15 @@ def draw(
         label = f"simulation, {kind}" if kind else "simulation"
         if known.any():
             dropped = laws.where(own, known)
-            laws.draw(axes, "x", dropped, "length", marker=marker, label=label, **look)
+            laws.draw(
+                axes,
+                "x",
+                dropped,
+                "length",
+                marker=marker,
+                label=label,
+                **look,
+            )
         if not known.all():
             lost = own["x"].values[~known]
             label = f"no event ({np.isnan(rows['length'].values).sum()} of {len(kinds)})"

@@ -152,7 +152,11 @@ _SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
 @style.styled()
 def figure_literature(table: xr.Dataset) -> Figure:
     """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate."""
-    figure, (left, right) = style.panels(7.6, columns=2, sharey=True)
+    figure, (left, right) = style.panels(
+        7.6,
+        columns=2,
+        sharey=True,
+    )
     table = laws.where(table, np.isfinite(table["simulated_length"]))
     for i, (name, label) in enumerate(KINDS.items()):
         marker, colour = style.look(i)

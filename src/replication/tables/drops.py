@@ -99,7 +99,13 @@ class _Law:
         else:
             law = self.growth(run["kind"], run["correlation_length"])
             drop = law.drop(strength)
-            found |= dict(zip(LAW, (drop.length, drop.low, drop.high), strict=True))
+            found |= dict(
+                zip(
+                    LAW,
+                    (drop.length, drop.low, drop.high),
+                    strict=True,
+                )
+            )
         found["front_length"] = law.closed_form(self.history, strength).front_length
         return found
 
@@ -147,7 +153,14 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
         "curve_strength": ("curve", CURVE_STRENGTHS),
     }
     along = ("case", "curve")
-    lines = {n: (along, line) for n, line in zip(list(CURVES)[3:], values, strict=True)}
+    lines = {
+        name: (along, line)
+        for name, line in zip(
+            list(CURVES)[3:],
+            values,
+            strict=True,
+        )
+    }
     return annotate(xr.Dataset(columns | lines), CURVES)
 
 
@@ -230,7 +243,10 @@ def weakening_files(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> dict[st
     rows = []
     for lengths in drops:
         complete = lengths.assign(zeta_over_a=lengths["zeta"] / lengths["a"])
-        found = rows_of(complete, names=WEAKENING.keys() - EXPECTED.keys())
+        found = rows_of(
+            complete,
+            names=WEAKENING.keys() - EXPECTED.keys(),
+        )
         rows += [row | by_fault[row["fault"]] for row in found]
     listed = table(rows, WEAKENING)
     return {".nc": listed.merge(weakening_curves(runs)), ".csv": to_csv(listed)}
@@ -268,7 +284,11 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
         rows.append((study, base, height, is_high, *np.transpose(lengths)))
     columns: dict[str, Any] = {"curve_ratio": ("curve", ratios)}
     drawn = [name for name in WEAKENING_CURVES if name not in columns]
-    for name, values in zip(drawn, zip(*rows, strict=True), strict=True):
+    for name, values in zip(
+        drawn,
+        zip(*rows, strict=True),
+        strict=True,
+    ):
         along = ("system", "curve")[: np.ndim(values)]
         columns[name] = (along, np.array(values))
     return annotate(xr.Dataset(columns), WEAKENING_CURVES)

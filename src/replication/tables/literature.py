@@ -117,7 +117,15 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
 def _described(parameters: Run) -> tuple[Row, Fault, Any]:
     """The columns of all slip rates, the fault of the formulas, and how the length is read."""
     own, law, varies = parameters.fault, parameters.law, parameters.heterogeneity
-    fault = Fault(**{name: getattr(own, name) for name in _OF_FORMULAS})
+    fault = Fault(
+        **{
+            name: getattr(
+                own,
+                name,
+            )
+            for name in _OF_FORMULAS
+        }
+    )
     _, a, zeta = law.expansion(own.velocity)
     b = a + zeta
     name = length_of(parameters)

@@ -100,7 +100,14 @@ def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
     if run.below is not None:
         bodies["second_"] = changes["second_height"] = run.below.height
     for body, height in bodies.items():
-        changes[f"{body}n_y"] = round(float(np.clip(height * nodes / length, *ROWS)))
+        changes[f"{body}n_y"] = round(
+            float(
+                np.clip(
+                    height * nodes / length,
+                    *ROWS,
+                )
+            )
+        )
         changes[f"{body}grading"] = GRADING if height > GRADED * length else 1.0
     return run.replaced(**changes)
 
@@ -122,8 +129,15 @@ def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexAr
         first_mode = np.fft.rfft(log_rate)[1]
         amplitudes.append(np.conj(first_mode) * 2.0 / nodes)
     samples = np.array(amplitudes[SKIPPED::INTERVAL])
-    past = np.stack([samples[1:-1], samples[:-2]], axis=1)
-    (p, q), *_ = np.linalg.lstsq(past, samples[2:], rcond=None)
+    past = np.stack(
+        [samples[1:-1], samples[:-2]],
+        axis=1,
+    )
+    (p, q), *_ = np.linalg.lstsq(
+        past,
+        samples[2:],
+        rcond=None,
+    )
     growth = np.roots([1.0, -p, -q])
     rates = np.log(growth) / (dynamics.scheme.steady_step(rung) * INTERVAL)
     return rates[np.argsort(-rates.real)]
@@ -227,7 +241,13 @@ def _table(rows: list[Row]) -> xr.Dataset:
 def _files(modes: xr.Dataset, columns: list[str]) -> dict[str, Any]:
     """Modes as netCDF, and a line for each mode and direction as CSV."""
     listed = modes.to_dataframe(["run", "branch"]).reset_index()[columns]
-    return {".nc": modes, ".csv": listed.to_csv(index=False, float_format="%.8g")}
+    return {
+        ".nc": modes,
+        ".csv": listed.to_csv(
+            index=False,
+            float_format="%.8g",
+        ),
+    }
 
 
 def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MODES) -> xr.Dataset:
@@ -236,14 +256,26 @@ def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MOD
     for height in heights:
         own = run.replaced(height=height)
         critical = _critical(own)
-        rows += [{"height": height} | mode_row(own, ratio, critical) for ratio in ratios]
+        rows += [
+            {"height": height}
+            | mode_row(
+                own,
+                ratio,
+                critical,
+            )
+            for ratio in ratios
+        ]
     return _table(rows)
 
 
 def dispersion_files(base: Run) -> dict[str, Any]:
     """The same for the configuration's fault; its heights have the paper's ratios to the L_c."""
     own, papers = (
-        on_rigid_base(one.fault, math.inf).critical_length() for one in (base, PAPER_RUN)
+        on_rigid_base(
+            one.fault,
+            math.inf,
+        ).critical_length()
+        for one in (base, PAPER_RUN)
     )
     heights = [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
     found = dispersion(base, heights)
@@ -265,7 +297,17 @@ def pair_modes(
         for ratio in ratios:
             height = DEEP * 2.0 * np.pi / (ratio * critical)
             run = base.replaced(**{"height": height, "second_height": height} | pair)
-            rows.append(_described(name, run) | mode_row(run, ratio, critical))
+            rows.append(
+                _described(
+                    name,
+                    run,
+                )
+                | mode_row(
+                    run,
+                    ratio,
+                    critical,
+                )
+            )
     return _table(rows)
 
 

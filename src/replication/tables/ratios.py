@@ -164,7 +164,10 @@ def map_files(lengths: xr.Dataset) -> dict[str, Any]:
     """
     rows = lengths.assign(ratios(lengths))
     rounded = [float(f"{value:.{DIGITS}g}") for value in rows["zeta_over_a"].values]
-    rows = annotate(rows.assign(zeta_over_a=("run", rounded))[list(MAP)].drop_attrs(), MAP)
+    rows = annotate(
+        rows.assign(zeta_over_a=("run", rounded))[list(MAP)].drop_attrs(),
+        MAP,
+    )
     frame = rows.to_dataframe().set_index(list(AXES))
     if not frame.index.is_unique:
         raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")

@@ -48,7 +48,16 @@ def rows_of(table: xr.Dataset, names: Iterable[str] | None = None) -> list[Row]:
     wanted = table.data_vars if names is None else names
     columns = {str(name): table[name].values.tolist() for name in wanted}
     rows = zip(*columns.values(), strict=True)
-    return [dict(zip(columns, row, strict=True)) for row in rows]
+    return [
+        dict(
+            zip(
+                columns,
+                row,
+                strict=True,
+            )
+        )
+        for row in rows
+    ]
 
 
 def groups(table: xr.Dataset, *names: str) -> list[list[int]]:

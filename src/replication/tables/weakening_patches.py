@@ -77,7 +77,10 @@ def patch_of(run: Run) -> WeakeningPatch:
     if own.varies == "zeta":
         return WeakeningPatch(outside._replace(zeta=outside.zeta * factor), outside)
     less = outside.a * (1.0 - factor)  # b is the same
-    inside = outside._replace(a=outside.a - less, zeta=outside.zeta + less)
+    inside = outside._replace(
+        a=outside.a - less,
+        zeta=outside.zeta + less,
+    )
     return WeakeningPatch(inside, outside)
 
 
@@ -144,7 +147,15 @@ def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
     keys = [frame["varies"], frame["zeta_over_a"].round(4), frame["strengthening"].round(4)]
     found = []
     for key, own in frame.groupby(keys):
-        found.append(dict(zip(BOUNDS, (*key, *bounds_of(own)), strict=True)))
+        found.append(
+            dict(
+                zip(
+                    BOUNDS,
+                    (*key, *bounds_of(own)),
+                    strict=True,
+                )
+            )
+        )
     return table(found, BOUNDS)
 
 
