@@ -253,10 +253,7 @@ def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
     )
 
 
-TABLES = {
-    "verification": (kind_rows, floor_rows),
-    "creeping_patch": (patch_outcome_rows,),
-}
+TABLES = {"verification": (kind_rows, floor_rows), "creeping_patch": (patch_outcome_rows,)}
 
 
 @pytest.mark.parametrize("page", TABLES)

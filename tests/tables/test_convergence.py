@@ -58,11 +58,3 @@ def test_table_compares_with_the_finest_run():
     np.testing.assert_allclose(found["elements_difference"], (length - length[-1]) * sizes / 2.0)
     assert (found["refinement"] == "n_x").all()
     np.testing.assert_allclose(found["length_over_theory"], found["length"] / 0.5)
-
-
-def test_a_run_stands_in_each_of_its_sequences():
-    rows = [row(), *(row(n_x=n) for n in (800, 1600)), *(row(n_y=n) for n in (10, 40))]
-    found = refinement_table([table(rows)])
-    usual = (found["n_x"] == 400) & (found["n_y"] == 20)
-    assert list(found["refinement"].values[usual.values]) == ["n_x", "n_y"]
-    assert found.sizes["run"] == 6

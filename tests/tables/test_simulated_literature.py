@@ -16,14 +16,19 @@ from replication.tables import literature
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
 
 
+def record(x, rates, states=1.0):
+    """A simulation of slip rates and states over time and x."""
+    columns = {"slip_rate": rates, "state": np.broadcast_to(states, rates.shape)}
+    return xr.Dataset({name: (("time", "x"), own) for name, own in columns.items()}, {"x": x})
+
+
 @pytest.mark.parametrize(("name", "factor"), [("thin_layer", 2.0), ("state_evolution", 1.0)])
 def test_a_zone_of_known_width_is_read_at_the_slip_rate_asked_for(name, factor):
     x = np.linspace(0.0, 1.0, 2002)
     widths, fastest = np.array([0.1, 0.2]), np.array([1e-5, 1e-3])
     shape = 0.5 ** ((x - 0.5) / (0.5 * widths[:, None])) ** 2  # half the maximum at width/2
     rates = fastest[:, None] * shape
-    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), np.ones_like(rates))}
-    simulation = xr.Dataset(fields, {"x": x})
+    simulation = record(x, rates)
     found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS[name])
     assert found == pytest.approx(factor * 0.15, rel=1e-3)
     assert np.isnan(zones.zone_length(simulation, 1e-2, zones.DEFINITIONS[name]))
@@ -44,10 +49,7 @@ def test_a_crack_is_read_between_its_tips_though_slip_is_slow_within():
     tips = 0.5 ** ((x - 0.3) / 0.01) ** 2 + 0.999 * 0.5 ** ((x - 0.7) / 0.01) ** 2
     shape = np.maximum(tips, np.where(abs(x - 0.5) < 0.2, 0.02, 0.0))
     rates = np.array([1e-5, 1e-3])[:, None] * shape
-    states = np.ones_like(rates)
-    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
-    simulation = xr.Dataset(fields, {"x": x})
-    found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS["rubin_ampuero_crack"])
+    found = zones.zone_length(record(x, rates), 1e-4, zones.DEFINITIONS["rubin_ampuero_crack"])
     assert found == pytest.approx(0.4 + 2 * 0.01 * np.sqrt(np.log2(10.0)), abs=1e-3)
 
 
@@ -56,8 +58,7 @@ def test_far_ahead_is_read_half_a_period_from_the_fastest_point():
     away = np.abs((x - 0.2 + 0.5) % 1.0 - 0.5)  # from x = 0.2; half a period away is x = 0.7
     rates = np.array([1e-6, 1e-2])[:, None] * np.exp(-20.0 * away)
     states = np.array([2.0, 4.0])[:, None] * (1.0 + away)
-    fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
-    simulation = xr.Dataset(fields, {"x": x})
+    simulation = record(x, rates, states)
     rate, state_ratio = zones.far_ahead(simulation, 1e-4, 5e-7)
     mean = 0.5 * (1e-6 + 1e-2) * np.exp(-10.0)  # linear in log of the largest rate: half way
     assert rate == pytest.approx(mean, rel=1e-6)
@@ -94,8 +95,7 @@ SETTINGS = {
 def test_a_run_is_read_as_the_length_whose_setting_it_is():
     x = np.linspace(0.0, 1.0, 401)
     rate = np.array([1e-6, 2e3])[:, None] * 0.5 ** ((x - 0.5) / 0.05) ** 2
-    fields = {"slip_rate": (("time", "x"), rate), "state": (("time", "x"), np.ones_like(rate))}
-    simulation = xr.Dataset(fields, {"x": x})
+    simulation = record(x, rate)
     runs = []
     for name, changes in SETTINGS.items():
         ratio = changes.get("zeta_over_a", 2.0)
