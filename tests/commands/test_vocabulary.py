@@ -60,8 +60,6 @@ def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
     [
         (),
         ("--evolution", "slip"),
-        ("--friction-law", "product"),
-        ("--velocity", "1mm/yr"),
         ("--friction-law", "product", "--regularisation-slip-rate", "0.1um/s"),
     ],
     ids=" ".join,

@@ -131,11 +131,6 @@ WARNED = {
         GOOD | {"block_length": 0.4},
         "block short (s-aging-H0.005-phi1-block_length0.4-n_x400)",
     ),
-    "block below L_c": (
-        GOOD | {"block_length": 0.2, "end_time": 20.0},
-        "block shorter than L_c (s-aging-H0.005-phi1-block_length0.2-n_x400-end_time20): "
-        "block_length = 0.2 m is not above the theory's critical length, 0.235 m",
-    ),
     "mesh's noise": (
         GOOD | {"perturbation": "normal_load", "strength": 1e-4},
         "perturbation lost in the mesh's noise (s-aging-H0.005-phi1-n_x400-perturbationnormal_load"

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from declared import VARIABLES
 
-from nucleation.datasets import netcdf, provenance
+from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError, annotate
 from replication.tables import lengths
 
@@ -117,10 +117,3 @@ def test_lack_of_room_is_said_by_the_system(tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert caught.value.errno == errno.EFBIG
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("seconds", ["abc", "1.5", "9" * 30])
-def test_a_time_of_results_that_is_none_is_refused(monkeypatch, seconds):
-    monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
-    with pytest.raises(DatasetError, match=f"SOURCE_DATE_EPOCH = '{seconds}' is not allowed"):
-        provenance.attributes({}, "digest", "make it")

@@ -9,7 +9,6 @@ from scipy.special import wrightomega
 
 from nucleation.model.friction import Friction
 from nucleation.model.friction.evolutions import wright_omega
-from nucleation.model.quantities import ParameterError
 from replication.tables.curves import logarithmic_friction
 
 LAW = Friction()
@@ -66,12 +65,3 @@ def test_logarithmic_law_touches_the_full_one():
         full = LAW.coefficient(*fast) - LAW.coefficient(*slow)
         log = logarithmic_friction(LAW, *fast, v) - logarithmic_friction(LAW, *slow, v)
         assert log == pytest.approx(full, rel=1e-4)
-
-
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [("evolution", "ageing"), ("base_friction", "0.3m"), ("rate_coefficient", True)],
-)
-def test_bad_values_are_named(key, value):
-    with pytest.raises(ParameterError, match=key):
-        Friction(**{key: value})

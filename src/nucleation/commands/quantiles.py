@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Collection, Mapping
 from typing import Any
 
-import click
 import numpy as np
 
 from ..fault import Fault
@@ -21,9 +19,6 @@ from .given import system_of_fault
 from .text import Row, show, table, wrapped
 
 _HEAD = ("quantiles (m)", *(f"{share:.0%}" for share in QUANTILES), "share")
-_AT_ONCE = 10
-"""Number of draws that are computed between two reports of progress."""
-
 _REASONS = 3  # of those why draws lack a length, that are named
 
 
@@ -36,7 +31,11 @@ def print_quantiles(
     **options: Any,
 ) -> int:
     """Print the quantiles of all lengths of the draws of a fault; returns the exit code."""
-    answers = _answers(fault, drawn, **options)
+    size = max(np.size(x) for x in drawn.values.values())
+    answers = {
+        key: Answer(*(np.broadcast_to(x, (size,)) for x in answer))
+        for key, answer in fault.lengths(**options).items()
+    }
     medians = {name: float(np.median(x)) for name, x in arrays_of(fault).items()}
     system = system_of_fault(fault.replace(**medians), names, paper)
     statuses = {key: answer.status for key, answer in answers.items()}
@@ -51,24 +50,6 @@ def print_quantiles(
     found = {"system": system, "uncertain": list(drawn.uncertain), **counts, "lengths": lengths}
     show(as_json, found, _lines(found))
     return DONE if lengths[0]["share"] > 0.0 else CODE_OF_STABLE
-
-
-def _answers(fault: Fault, drawn: Draws, weakening_rate: Any, **options: Any) -> dict[str, Answer]:
-    """The lengths of all draws, computed in parts; a terminal shows how many are finished."""
-    arrays = arrays_of(fault)
-    size = max(np.size(x) for x in drawn.values.values())
-    parts: dict[str, list[Answer]] = {}
-    for start in range(0, size, _AT_ONCE):
-        rows = slice(start, min(start + _AT_ONCE, size))
-        part = fault.replace(**{name: x[rows] for name, x in arrays.items()})
-        rate = weakening_rate[rows] if np.ndim(weakening_rate) else weakening_rate
-        for key, answer in part.lengths(**options, weakening_rate=rate).items():
-            columns = [np.broadcast_to(x, (rows.stop - start,)) for x in answer]
-            parts.setdefault(key, []).append(Answer(*columns))
-        if sys.stderr and sys.stderr.isatty():
-            text = f"{rows.stop} of {size} draws" if rows.stop < size else ""
-            click.echo(f"\r{text:<40}\r", err=True, nl=False)
-    return {key: Answer(*map(np.concatenate, zip(*own, strict=True))) for key, own in parts.items()}
 
 
 def _described(key: str, answer: Answer) -> dict[str, Any]:

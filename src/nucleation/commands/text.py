@@ -24,7 +24,6 @@ _ENGINEERING_UNITS = {
     "m/s": {"mm/yr": 1e-3 / _YEAR, "nm/s": 1e-9, "um/s": 1e-6, "mm/s": 1e-3, "m/s": 1.0},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
     "Pa/s": {"Pa/s": 1.0, "kPa/s": 1e3, "MPa/s": 1e6, "GPa/s": 1e9},
-    "Pa/m": {"Pa/m": 1.0, "kPa/m": 1e3, "MPa/m": 1e6, "GPa/m": 1e9},
 }
 """Engineering units by SI unit, each with its size in that unit, the smallest first."""
 

@@ -107,20 +107,14 @@ def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
             f"{critical:.3g} m",
         )
     length = run.block.length
-    if length <= critical:
-        yield (
-            "block shorter than L_c",
-            critical / length,
-            f"block_length = {length:g} m is not above the theory's critical length, "
-            f"{critical:.3g} m; it may have an event all the same, as a creeping patch turns "
-            "unstable at less than that, but the block's far end changes it",
-        )
-    elif length < _SHORT_BLOCK * critical:
+    if length < _SHORT_BLOCK * critical:
         yield (
             "block short",
             critical / length,
             f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
-            f"critical length, {critical:.3g} m; recommended are 4 to 6 times",
+            f"critical length, {critical:.3g} m; recommended are 4 to 6 times. A block shorter "
+            "than that length may have an event all the same, as a patch turns unstable at "
+            "less, but the block's far end changes it",
         )
 
 

@@ -1,7 +1,6 @@
 """The parameters of a run by name: declarations, sections, reading of values."""
 
 import dataclasses
-import difflib
 from collections.abc import Mapping
 from functools import cache
 from types import MappingProxyType
@@ -79,8 +78,7 @@ def read(values: Mapping[str, Any]) -> dict[str, Any]:
     known = parameters()
     for name, value in values.items():
         if name not in known:
-            close = difflib.get_close_matches(name, known, n=3)
-            suggestion = hint(name, known) or f"similar: {', '.join(close or known)}"
+            suggestion = hint(name, known) or f"known: {', '.join(known)}"
             raise ParameterError(f"there is no parameter {name}; {suggestion}")
         entry = known[name]
         if isinstance(value, str) and not entry.worded:

@@ -75,10 +75,10 @@ class Run:
         self._set(complete(fault, read(values)))
 
     @classmethod
-    def _of(cls, values: Mapping[str, Any], like: Self | None = None) -> Self:
-        """The run of a flat mapping of all parameters; equal parts of a run `like` it are kept."""
+    def _of(cls, values: Mapping[str, Any]) -> Self:
+        """The run of a flat mapping of all parameters."""
         run = object.__new__(cls)
-        run._set(values, like)
+        run._set(values)
         return run
 
     def completed(self, **values: Any) -> Self:
@@ -91,7 +91,7 @@ class Run:
             )
         )
 
-    def _set(self, values: Mapping[str, Any], like: Self | None = None) -> None:
+    def _set(self, values: Mapping[str, Any]) -> None:
         """Set the fields from a flat mapping of all parameters."""
         own = {name: values[name] for name in sections()["friction"] if name in values}
         law = Friction(law=own.pop("friction_law"), **own)
@@ -104,10 +104,7 @@ class Run:
                 strict=True,
             )
             own = {field.name: values[name] for name, field in fields if name in values}
-            part = getattr(like, group, None)
-            if part is None or own != {n: x for n, x in vars(part).items() if x is not None}:
-                part = cls(**own)
-            object.__setattr__(self, group, part)
+            object.__setattr__(self, group, cls(**own))
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
@@ -175,7 +172,7 @@ class Run:
             changed.pop(name, None)
         for name, value in vars(law).items():
             changed[law.called.get(name, name)] = value
-        return self._of({name: x for name, x in changed.items() if x is not None}, self)
+        return self._of({name: x for name, x in changed.items() if x is not None})
 
     @property
     def upper(self) -> Body:
