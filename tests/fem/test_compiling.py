@@ -35,11 +35,15 @@ print(doubled(3), doubled(2.5), len(doubled.stats.cache_misses))
 """
 
 
-@pytest.mark.slow
-def test_two_processes_compile_for_other_arguments_at_once(tmp_path, monkeypatch):
-    """A third one finds what both have compiled."""
+@pytest.fixture(autouse=True)
+def doubling(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
     (tmp_path / "doubling.py").write_text(DOUBLING)
+
+
+@pytest.mark.slow
+def test_two_processes_compile_for_other_arguments_at_once(tmp_path):
+    """A third one finds what both have compiled."""
     programs = (TWO_AT_ONCE.format(x, 2 * x) for x in (3, 2.5))
     running = [subprocess.Popen([sys.executable, "-c", p, str(tmp_path)]) for p in programs]
     assert [process.wait() for process in running] == [0, 0]
@@ -63,9 +67,7 @@ print(len(made.stats.cache_hits))
 
 
 @pytest.mark.slow
-def test_what_is_kept_is_not_used_once_other_content_is_called(tmp_path, monkeypatch):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
-    (tmp_path / "doubling.py").write_text(DOUBLING)
+def test_what_is_kept_is_not_used_once_other_content_is_called(tmp_path):
     (program := tmp_path / "program.py").write_text(WITH_CONTENT)
     hits = []
     for content in ("one", "one", "other"):
@@ -76,11 +78,7 @@ def test_what_is_kept_is_not_used_once_other_content_is_called(tmp_path, monkeyp
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", [fcntl.LOCK_SH, fcntl.LOCK_EX], ids=["reads", "writes"])
-def test_process_that_is_stopped_while_it_holds_the_lock_does_not_stop_others(
-    kind, tmp_path, monkeypatch
-):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
-    (tmp_path / "doubling.py").write_text(DOUBLING)
+def test_process_that_is_stopped_while_it_holds_the_lock_does_not_stop_others(kind, tmp_path):
     command = [sys.executable, "-c", KEPT, str(tmp_path)]
     subprocess.run(command, check=True)
     (lock,) = (tmp_path / "kept").rglob("lock")

@@ -56,18 +56,16 @@ def test_constants_along_x_are_those_declared(law, varies):
     assert factor.tolist() == [1.0, 1.05, 1.0]
     varied = own.friction(friction, v, factor)
     f0, a, zeta = friction.expansion(v)
-    wanted = {"friction": f0, "a": a, "b": a + zeta, "zeta": zeta}
+    b = a + zeta
+    wanted = {"friction": f0, "a": a, "b": b, "zeta": zeta}
     wanted[varies] *= 1.05
+    zeta_there = wanted["zeta"] if varies in ("friction", "zeta") else wanted["b"] - wanted["a"]
     state = friction.steady_state(v)
     by_rate, by_state = varied.derivatives(v, state)
     assert varied.coefficient(v, state)[1] == pytest.approx(wanted["friction"], rel=1e-9)
     assert v * by_rate[1] == pytest.approx(wanted["a"], rel=1e-9)
-    b = wanted["b"] if varies != "zeta" else a + wanted["zeta"]
-    if varies == "friction":
-        b = a + zeta
     slow = (v / friction.slip_speed(v)) ** 2
     steady = by_rate * v - by_state * state * slow
-    zeta_there = wanted["zeta"] if varies in ("friction", "zeta") else b - wanted["a"]
     assert -steady[1] == pytest.approx(zeta_there, rel=1e-9)
     assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
 

@@ -5,7 +5,7 @@ left edge. On a grid that is uniform along x the matrices of bilinear elements a
 products of one-dimensional matrices, and the equations decouple in the modes of :mod:`.modes`. The
 paper's right edge is free of sigma_xy too: its values of u_y couple to all modes, and are
 eliminated last (:mod:`.right_edge`). The result is that of the assembled matrix to round-off
-(tests/fem/test_block.py).
+(tests/fem/test_bodies.py).
 
 The lower body of two, ``-H2 <= y <= 0``, is stored mirrored, as if it were above the interface:
 ``y -> -y`` and ``u_y -> -u_y``. The upper one is driven, so that ``w1 = u_x - U(t)`` above and

@@ -1,10 +1,8 @@
-"""The separable solver against the assembled matrix, and exact solutions."""
+"""The separable solver against the assembled matrix, and what must hold for any body."""
 
 import numpy as np
 import pytest
 from fem.assembled_problem import Assembled
-from fem.test_pair import BOTTOMS, FAST, SLOW, STATIC, pair_of, random_field, relative
-from fem.test_pair import GRIDS as GRIDS_OF_PAIRS
 
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Field, Grid, Motion
@@ -12,16 +10,38 @@ from nucleation.fem.operator import Operator
 from nucleation.fem.right_edge import foreseen_edge
 from nucleation.model.material import Material
 
-MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
+UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
+LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)
 GRIDS = [Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.3, 9, 6, grading=4.0), Grid(0.7, 0.1, 15, 2)]
-
-
 PERIOD = Grid(0.7, 0.2, 9, 5, grading=3.0, periodic=True)
+PAIRS = [
+    (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4)),
+    (Grid(1.0, 0.3, 9, 3, grading=2.0), Grid(1.0, 0.5, 9, 6, grading=4.0)),
+]
+BOTTOMS = ("free", "clamped", "roller")
+STATIC, SLOW, FAST = 0.0, 1e6, 1e13  # s in 1/s^2: statics, elasticity and inertia alike, inertia
+
+
+def pair_of(grids, bottom="free", upper=UPPER, lower=LOWER):
+    return Body((grids[0], upper), (grids[1], lower), bottom)
+
+
+def random_field(body, rng):
+    field = body.zero_field()
+    field.modes[:] = rng.normal(size=field.modes.shape)
+    field.edge[:] = body.modes.has_edge * rng.normal(size=field.edge.shape)
+    return field
+
+
+def relative(value, reference):
+    return np.abs(value - reference).max() / np.abs(reference).max()
+
+
 BODIES = {
-    **{f"block {i}": Body((grid, MATERIAL)) for i, grid in enumerate(GRIDS)},
-    "period": Body((PERIOD, MATERIAL)),
-    **{f"pair, {bottom}": pair_of(GRIDS_OF_PAIRS[0], bottom) for bottom in BOTTOMS},
-    **{f"graded pair, {bottom}": pair_of(GRIDS_OF_PAIRS[1], bottom) for bottom in BOTTOMS},
+    **{f"block {i}": Body((grid, UPPER)) for i, grid in enumerate(GRIDS)},
+    "period": Body((PERIOD, UPPER)),
+    **{f"pair, {bottom}": pair_of(PAIRS[0], bottom) for bottom in BOTTOMS},
+    **{f"graded pair, {bottom}": pair_of(PAIRS[1], bottom) for bottom in BOTTOMS},
 }
 
 
@@ -102,7 +122,7 @@ def test_condensed_operator(body, s):
 @pytest.mark.parametrize("grid", GRIDS, ids=["uniform", "graded", "thin"])
 def test_transforms_are_inverse_and_dual(grid):
     rng = np.random.default_rng(5)
-    modes = Body((grid, MATERIAL)).modes
+    modes = Body((grid, UPPER)).modes
     values, amplitudes = rng.normal(size=(2, grid.n_x))
     np.testing.assert_allclose(modes.sine_values(modes.sine_amplitudes(values)), values, rtol=1e-12)
     # nodal forces do the same work as modal ones
@@ -123,7 +143,7 @@ def test_edge_that_moves_as_foreseen_saves_a_solve(off, bottom):
 
     If not, the error is known. Either way the field is the one that is solved for without them.
     """
-    body = Body((LONG, MATERIAL)) if bottom is None else pair_of((LONG, LONG), bottom)
+    body = Body((LONG, UPPER)) if bottom is None else pair_of((LONG, LONG), bottom)
     rng = np.random.default_rng(6)
     operator, load = Operator(body, SLOW), random_field(body, rng)
     near_the_load = np.where(np.arange(LONG.n_x) < 10, 1e-9 * rng.normal(size=LONG.n_x), 0.0)
@@ -141,3 +161,41 @@ def test_edge_that_moves_as_foreseen_saves_a_solve(off, bottom):
     for field in (again, *([] if off else [found])):
         assert relative(field.modes, solved.modes) < 1e-12
         assert relative(field.edge, solved.edge) < 1e-12
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW])
+def test_identical_blocks_do_not_couple_slip_to_normal_stress(s):
+    """N = 0 exactly, and D of both is half of that of a block whose face is free: (a - b^2/c)/2."""
+    grid = PAIRS[0][0]
+    operator = Operator(pair_of((grid, grid), lower=UPPER), s)
+    a, b, c = operator.factors[0].pivot
+    assert (operator.modal[1] == 0.0).all()
+    np.testing.assert_allclose(operator.modal[0], 0.5 * (a - b**2 / c), rtol=1e-8)
+    w = np.random.default_rng(7).normal(size=grid.n_x)
+    p, normal = operator.apply(w)
+    assert np.abs(normal).max() < 1e-12 * np.abs(p).max()
+
+
+def test_a_translation_that_has_grown_from_rounding_is_taken_out():
+    """All nodes of both blocks move by what the corner has risen, at each instant its own."""
+    rng, step = np.random.default_rng(3), 0.1
+    body = pair_of(PAIRS[0])
+    motions = tuple(Motion(random_field(body, rng), random_field(body, rng), 0.0) for _ in "ab")
+    rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
+    settled = body.settled(motions, step, 1e-3 * abs(rise))
+    for age, old, new in zip((0.0, step), motions, settled, strict=True):
+        for moved, f, g in (
+            (rise - age * rate, old.displacement, new.displacement),
+            (rate, old.velocity, new.velocity),
+        ):
+            for number in (0, 1):
+                (x, y), (x_new, y_new) = (body.nodal_values(one, number) for one in (f, g))
+                np.testing.assert_array_equal(x, x_new)
+                np.testing.assert_allclose(y - y_new, moved, atol=1e-13)
+    assert body.settled(motions, step, 0.1 * abs(rise)) is motions
+    assert pair_of(PAIRS[0], "roller").settled(motions, step, 0.0) is motions
+
+
+def test_other_elements_along_x_are_refused():
+    with pytest.raises(ValueError, match="n_x = 12"):
+        pair_of((Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 13, 4)))
