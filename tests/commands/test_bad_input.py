@@ -40,6 +40,9 @@ LENGTH = [
     ([*length(height="10"), "cm"], ["write a value and its unit as one word, 10cm"]),
     (["lenght"], ["there is no command 'lenght'; did you mean length?"]),
     (["--nonsense"], ["No such option '--nonsense'"]),
+    (["length", "--Dc", "1"], ["No such option '--Dc'; did you mean --slip-distance?"]),
+    (["show", "run.nc", "--plott", "1"], ["No such option '--plott'; did you mean --plot?"]),
+    (length(parameters="other.yaml"), ["unknown key; known: shear_modulus"]),
 ]
 
 SIMULATE = [
@@ -61,6 +64,7 @@ SIMULATE = [
     (["new.nc", "--parameters", "list.yaml"], ["list.yaml must hold a mapping"]),
     (["new.nc", "--parameters", "broken.yaml"], ["broken.yaml is not valid YAML"]),
     (["new.nc", "--parameters", "unknown.yaml"], ["heigth = '5mm'", "did you mean height"]),
+    (["new.nc", "--parameters", "other.yaml"], ["unknown key; known: ", "n_x"]),
     (["new.nc", "--parameters", "twice.yaml"], ["height is given twice"]),
     (["new.nc", "--parameters", "foreign.nc"], ["foreign.nc is not valid YAML"]),
 ]
@@ -87,6 +91,7 @@ def directory(tmp_path_factory):
     texts = {
         "there.nc": "", "file": "no netCDF", "list.yaml": "- 1\n", "broken.yaml": "a: [1\n",
         "unknown.yaml": "heigth: 5mm\n", "twice.yaml": "height: 1\nheight: 2\n",
+        "other.yaml": "xyzzy: 1.0\n",
     }  # fmt: skip
     for name, text in texts.items():
         (folder / name).write_text(text)

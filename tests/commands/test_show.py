@@ -61,12 +61,8 @@ def test_plot(nucleation, files, tmp_path, name):
     assert ended.code == 0 and f"plot: {plot}" in ended.out, ended.err
     image = imread(plot)
     assert min(image.shape[:2]) > 500 and image[..., :3].std() > 0.02
-
-
-@pytest.mark.slow
-def test_plot_as_pdf(nucleation, files, tmp_path):
-    words = ["show", files["run"], "--plot", tmp_path / "plot.pdf"]
-    assert [nucleation(*words).code, nucleation(*words, "--force").code] == [0, 0]
+    pdf = ("show", files[name], "--plot", tmp_path / "plot.pdf", "--force")
+    assert [nucleation(*pdf).code, nucleation(*pdf).code] == [0, 0]
     content = (tmp_path / "plot.pdf").read_bytes()
     assert content.startswith(b"%PDF") and b"CreationDate" not in content
 

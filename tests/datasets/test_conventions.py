@@ -3,7 +3,6 @@
 import json
 import math
 
-import netCDF4
 import pytest
 import xarray as xr
 from cf_units import Unit
@@ -76,12 +75,3 @@ def test_rows_have_a_coordinate_in_the_file_and_columns_keep_their_order(tmp_pat
     found = netcdf.read(path)
     assert list(found.data_vars) == ["length", "id"] and not found.coords
     assert to_csv(found) == "length,id\n0.1,a\n"
-
-
-def test_coordinates_have_no_fill_value(tmp_path):
-    path = tmp_path / "result.nc"
-    netcdf.write(simulate(SHORT), path)
-    with netCDF4.Dataset(path) as file:
-        for name in ("time", "x"):
-            assert "_FillValue" not in file[name].ncattrs()
-        assert file.title
