@@ -109,7 +109,12 @@ def together(*options: Decorator) -> Decorator:
     return with_options
 
 
-json_option = click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+json_option = click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="print JSON, in SI units",
+)
 
 source_options = together(
     click.option(

@@ -217,7 +217,11 @@ def _moduli(fault: Fault) -> str:
     return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
 
 
-def _mode_lines(fault: Fault, critical: Answer, mode: Mapping[str, Any]) -> list[str]:
+def _mode_lines(
+    fault: Fault,
+    critical: Answer,
+    mode: Mapping[str, Any],
+) -> list[str]:
     """Length, wavenumber and frequency of the critical mode."""
     meaning = "angular frequency of the critical mode"
     frequency, unit = mode["critical_frequency"], "rad/s"
@@ -266,7 +270,12 @@ def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
     of_system: dict[str, list[Row]] = {}
     for length in LENGTHS:
         if length.key in found:
-            rows = _length_rows(length, found[length.key], fault, critical)
+            rows = _length_rows(
+                length,
+                found[length.key],
+                fault,
+                critical,
+            )
             of_system.setdefault(length.system, []).extend(rows)
     lines = []
     for system in sorted(of_system, key=lambda system: system != TWO_MATERIALS):
@@ -274,7 +283,12 @@ def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
     return lines
 
 
-def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) -> list[Row]:
+def _length_rows(
+    length: Length,
+    answer: Answer,
+    fault: Fault,
+    critical: float,
+) -> list[Row]:
     """One length of the literature: value and formula, source, validity."""
     value = float(answer.value)
     text = f"{value:.4g} m"
@@ -297,7 +311,11 @@ def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) 
     return rows
 
 
-def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:
+def _patch_lines(
+    patch: dict[str, Any],
+    width: float | None,
+    critical: float,
+) -> list[str]:
     """The smallest width W_c, and the behaviour of a patch of a width (m)."""
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch["smallest_width"]

@@ -110,7 +110,12 @@ def command(
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
-    return _simulate(run, output, as_json, described)
+    return _simulate(
+        run,
+        output,
+        as_json,
+        described,
+    )
 
 
 def _plan_lines(run: Run) -> list[str]:
@@ -130,7 +135,12 @@ def _plan_lines(run: Run) -> list[str]:
     return [*lines, until, f"memory: about {estimated_megabytes(run):.0f} MB"]
 
 
-def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) -> int:
+def _simulate(
+    run: Run,
+    output: Path,
+    as_json: bool,
+    described: dict[str, Any],
+) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
     from ..datasets import netcdf, provenance
     from ..extraction.extraction import extract

@@ -153,7 +153,11 @@ def _file(module: str) -> Path | None:
     return None
 
 
-def _collect(node: object, words: list[str], imports: list[tuple[int, str, str]]) -> None:
+def _collect(
+    node: object,
+    words: list[str],
+    imports: list[tuple[int, str, str]],
+) -> None:
     """Add the words of a syntax tree, or of a value in one, and its imports to two lists."""
     match node:
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):

@@ -139,7 +139,12 @@ class Fault:
     density: Any = 1200.0
     second_density: Any = None
     initial_state: Any = None
-    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
+    registry: Any = dataclasses.field(
+        default=None,
+        init=False,
+        repr=False,
+        compare=False,
+    )
     """The pint registry of a parameter that was a quantity; the fields are in SI units."""
 
     def __new__(cls, **given: Any) -> Self:
@@ -263,7 +268,13 @@ class Fault:
         found = self._at(wavenumber, Systems.growth_rates, dtype=complex)
         if labelled(found):
             found = found.rename(row="root")
-        return named(found, "growth_rate", "1/s", "growth rate of the mode", self)
+        return named(
+            found,
+            "growth_rate",
+            "1/s",
+            "growth rate of the mode",
+            self,
+        )
 
     def transfer_functions(self, wavenumber: Values) -> tuple[Any, Any]:
         """Elastic transfer functions G1 and G2 of the pair of bodies (Eqs. 7, 10).
@@ -290,7 +301,13 @@ class Fault:
         from ..theory.creep.lengths import stability_answers
 
         found = stability_answers(self)[0]
-        return named(found, "stability_length", "m", "stability length of the creeping patch", self)
+        return named(
+            found,
+            "stability_length",
+            "m",
+            "stability length of the creeping patch",
+            self,
+        )
 
     def runaway_length(self) -> Any:
         """Runaway length L_run, beyond which a creeping patch can't slip slowly.
@@ -301,9 +318,19 @@ class Fault:
         """
         from ..theory.creep.runaway import runaway_answers
 
-        return named(runaway_answers(self)[0], "runaway_length", "m", "runaway length", self)
+        return named(
+            runaway_answers(self)[0],
+            "runaway_length",
+            "m",
+            "runaway length",
+            self,
+        )
 
-    def weakening_patch_length(self, outside_zeta: Values, outside_a: Values | None = None) -> Any:
+    def weakening_patch_length(
+        self,
+        outside_zeta: Values,
+        outside_a: Values | None = None,
+    ) -> Any:
         """Smallest width W_c of a weakening patch that nucleates among strengthening surroundings.
 
         A narrower patch creeps at V like its surroundings, whatever disturbs it a little; on a
@@ -325,7 +352,13 @@ class Fault:
         from ..theory.weakening_patch import weakening_patch_values
 
         found = weakening_patch_values(self, outside_zeta, outside_a)
-        return named(found, "weakening_patch_length", "m", "smallest patch that nucleates", self)
+        return named(
+            found,
+            "weakening_patch_length",
+            "m",
+            "smallest patch that nucleates",
+            self,
+        )
 
     def lengths(
         self,
@@ -371,7 +404,12 @@ class Fault:
                 distance = self.single("slip_distance")
                 correlation_length = roughness_length(modulus, distance, fall)
             scale = 1.0 if correlation_length is None else correlation_length
-            declared = Perturbation(perturbation, strength, correlation_time, scale)
+            declared = Perturbation(
+                perturbation,
+                strength,
+                correlation_time,
+                scale,
+            )
             found |= answers_of_drop(self, declared)
         return answer.Lengths(found | answer.answers_of_literature(self, weakening_rate))
 
@@ -403,7 +441,13 @@ class Fault:
         """
         from ..lengths.specimen import specimen_fit
 
-        return specimen_fit(self, unknown, length, criterion, within)
+        return specimen_fit(
+            self,
+            unknown,
+            length,
+            criterion,
+            within,
+        )
 
     def _critical(self) -> CriticalMode:
         length, k, omega = evaluate(self, critical_modes, rows=3)
@@ -416,7 +460,12 @@ class Fault:
             angular_frequency=named(omega, "critical_frequency", "rad/s", frequency, self),
         )
 
-    def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
+    def _at(
+        self,
+        wavenumber: Values,
+        function: Callable[..., Any],
+        dtype: type = float,
+    ) -> Any:
         """Two rows of a function of Systems and wavenumbers."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})
@@ -424,7 +473,13 @@ class Fault:
         def at(systems: Systems, k: Any) -> Any:
             return function(systems, as_wavenumber(k))
 
-        return evaluate(self, at, k, rows=2, dtype=dtype)
+        return evaluate(
+            self,
+            at,
+            k,
+            rows=2,
+            dtype=dtype,
+        )
 
     def _require_velocity(self) -> None:
         if self.velocity is None:

@@ -47,7 +47,11 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
 class _Loader(yaml.SafeLoader):
     """YAML's safe loader; libyaml's is faster, but a hundred thousand brackets crash it."""
 
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+    def construct_mapping(
+        self,
+        node: yaml.MappingNode,
+        deep: bool = False,
+    ) -> dict[Any, Any]:
         lines: dict[str, int] = {}
         for key, _ in node.value:
             line = key.start_mark.line + 1
@@ -172,7 +176,11 @@ def _column(place: str, label: str) -> tuple[str, str]:
     return parts[1], "1" if unit == "-" else unit
 
 
-def _numbers(place: str, labels: list[str], cells: list[str]) -> list[float]:
+def _numbers(
+    place: str,
+    labels: list[str],
+    cells: list[str],
+) -> list[float]:
     """The numbers in the cells of a row."""
     if len(cells) != len(labels):
         counts = f"{len(cells)} cells, but the header has {len(labels)}"

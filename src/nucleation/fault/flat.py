@@ -76,7 +76,12 @@ def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
     if missing:
         raise ParameterError(f"{', '.join(missing)} is missing: the friction law {name} needs it")
     velocity, distance = (float(np.median(found[key])) for key in ("velocity", "slip_distance"))
-    law = own_law(velocity, distance, found.get("evolution", "aging"), name)
+    law = own_law(
+        velocity,
+        distance,
+        found.get("evolution", "aging"),
+        name,
+    )
     return found | {"friction_law": law.changed(own)}
 
 

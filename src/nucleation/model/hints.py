@@ -79,7 +79,11 @@ RANGES = {
 """Known magnitudes (SI units) by parameter; those of second bodies and zones are the same."""
 
 
-def warn_of_implausible(name: str, value: ArrayLike, entry: Quantity) -> None:
+def warn_of_implausible(
+    name: str,
+    value: ArrayLike,
+    entry: Quantity,
+) -> None:
     """Warn of the first finite value (SI units) that is outside :data:`RANGES`."""
     low, high = RANGES.get(name.removeprefix("second_").removeprefix("zone_"), (-np.inf, np.inf))
     values = np.ravel(np.asarray(value, dtype=float))

@@ -76,7 +76,11 @@ def registry() -> pint.UnitRegistry:
     return pint.UnitRegistry(non_int_type=Decimal)
 
 
-def parse(key: str, text: str, entry: Quantity) -> Any:
+def parse(
+    key: str,
+    text: str,
+    entry: Quantity,
+) -> Any:
     """The value of a text in SI units: a number with or without a unit, an integer or a choice.
 
     A ParameterError names key, value, unit and range.
@@ -117,7 +121,11 @@ def _number(text: str, entry: Quantity) -> float:
     return float(_converted(number, unit, entry) if unit else number)
 
 
-def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
+def _converted(
+    number: Decimal,
+    unit: str,
+    entry: Quantity,
+) -> Decimal:
     """A number of a unit, converted to the declared unit; the ValueError gives the reason."""
     if unit in QUICK.get(entry.unit, {}):
         return number * Decimal(QUICK[entry.unit][unit])
@@ -142,7 +150,11 @@ def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
         raise ValueError(f"{unit} is a unit of {dimension}, but {needed}") from None
 
 
-def magnitude(key: str, value: Any, entry: Quantity) -> Any:
+def magnitude(
+    key: str,
+    value: Any,
+    entry: Quantity,
+) -> Any:
     """The numbers, in the declared unit, of a value that carries a unit; other values unchanged.
 
     A text is read by :func:`parse`. A DataArray has its unit in the attribute ``units``, in the
@@ -168,7 +180,12 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
         if is_quantity(getattr(value, "data", None)):
             return value.copy(data=magnitude(key, value.data, entry))
         if "units" in attributes:
-            return rescaled(key, value, attributes["units"], entry)
+            return rescaled(
+                key,
+                value,
+                attributes["units"],
+                entry,
+            )
     if _carries_unit(value):
         library = type(value).__module__.partition(".")[0]
         raise ParameterError(
@@ -178,20 +195,34 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
     return value
 
 
-def _of_quantity(key: str, value: Any, entry: Quantity) -> Any:
+def _of_quantity(
+    key: str,
+    value: Any,
+    entry: Quantity,
+) -> Any:
     """The numbers of a pint quantity: by its own registry, whose units may be others."""
     wanted = "dimensionless" if entry.unit == "1" else entry.unit
     unit = f"{value.units:D}"
     try:
         own = float(value._REGISTRY.Quantity(1.0, value.units).to(wanted).magnitude)
     except Exception:  # of kinds of the user's library; ours words the error
-        return rescaled(key, value.magnitude, unit, entry)
+        return rescaled(
+            key,
+            value.magnitude,
+            unit,
+            entry,
+        )
     try:
         ours = float(_converted(Decimal(1), unit or "dimensionless", entry))
     except ValueError:  # a unit of the user's own
         ours = math.nan
     if abs(ours / own - 1.0) < 1e-9:
-        return rescaled(key, value.magnitude, unit, entry)  # without round-off
+        return rescaled(
+            key,
+            value.magnitude,
+            unit,
+            entry,
+        )  # without round-off
     return np.asarray(value.magnitude, dtype=float) * own
 
 
@@ -205,7 +236,12 @@ def _carries_unit(value: object) -> bool:
     return isinstance(value, str) or is_quantity(value) or of_another_library
 
 
-def rescaled(key: str, values: Any, unit: object, entry: Quantity) -> Any:
+def rescaled(
+    key: str,
+    values: Any,
+    unit: object,
+    entry: Quantity,
+) -> Any:
     """Numbers of a unit (empty or "1" for pure numbers) in the declared unit, of the same shape."""
     try:
         if not isinstance(unit, str):

@@ -32,7 +32,12 @@ def fault(run: Run) -> str:
     of_solution = [name for name in known["block"] if name != "height"]
     for section in ("stepping", "recording", "perturbation"):
         of_solution += known[section]
-    return identity(run, *of_solution, "second_n_y", "second_grading")
+    return identity(
+        run,
+        *of_solution,
+        "second_n_y",
+        "second_grading",
+    )
 
 
 def ensemble(run: Run) -> str:

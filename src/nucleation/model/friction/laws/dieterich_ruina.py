@@ -99,7 +99,13 @@ class Law(Friction):
         angle = np.arcsinh(v / s) + np.sign(v) * beyond
         return a * angle, a * by_size, b * (v * by_size)
 
-    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
+    def with_expansion(
+        self,
+        velocity: float,
+        f: float,
+        a: float,
+        zeta: float,
+    ) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
 
         Parameters

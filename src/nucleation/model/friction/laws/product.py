@@ -82,7 +82,13 @@ class Law(Friction):
         by_log_state = b * (ratio / (1.0 + ratio)) * rate
         return aging * rate, aging * by_rate, by_log_state
 
-    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
+    def with_expansion(
+        self,
+        velocity: float,
+        f: float,
+        a: float,
+        zeta: float,
+    ) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
 
         Parameters
