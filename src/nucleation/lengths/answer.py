@@ -38,8 +38,6 @@ _SPAN = 1e6  # ratio of the longest one of the search to L_b/2, and of that to t
 _CRITICAL = declared("critical length", "(0, inf) m")
 _KNOWN = {length.key: length for length in LENGTHS}
 
-FIELDS = ("value", "low", "high", "status", "reason", "doubt")
-
 
 class Answer(NamedTuple):
     """A length of one or many faults; numbers, arrays or DataArrays of equal shape."""
@@ -98,7 +96,7 @@ class Lengths(Mapping[str, Answer]):
         import xarray as xr
 
         found = {}
-        for field in FIELDS:
+        for field in Answer._fields:
             columns = _with_dimensions({key: getattr(x, field) for key, x in self.items()})
             alike = xr.broadcast(*columns.values())
             index = xr.IndexVariable("length", list(self))

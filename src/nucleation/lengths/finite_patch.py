@@ -22,7 +22,7 @@ arXiv:2512.18729), as its abstract states them; their equations and fits are not
 """
 
 from functools import lru_cache
-from typing import TypeVar, cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -30,8 +30,6 @@ from numpy.typing import NDArray
 
 from ..theory.roots import roots
 from ..types import Array
-
-_Numbers = TypeVar("_Numbers")
 
 TERMS = 24  # slip modes sin(n theta), n odd: the first instability is even in x
 NODES = 200  # of the quadrature over theta
@@ -97,9 +95,8 @@ def polynomial() -> Array:
     )
 
 
-def loaded_patch_factor(a_over_b: _Numbers) -> _Numbers:
+def loaded_patch_factor(a_over_b: Any) -> Any:
     """``L zeta sigma0/(mu* D)`` of a loaded patch with a/b from 0 to :data:`NEAREST`."""
-    ratio = cast(Array, a_over_b)
     # -1 without direct effect, 1 at NEAREST
-    scaled = 2.0 * np.log(1.0 - ratio) / np.log(1.0 - NEAREST) - 1.0
-    return cast(_Numbers, np.exp(chebyshev.chebval(scaled, polynomial())))
+    scaled = 2.0 * np.log(1.0 - a_over_b) / np.log(1.0 - NEAREST) - 1.0
+    return np.exp(chebyshev.chebval(scaled, polynomial()))

@@ -148,14 +148,7 @@ class Length:
     def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length (m) of a fault, NaN outside the validity; W in Pa/m."""
         names = [field.name for field in dataclasses.fields(Setting)]
-        own: dict[str, Any] = {
-            name: getattr(
-                fault,
-                name,
-                None,
-            )
-            for name in names
-        }
+        own: dict[str, Any] = {name: getattr(fault, name, None) for name in names}
         own["weakening_rate"] = weakening_rate
         own["poisson_ratio"] = in_plane_ratio(fault.poisson_ratio, fault.plane)
         if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
@@ -169,14 +162,14 @@ class Length:
     def facts(self, fault: FaultLike) -> dict[str, Numbers]:
         """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            known = {
-                "a/b": fault.a / nan0(fault.b),
-                "zeta": fault.zeta,
-                "b": fault.b,
-                "f |beta|": of_two_materials(fault)[1],
-                "H": fault.height,
+            known = {  # by a part of `needs`
+                "a/b": ("a/b", fault.a / nan0(fault.b)),
+                "zeta": ("zeta", fault.zeta),
+                "b > 0": ("b", fault.b),
+                "beta": ("f |beta|", of_two_materials(fault)[1]),
+                "H/L": ("H", fault.height),
             }
-        return {name: known[name] for mark, name in _FACTS.items() if mark in self.needs}
+        return dict(fact for part, fact in known.items() if part in self.needs)
 
     def of_two(self) -> Length:
         """The same length for two materials, with M in place of mu*."""
@@ -194,10 +187,6 @@ class Length:
         """Unit, title, formula, source, validity, system and condition, as attributes."""
         names = ("title", "formula", "source", "validity", "system", "needs", "beyond")
         return {"units": "m"} | {name: getattr(self, name) for name in names}
-
-
-_FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L": "H"}
-"""The quantity in a condition, by a part of :attr:`Length.needs`."""
 
 
 def of_two_materials(fault: FaultLike) -> tuple[Numbers, Numbers]:

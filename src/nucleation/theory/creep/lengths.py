@@ -87,14 +87,15 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[floa
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]
     rate = complex(pairs[0] if pairs.size else rates[0])
-    before = patches.rate_near(length * math.exp(-STEP), rate).real
-    after = patches.rate_near(length * math.exp(STEP), rate).real
+
+    def growth_near(other: float, number: int | None = None) -> float:
+        """Growth of another patch (m), in the mode with the nearest rate."""
+        near = patches.at(other, number).eigenvalues
+        return float(near[np.abs(near - rate).argmin()].real)
+
+    before, after = (growth_near(length * math.exp(step)) for step in (-STEP, STEP))
     slope = (after - before) / (2.0 * STEP)
-    with_fewer_modes = patches.rate_near(
-        length,
-        rate,
-        3 * patches.number // 4,
-    ).real
+    with_fewer_modes = growth_near(length, 3 * patches.number // 4)
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
     return length, error + extrapolation_error(patches.one, length)
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import dataclasses
 from functools import cached_property
 
-import numpy as np
-
 from ...model.friction import Friction
 from ..spectrum import Systems
 from ..status import NoLength
@@ -100,16 +98,6 @@ class Patches:
                 creep.slip_rate,
             )
         return creeping_patch(creep, friction)
-
-    def rate_near(
-        self,
-        length: float,
-        rate: complex,
-        number: int | None = None,
-    ) -> complex:
-        """The eigenvalue (Lambda over V/D) of a patch (m) that is nearest to a given one."""
-        rates = self.at(length, number).eigenvalues
-        return complex(rates[np.abs(rates - rate).argmin()])
 
 
 def require_contact(creep: Creep) -> None:
