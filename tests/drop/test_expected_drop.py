@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from asked import expected_drop
-from configurations import CONFIG
 from parts import with_parts
 
 from nucleation.api import PAPER
@@ -12,7 +11,6 @@ from nucleation.model.friction import Friction
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 from nucleation.theory.status import NoLength
-from replication.configuration.load import load
 
 THEORY = 0.4509  # m
 FAULT = PAPER_RUN.replaced(height=0.02, block_length=2.7, perturbation="normal_load", strength=1e-5)
@@ -63,17 +61,6 @@ def test_the_less_it_is_shaken_the_later_it_drops(kind):
         expected_drop(shaken.replaced(strength=strength)).law for strength in (1e-4, 1e-6, 1e-8)
     ]
     assert (np.diff([drop.length for drop in drops]) > 0.01 * THEORY).all()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["crustal_fault", "granite_laboratory"])
-def test_examples_of_weak_weakening(name):
-    """They slip slowly up to L_run."""
-    run = load(CONFIG / "examples" / f"{name}.yaml").runs[0]
-    fault = run.run.replaced(perturbation="normal_load", strength=1e-5)
-    found = expected_drop(fault)
-    assert found.slips_slowly and found.length == found.runaway_length
-    assert not found.doubt
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from asked import critical_length, lengths_in_use
+from asked import lengths_in_use
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -179,14 +179,6 @@ def test_limits_of_the_expanding_length_at_a_finite_slip_rate():
     assert np.isnan(expanding_length(localised, 1e-3, 1e-8, 1.0))
 
 
-def test_between_both_lengths_of_rubin_and_ampuero_it_is_said_what_holds():
-    found = lengths_in_use(**ROCK | LOAD, a=0.009, b=0.02)
-    for key in "rubin_ampuero_localised", "rubin_ampuero_crack":
-        assert np.isnan(found[key]) and "neither" in BEYOND[key]
-    between = [formulas.between_localised_and_crack(ratio, 1.0) for ratio in (0.3, 0.4, 0.5, 0.6)]
-    assert between == [False, True, True, False]
-
-
 def test_thin_layer_length():
     """``E H W'' = sigma0 (a - b W)``, slip rate ``v = D W/(t_end - t)``, from the edge inwards."""
     height = 1e-3
@@ -260,13 +252,3 @@ def test_lengths_of_two_materials_have_the_modulus_of_the_pair(key, second):
     modulus = 2.0 * 3.1e9 * float(g1)
     alone = one(key.removesuffix("_two_materials"), **{k: pair[k] for k in ("a", "zeta")})
     assert one(key, **pair) == pytest.approx(alone * modulus / PLANE_MODULUS, rel=1e-3)
-
-
-def test_the_theory_without_coupling_has_the_length_of_two_materials():
-    """With vanishing friction normal stress does not matter, and Eq. (9) is its normalisation."""
-    uncoupled = TWO | {"friction": 0.0}
-    expected = critical_length(**ROCK, **LOAD, **WEAKENING, **uncoupled)
-    assert one("homogeneous_sliding_two_materials", **uncoupled) == pytest.approx(expected)
-    same = {"second_shear_modulus": 3.1e9, "second_poisson_ratio": 1 / 3, "friction": 0.6}
-    length = one("homogeneous_sliding_two_materials", **same)
-    assert length == pytest.approx(one("homogeneous_sliding"))

@@ -101,8 +101,16 @@ def expected_drop(
     if known.slips_slowly:
         doubts = [*_doubts_of_runaway(patches)]
     else:
-        doubts = [*_doubts_of_law(history, known.law, known.closed_form, critical)]
-    if status != VALUE and _weakening(patches) < WEAK:
+        doubts = [
+            *_doubts_of_law(
+                history,
+                known.law,
+                known.closed_form,
+                critical,
+            )
+        ]
+    _, a, zeta = patches.constants
+    if status != VALUE and zeta / a < WEAK:
         doubts.append(
             f"the patch may slip slowly beyond this length, since L_run is not known: {reason}"
         )
@@ -119,7 +127,8 @@ def _runaway_length(
     The integration with the friction law takes longer: it is for laws with other L_s (`stable`, m)
     than constant a and b.
     """
-    ratio = _weakening(patches)
+    _, a, zeta = patches.constants
+    ratio = zeta / a
     if ratio >= WEAK:
         reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
         return math.nan, math.nan, UNKNOWN, reason
@@ -132,15 +141,10 @@ def _runaway_length(
         return math.nan, math.nan, none.status, str(none)
 
 
-def _weakening(patches: Patches) -> float:
-    """zeta/a of the fault."""
-    _, a, zeta = patches.constants
-    return zeta / a
-
-
 def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
     """Why L_run is uncertain: few bodies were compared, and a burst may hardly lower the force."""
-    ratio = _weakening(patches)
+    _, a, zeta = patches.constants
+    ratio = zeta / a
     if patches.evolution == "slip" and ratio < SLIP_BURSTS:
         yield (
             f"by the slip law and zeta/a = {ratio:.3g}, below {SLIP_BURSTS:g}, bursts hardly lower "

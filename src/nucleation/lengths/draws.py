@@ -30,7 +30,11 @@ class Draws(NamedTuple):
     """Names of the uncertain parameters."""
 
 
-def draw_samples(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draws:
+def draw_samples(
+    parameters: Mapping[str, Any],
+    draws: int = 200,
+    seed: int = 0,
+) -> Draws:
     """Draw the uncertain parameters of a fault: ranges independently, samples row by row.
 
     The ranges are drawn by Latin hypercube sampling (McKay, Beckman and Conover, 1979): each range
@@ -93,7 +97,12 @@ def draw_samples(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0)
     if not valid.any():
         raise ParameterError(f"no draw is a valid fault: not allowed are {invalid}")
     kept = {name: values[valid] for name, values in drawn.items()}
-    return Draws(fixed | kept, invalid, rows.size, tuple(drawn))
+    return Draws(
+        fixed | kept,
+        invalid,
+        rows.size,
+        tuple(drawn),
+    )
 
 
 def _by_kind(

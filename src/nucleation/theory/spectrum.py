@@ -78,7 +78,11 @@ class Systems(NamedTuple):
         larger = -(half + root)
         roots = np.stack([larger, product / larger])
         in_order = roots[0].real >= roots[1].real
-        ordered = np.where(in_order, roots, roots[::-1])
+        ordered = np.where(
+            in_order,
+            roots,
+            roots[::-1],
+        )
         return np.asarray(ordered * self.rate, dtype=complex)
 
 

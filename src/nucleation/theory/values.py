@@ -42,7 +42,11 @@ def _declared() -> dict[str, Quantity]:
     material = declarations(Material)
     friction = declarations(Friction)
     replace = dataclasses.replace
-    modulus = replace(material["shear_modulus"], low=1e-9, closed="[)")
+    modulus = replace(
+        material["shear_modulus"],
+        low=1e-9,
+        closed="[)",
+    )
     ratio = material["poisson_ratio"]
     height = declared("height of the body (inf: half-space)", "[1e-12, inf] m", symbol="H")
     far_side = Quantity(
@@ -65,7 +69,11 @@ def _declared() -> dict[str, Quantity]:
         "b": declared(
             "coefficient b = a + zeta of the log of the state", "(0.0, 10.0)", symbol="b"
         ),
-        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="[)"),
+        "slip_distance": replace(
+            friction["slip_distance"],
+            low=1e-15,
+            closed="[)",
+        ),
         "second_shear_modulus": replace(
             modulus,
             closed="[]",
@@ -127,20 +135,7 @@ def where(
     first: Any,
     second: Any,
 ) -> Any:
-    """``xr.where`` if there is a DataArray, else NumPy's.
-
-    Parameters
-    ----------
-    condition : array_like or DataArray
-        Where to take the first.
-    first, second : array_like or DataArray
-        Values, which broadcast with the condition.
-
-    Returns
-    -------
-    ndarray or DataArray
-        Broadcast shape.
-    """
+    """``xr.where`` if there is a DataArray, else NumPy's; of broadcast shape."""
     if any(labelled(value) for value in (condition, first, second)):
         return sys.modules["xarray"].where(condition, first, second)
     return np.where(condition, first, second)[()]
@@ -151,26 +146,9 @@ def checked(
     value: Any,
     entry: Quantity,
 ) -> Array | xr.DataArray:
-    """The value in SI units as an array of floats, all in the declared range.
+    """The value, with or without a unit, as an array of floats (SI units) in the declared range.
 
-    Parameters
-    ----------
-    name : str
-        Name of the parameter, for messages.
-    value : array_like, DataArray, pint quantity or str
-        Its value, with or without a unit.
-    entry : Quantity
-        Its declaration.
-
-    Returns
-    -------
-    ndarray or DataArray
-        Same shape.
-
-    Raises
-    ------
-    ParameterError
-        If it is no array of numbers, or one of them is out of range.
+    Raises ParameterError if it is no array of numbers, or one of them is out of range.
     """
     value = magnitude(name, value, entry)
     try:

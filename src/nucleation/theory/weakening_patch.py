@@ -138,14 +138,20 @@ class WeakeningPatch(NamedTuple):
     inside: Systems
     outside: Systems
 
-    def growing_modes(self, width: float, number: int) -> int:
+    def growing_modes(
+        self,
+        width: float,
+        number: int,
+    ) -> int:
         """The number of growing modes of a patch of a width (m), by a number of polynomials.
 
         A mode that oscillates counts twice, as its frequency has either sign.
         """
         turned = self._turn(width, number, 1.0)
-        mirrored = not np.any(self.inside.friction)
-        turned += turned if mirrored else self._turn(width, number, -1.0)
+        if np.any(self.inside.friction):
+            turned += self._turn(width, number, -1.0)
+        else:
+            turned += turned  # both signs are alike
         return round(turned / (2.0 * math.pi))
 
     def factors(
@@ -177,7 +183,12 @@ class WeakeningPatch(NamedTuple):
         rest = np.linalg.det(matrix / diagonal[:, :, None])
         return np.concatenate([diagonal, rest[:, None]], axis=1)
 
-    def _turn(self, width: float, number: int, sign: float) -> float:
+    def _turn(
+        self,
+        width: float,
+        number: int,
+        sign: float,
+    ) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
         stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
         scale = 1.0 + float(np.max(stiffest / np.minimum(self.inside.a, self.outside.a)))
@@ -193,7 +204,12 @@ class WeakeningPatch(NamedTuple):
             middle = np.sqrt(frequency[coarse] * frequency[coarse + 1])
             between = self.factors(width, number, sign * middle)
             frequency = np.insert(frequency, coarse + 1, middle)
-            found = np.insert(found, coarse + 1, between, axis=0)
+            found = np.insert(
+                found,
+                coarse + 1,
+                between,
+                axis=0,
+            )
         return -sign * float(np.angle(found[1:] / found[:-1]).sum())
 
 
@@ -234,7 +250,11 @@ def weakening_patch_values(
     )
     require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
-    def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:
+    def widths(
+        systems: Systems,
+        outside_zeta: Array,
+        outside_a: Array,
+    ) -> Array:
         around = systems._replace(zeta=outside_zeta, a=outside_a)
         critical = 2.0 * np.pi / largest_crossings(systems)
         stable_around = np.isnan(largest_crossings(around))

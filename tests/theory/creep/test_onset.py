@@ -112,16 +112,6 @@ def test_continuous_in_weakening(bodies, height):
     assert (np.diff(found) < 0.0).all()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("bodies", [name for name in BODIES if name != "pushed top"])
-@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0])
-def test_continuous_in_height(bodies, ratio):
-    heights = np.geomspace(1e-4, 1e3, 70)
-    found = [ratio_of(fault(ratio, height, bodies)) for height in heights]
-    assert_smooth(found)
-    assert ratio_of(fault(ratio, np.inf, bodies)) == pytest.approx(found[-1], rel=2e-3)
-
-
 def narrow_run(zeta):
     """A run whose friction has the least a that its law allows, and its L_c (m)."""
     law = {"friction_law": "dieterich_ruina", "friction": 0.41, "a": 0.0014, "zeta": zeta}

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from asked import critical_length, runaway_length, stability_length
+from asked import critical_length, stability_length
 from parts import law_values
 from scipy.integrate import solve_ivp
 
@@ -188,18 +188,6 @@ def test_the_threshold_is_that_of_a_known_law():
     assert 0.0 < deviation < 0.04
     none, every = ladder.ends()
     assert lengths[none] < 1.9 < lengths[none + 1] and lengths[every - 1] < 2.0 < lengths[every]
-
-
-@pytest.mark.slow
-def test_any_pair():
-    """Longer than L_s; earlier by the slip law; NaN where nothing nucleates."""
-    pair = {"second_shear_modulus": None, "friction": None, "height": 0.02}
-    assert over_critical(0.5, **pair)[0] == pytest.approx(1.05, rel=0.03)
-    assert over_critical(0.5, evolution="slip")[0] < over_critical(0.5)[0]
-    fault = THIN | {"zeta": [-0.001, 0.0034]} | pair
-    found = runaway_length(**fault)
-    assert np.isnan(found[0])
-    assert found[1] > 1.2 * stability_length(**fault)[1]
 
 
 @pytest.mark.slow

@@ -252,15 +252,8 @@ def _mirror_response(
     first = _thickened(one, length, number, even, SLIMMEST, known)
     second = _thickened(one, length, number, even, 0.5 * SLIMMEST, known)
     beyond = SLIMMEST / slim - 1.0
-    shear, normal = (
-        one + beyond * (two - one)
-        for one, two in zip(
-            first,
-            second,
-            strict=True,
-        )
-    )
-    return shear, normal
+    (shear, normal), (twice_shear, twice_normal) = first, second
+    return shear + beyond * (twice_shear - shear), normal + beyond * (twice_normal - normal)
 
 
 def _resolved(
