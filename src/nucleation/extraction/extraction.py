@@ -14,21 +14,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets import DatasetError
-from ..datasets.variables import Variable
 from ..run.run import Run
 from ..simulation.event import WINDOW, Outcome, long_after, patch_is_fast, patch_lengths
 from ..types import Array
 from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
 
-MEASURED = {
-    "onset_time": Variable("s", "onset of the event", "t"),
-    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
-    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
-    "length": Variable("m", "length at the drop", "L"),
-    "length_low": Variable("m", "smallest length over the definitions", "L"),
-    "length_high": Variable("m", "largest length over the definitions", "L"),
-}
-"""What :func:`extract` returns, each with the ends of its error bar."""
+READ = (
+    "onset_time",
+    "onset_time_low",
+    "onset_time_high",
+    "length",
+    "length_low",
+    "length_high",
+)
+"""What :func:`extract` returns (s, m), each with the ends of its error bar."""
 
 
 def parameters_of(dataset: xr.Dataset) -> Run:
@@ -155,7 +154,7 @@ def extract(
     Returns
     -------
     dict
-        :data:`MEASURED` by name (s, m); all NaN if the run has no event.
+        :data:`READ` by name (s, m); all NaN if the run has no event.
 
     Examples
     --------
@@ -176,7 +175,7 @@ def extract(
                 UserWarning,
                 stacklevel=2,
             )
-        return dict.fromkeys(MEASURED, float("nan"))
+        return dict.fromkeys(READ, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
     values = (
@@ -187,4 +186,4 @@ def extract(
         edges.min(),
         edges.max(),
     )
-    return dict(zip(MEASURED, map(float, values), strict=True))
+    return dict(zip(READ, map(float, values), strict=True))

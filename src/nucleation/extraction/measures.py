@@ -24,6 +24,16 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
+MEASURED = {
+    "onset_time": Variable("s", "onset of the event", "t"),
+    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
+    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
+    "length": Variable("m", "length at the drop", "L"),
+    "length_low": Variable("m", "smallest length over the definitions", "L"),
+    "length_high": Variable("m", "largest length over the definitions", "L"),
+}
+"""Results of :func:`.extraction.extract`."""
+
 EDGES = ("usual", "high", "low")
 INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {

@@ -10,9 +10,9 @@ import xarray as xr
 
 from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import MEASURED, Record, extract
+from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import follow_patch
-from nucleation.extraction.measures import MEASURES, measure
+from nucleation.extraction.measures import MEASURED, MEASURES, measure
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.names import parameters as known_parameters
 from nucleation.run.run import Run
