@@ -57,7 +57,7 @@ LAUNCH = ["-m", "replication.pipeline.launch"]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_no_name_of_a_file_is_run(make, name):
+def test_no_name_of_a_file_is_run(make, name, monkeypatch):
     cores = ["--cores", "2"]
     assert make("paper", CONFIG=name) == [[*LAUNCH, *cores, "--configfile", name]]
     built, shown = make("report", CONFIG=name)
@@ -65,12 +65,8 @@ def test_no_name_of_a_file_is_run(make, name):
     assert built == [*LAUNCH, "figures", *given]
     assert shown == [*LAUNCH, "figures", "--report", "results/report.html", *given]
     assert make("paper", CORES=name) == [[*LAUNCH, "--cores", name]]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_no_name_from_the_environment_is_run(make, name, monkeypatch):
     monkeypatch.setenv("CONFIG", name)
-    assert make("paper") == [[*LAUNCH, "--cores", "2", "--configfile", name]]
+    assert make("paper") == [[*LAUNCH, *given]]
 
 
 @pytest.mark.parametrize("variable", ["NUCLEATION_STORES", "NUMBA_CACHE_DIR", "OTHER"])

@@ -66,23 +66,6 @@ def realisations(runs):
     return list(faults.values())
 
 
-def test_what_is_beyond_the_paper_has_six_realisations():
-    """But for checks of meshes, and the map, whose points have three at either strength."""
-    config = papers()
-    studies = ("pairs_identical", "pairs_far_sides", "pairs_layers", "pairs_weak", "drop",
-               "figure_2_simulated")  # fmt: skip
-    for name in studies:
-        runs = [
-            run
-            for run in config.runs_of(name)
-            if run.run.perturbation.acts
-            and not (name == "pairs_far_sides" and run.run.block.n_x == 1600)
-        ]
-        assert min(realisations(runs)) >= 6, name
-    shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
-    assert realisations(shown) == [6] * 21
-
-
 def test_entries_have_defaults_of_their_own_that_are_in_no_name():
     entry = {"height": [0.02, 0.1], "defaults": {"longest_step": 0.02}}
     values = {"studies": {"mine": {"defaults": {"longest_step": 0.1, "n_x": 90}, "runs": [entry]}}}

@@ -1,7 +1,7 @@
 """A study is expanded into runs only when one of them is asked for."""
 
 import pytest
-from configurations import PAPER, messages, papers, study
+from configurations import PAPER, messages, papers
 
 from nucleation.model.quantities import ParameterError
 from replication.configuration import load as module
@@ -76,12 +76,6 @@ def test_what_needs_no_expansion_is_refused_at_once(section, said, expanded):
     with pytest.raises(ParameterError, match=said):
         configure({"studies": {"s": section}}, lazy=True)
     assert expanded == []
-
-
-def test_what_runs_lack_for_their_role_is_told_when_they_are_asked_for():
-    settings = configure(study({"height": 0.01}, role="pairs"), lazy=True)
-    with pytest.raises(ParameterError, match="second_body = rigid is not allowed with role"):
-        settings.runs_for("pairs")
 
 
 @pytest.mark.parametrize(

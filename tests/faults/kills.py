@@ -1,10 +1,8 @@
-"""Kills, and an edit of code: at a random part of the processor time that a workflow takes."""
+"""Kills: at a random part of the processor time that a workflow takes."""
 
 import contextlib
 import functools
-import os
 import random
-import shutil
 import signal
 
 import psutil
@@ -17,14 +15,9 @@ from harness import (
     Place,
     Reference,
     configure,
-    datasets,
     fault,
-    require_same,
-    says,
 )
-from processes import ROOT, Running, processor_time, require
-
-from replication.pipeline.store import Store
+from processes import Running, processor_time, require
 
 TERM, KILL, INT = signal.SIGTERM, signal.SIGKILL, signal.SIGINT
 
@@ -136,35 +129,3 @@ def scheduler_killed_and_parameters_changed(place, reference, random: random.Ran
         configure(place, CONFIG)
         place.finish()
         place.prune()
-
-
-@fault
-def code_edited_during_a_run(place, reference, random):
-    """At any moment: what is kept is of the code that made it, also in another store."""
-    place.forget(*IDS)
-    beside = place.directory.parent
-    checkout, other = (beside / f"{place.directory.name}.{name}" for name in ("checkout", "store"))
-    for part in ("src", "workflow", "config", "docs", "profiles"):
-        shutil.copytree(ROOT / part, checkout / part)
-    shutil.copy(ROOT / "Snakefile", checkout)
-    other.mkdir()
-    file = checkout / "src/nucleation/simulation/run.py"
-    text = file.read_text()
-    running = place.start(checkout=checkout, NUCLEATION_STORES=str(other))
-    running.spend(random.uniform(0.0, 1.0) * reference.cpu)
-    file.write_text(text.replace("SAFETY = 0.85", "SAFETY = 0.5"))
-    done = running.end()
-    if done.status != 0:
-        says(done, "have changed since this job was planned")
-    file.write_text(text)
-    os.utime(file)
-    done = place.start(checkout=checkout, NUCLEATION_STORES=str(other)).end()
-    require(done.status == 0, done.output)
-    kept = datasets(Store(other))
-    require(kept.keys() >= set(map(place.key, IDS)), f"datasets are {sorted(kept)}")
-    # others are of the edited code, if it was edited before it was planned with
-    known = kept.keys() & reference.contents.keys()
-    require_same({key: kept[key] for key in known}, reference.contents)
-    place.prune()
-    for directory in (checkout, other):
-        shutil.rmtree(directory)

@@ -1,11 +1,9 @@
 """A configuration is looked at before Snakemake sees it."""
 
-import re
 import sys
 from pathlib import Path
 
 import pytest
-from warm_snakemake import warm
 
 from replication.pipeline import launch
 
@@ -28,7 +26,6 @@ def test_configuration_files_of_a_command_line(arguments, files):
 
 BAD = {
     "missing": (None, "can't be read: No such file"),
-    "binary": (b"\x80\xff", "is not valid YAML"),
     "code": (f"__use_yte__: true\n{GOOD}".encode(), "__use_yte__ = True is not allowed"),
     "twice": (b"results: a\nresults: b\n", "the key results is given twice, in lines 1 and 2"),
 }
@@ -80,21 +77,6 @@ def test_snakemake_finds_the_profiles_of_a_clone(options, expected, monkeypatch)
     monkeypatch.chdir(ROOT)
     _, found = parse_args(["figure_1", *options])
     assert {name: getattr(found, name) for name in expected} == expected
-
-
-@pytest.mark.system
-def test_a_file_without_studies_is_the_paper_for_make_and_for_snakemake_alone(tmp_path):
-    """What is left out has the paper's value, whoever reads the file."""
-    (tmp_path / "mine.yaml").write_text("results: mine\n")
-    assert launch.problem(["--configfile", str(tmp_path / "mine.yaml")]) is None
-    arguments = ["paper", "--snakefile", str(ROOT / "Snakefile"), "--dry-run", "--quiet", "rules"]
-    planned = []
-    for options in ([], ["--configfile", "mine.yaml"]):
-        done = warm()([*arguments, *options], tmp_path, tmp_path / "printed")
-        assert done.returncode == 0, done.stdout
-        planned.append(dict(re.findall(r"^(\w+) +(\d+)$", done.stdout, re.MULTILINE)))
-    assert planned[0] == planned[1]
-    assert planned[0]["figure_3"] == "1"
 
 
 def test_files_are_looked_at_as_snakemake_merges_them(tmp_path, monkeypatch):
