@@ -89,7 +89,14 @@ def find_onset(
     maxima: list[tuple[float, float]] = []
 
     def falls(step: int) -> bool:
-        dropped = has_dropped(maxima, window, drop, time[step], force[step], fast[step])
+        dropped = has_dropped(
+            maxima,
+            window,
+            drop,
+            time[step],
+            force[step],
+            fast[step],
+        )
         return dropped and bool(long_enough[np.searchsorted(time, maxima[0][0])])
 
     end = next(filter(falls, range(time.size)), None)

@@ -72,7 +72,12 @@ class Record:
     @cached_property
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
-        long = long_after(self.run, self.x, self.time, self.simulation["slip_rate"].values)
+        long = long_after(
+            self.run,
+            self.x,
+            self.time,
+            self.simulation["slip_rate"].values,
+        )
         ruptures = self.fastest > RUPTURE * self.velocity
         return find_onset(
             self.step_time,
@@ -91,8 +96,19 @@ class Record:
         if "fastest_position" in self.simulation:
             places = self.simulation["fastest_position"].values
         found = [False]
-        for step in zip(self.step_time, self.fastest, places, strict=True):
-            found.append(patch_is_fast(self.run, found[-1], *step))
+        for step in zip(
+            self.step_time,
+            self.fastest,
+            places,
+            strict=True,
+        ):
+            found.append(
+                patch_is_fast(
+                    self.run,
+                    found[-1],
+                    *step,
+                )
+            )
         return np.array(found[1:])
 
     @property
@@ -186,4 +202,10 @@ def extract(
         edges.min(),
         edges.max(),
     )
-    return dict(zip(READ, map(float, values), strict=True))
+    return dict(
+        zip(
+            READ,
+            map(float, values),
+            strict=True,
+        )
+    )

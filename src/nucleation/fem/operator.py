@@ -81,7 +81,12 @@ class Operator:
         self.edge: EdgeValues | None = None
         if body.modes.has_edge:
             series = None if len(self.factors) == 1 else (self.compliance, self.forces)
-            self.edge = EdgeValues(body, self.factors, self.moves, series)
+            self.edge = EdgeValues(
+                body,
+                self.factors,
+                self.moves,
+                series,
+            )
 
     def _put_in_series(self) -> None:
         body = self.body
@@ -160,7 +165,11 @@ class Operator:
             below[0, 0] = parts[0][0, 0] - amplitudes
             below[0, 1] = -parts[0][0, 1]
         if before is None:
-            for factors, part in zip(self.factors, parts, strict=True):
+            for factors, part in zip(
+                self.factors,
+                parts,
+                strict=True,
+            ):
                 factors.substitute(part)
             return np.zeros_like(swept)
         rate = np.empty_like(swept)
@@ -327,7 +336,14 @@ class Operator:
             between = np.subtract.outer(nodes, nodes)
             blocks[:] = d[between], h[between]
             return self._last_blocks
-        edge_kernels.interface_blocks(d, h, self.body.modes.n_x, nodes, stiffness, coupling)
+        edge_kernels.interface_blocks(
+            d,
+            h,
+            self.body.modes.n_x,
+            nodes,
+            stiffness,
+            coupling,
+        )
         # the nodes that feel the right edge
         felt = np.abs(edge.diagonal) > EDGE_FELT * self.diagonal
         reach = int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1

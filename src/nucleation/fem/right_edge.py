@@ -68,8 +68,19 @@ class EdgeValues:
         else:
             modal = self._put_in_series(*series, moves)
         one, nothing = np.ones(body.modes.n_x), np.zeros((2, body.modes.n_x))
-        rows = np.moveaxis(body.modes.scale * modal, 1, 0)
-        by_edge = [body.modes.forces(row, one, nothing) for row in rows]
+        rows = np.moveaxis(
+            body.modes.scale * modal,
+            1,
+            0,
+        )
+        by_edge = [
+            body.modes.forces(
+                row,
+                one,
+                nothing,
+            )
+            for row in rows
+        ]
         tangential, normal = map(np.array, zip(*by_edge, strict=True))
         self.response = -self.compliance @ tangential
         self.diagonal = np.einsum("ji,ji->i", tangential, self.response)
@@ -81,7 +92,12 @@ class EdgeValues:
         normal[:, -1] = self.schur[:, 0]
         self.to_interface = tangential, normal
 
-    def _put_in_series(self, compliance: Array, forces: Array, moves: bool) -> Array:
+    def _put_in_series(
+        self,
+        compliance: Array,
+        forces: Array,
+        moves: bool,
+    ) -> Array:
         """Set `schur` and `compliance`; return forces on the modes of w and u_y per edge value."""
         above, below = (layer.to_modes() for layer in self._factors)
         mirror = np.array([1.0, -1.0])[:, None, None]
@@ -95,7 +111,11 @@ class EdgeValues:
         moved_y = xy * x + yy * y
         self.schur = stiffness - self._body.modes.scale * (x @ moved_x.T + y @ moved_y.T)
         held = self._body.is_held_along_y
-        independent = np.delete(np.eye(len(x)), n, axis=1)
+        independent = np.delete(
+            np.eye(len(x)),
+            n,
+            axis=1,
+        )
         independent[n, 0] = -1.0  # the corner, mirrored
         own = slice(None if held or moves else 1, -1 if held else None)
         inverse = _inverse_within(independent.T @ self.schur @ independent, own)

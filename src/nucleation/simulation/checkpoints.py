@@ -158,4 +158,8 @@ def run_to_file(
 
 def simulation_code(run: Run) -> str:
     """Digest of the code of a simulation, as in the workflow."""
-    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(run.law))
+    return code.digest(
+        "nucleation.simulation.run",
+        *code.ALWAYS,
+        *plugins(run.law),
+    )

@@ -34,7 +34,15 @@ class Drive(NamedTuple):
 
 def steady_drive(velocity: float, load: Field) -> Drive:
     """An edge that moves at a constant velocity (m/s) under a constant load (N/m)."""
-    return Drive(velocity, lambda time: Imposed(time, velocity * time, velocity), lambda time: load)
+    return Drive(
+        velocity,
+        lambda time: Imposed(
+            time,
+            velocity * time,
+            velocity,
+        ),
+        lambda time: load,
+    )
 
 
 def remote_drive(near: Drive, start: Field, rising: Field) -> Drive:
@@ -44,7 +52,11 @@ def remote_drive(near: Drive, start: Field, rising: Field) -> Drive:
     """
 
     def at(time: float) -> Imposed:
-        return near.at(time)._replace(displacement=0.0, velocity=0.0, acceleration=0.0)
+        return near.at(time)._replace(
+            displacement=0.0,
+            velocity=0.0,
+            acceleration=0.0,
+        )
 
     def load(time: float) -> Field:
         risen = rising.times(near.at(time).displacement)

@@ -78,7 +78,14 @@ class Series:
 
     def __init__(self, seed: int, correlation: float) -> None:
         self.spacing = MEAN_SQUARE * correlation
-        self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
+        self.phase = float(
+            _uniform(
+                seed,
+                PHASE,
+                SERIES,
+                1,
+            )[0]
+        )
         self._seed = seed
         self._coefficients = np.empty(0)
         self._before = np.zeros(1)  # sums of the coefficients before each
@@ -170,7 +177,14 @@ class Sheet:
         self, seed: int, correlation_time: float, correlation_length: float, x: Array
     ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
-        self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
+        self.phase = float(
+            _uniform(
+                seed,
+                PHASE,
+                SHEET,
+                1,
+            )[0]
+        )
         rows = _along_x(seed, correlation_length, x, SHEET)
         self._row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
 

@@ -93,7 +93,13 @@ class Recorder:
             interface.iterations,
         )
         self._rows.append(row)
-        fast = patch_is_fast(self.run, self._patch_is_fast, state.time, fastest, position)
+        fast = patch_is_fast(
+            self.run,
+            self._patch_is_fast,
+            state.time,
+            fastest,
+            position,
+        )
         self._patch_is_fast = fast
         dropped = has_dropped(
             self._maxima,
@@ -267,7 +273,13 @@ class _Energy:
         elastic, kinetic = self._stored(self._state) - self._start
         work, by_friction = self._works
         values = (elastic, kinetic, work, -by_friction)
-        return dict(zip(ENERGIES, map(float, values), strict=True))
+        return dict(
+            zip(
+                ENERGIES,
+                map(float, values),
+                strict=True,
+            )
+        )
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""

@@ -102,7 +102,15 @@ def accepted_step(
             continue
         step = new.last_step * min(factor, growth)
         wanted = scheme.leading_coefficient(step, new.last_step)
-        return Instant(new, report, _Control(wanted, control.steps + 1, rejected))
+        return Instant(
+            new,
+            report,
+            _Control(
+                wanted,
+                control.steps + 1,
+                rejected,
+            ),
+        )
 
 
 def _step_factor(error: float, scheme: BDF) -> float:

@@ -68,9 +68,19 @@ class State:
             )
             for name in _FIELDS
         )
-        motions = tuple(map(Motion, *fields, arrays["momentum"].tolist()))
+        motions = tuple(
+            map(
+                Motion,
+                *fields,
+                arrays["momentum"].tolist(),
+            )
+        )
         plain = {name: arrays[name] for name in _PLAIN}
-        return cls(motions, **plain, edge_error=float(arrays["edge_error"]))
+        return cls(
+            motions,
+            **plain,
+            edge_error=float(arrays["edge_error"]),
+        )
 
     @property
     def time(self) -> float:
@@ -151,7 +161,12 @@ class Dynamics:
         operator = self.operator(step.s)
         imposed, external = self.driven(time)
         load = self._load_with_past(state, step, external)
-        guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
+        guess = _extrapolated(
+            state,
+            step,
+            self.drive.velocity,
+            self._slip_distance,
+        )
         scaled, expected, log_state, scale = guess
         rates = self.body.modes.on_all_nodes(expected[1:], imposed.velocity)
         past = self._past(state, step, imposed)
@@ -163,7 +178,13 @@ class Dynamics:
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
             response = operator.respond(load, w, edge)
-            solution = self.interface.solve(operator, response, past, imposed, rates)
+            solution = self.interface.solve(
+                operator,
+                response,
+                past,
+                imposed,
+                rates,
+            )
             moved, velocity, error = operator.balance(
                 response,
                 solution.w,
@@ -211,7 +232,11 @@ class Dynamics:
     ) -> Field:
         """A load at the end of the step, with the past part of inertia."""
         terms = []
-        for c, motion in zip(step.body.past, state.motions, strict=False):
+        for c, motion in zip(
+            step.body.past,
+            state.motions,
+            strict=False,
+        ):
             terms += [(c, motion.displacement), (c * step.body.beta, motion.velocity)]
         return self.body.inertia_load(step.s, terms, load)
 
@@ -230,7 +255,11 @@ class Dynamics:
         force = solution.tangential[self.grid.own].sum()
         if self.drive.moves:
             change = motion.momentum
-            for c, past in zip(step.body.past, state.motions, strict=False):
+            for c, past in zip(
+                step.body.past,
+                state.motions,
+                strict=False,
+            ):
                 change -= c * past.momentum
             force = force - change / step.body.beta
         return float(force) - self.body.total_mass * imposed.acceleration  # of the frame
