@@ -165,12 +165,6 @@ def test_example_of_the_module():
 SHORT = {"block_length": 0.9, "n_x": 16, "n_y": 2, "end_time": 0.02}
 
 
-def test_the_record_of_a_run():
-    record = api.simulate(api.Run(api.PAPER, **SHORT))
-    assert float(record["step_time"][-1]) >= SHORT["end_time"]
-    assert math.isnan(api.extract(record)["length"])  # no event so early
-
-
 def test_an_interrupted_run_keeps_its_record(capsys):
     """Ctrl-C ends a run after its step; what follows is not interrupted."""
     signal.signal(signal.SIGINT, signal.default_int_handler)  # background shells ignore it

@@ -79,19 +79,6 @@ def test_json_has_the_library_s_numbers(found):
         assert entry["units"] == "m" and (entry["reason"] == "") == (entry["value"] is not None)
 
 
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"30GPa": "30e9", "50MPa": "5e7", "5um": "5e-6"},
-        {"--b": "--zeta", "0.015": "0.005"},
-    ],
-    ids=["without units", "zeta"],
-)
-def test_one_fault_in_other_words(nucleation, other):
-    words = " ".join(other.get(word, word) for word in WORDS).split()
-    assert nucleation(*words).out == nucleation(*WORDS).out
-
-
 OTHER = {"second_shear_modulus": 60e9, "second_poisson_ratio": 0.3}
 SIDES = {"far_side": "free", "second_far_side": "clamped"}
 

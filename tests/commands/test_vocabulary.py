@@ -44,17 +44,6 @@ def theory(ended, key="critical_length"):
 
 
 @pytest.mark.slow
-def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
-    assert theory(nucleation("length", *words(FAULT), "--json")) == pytest.approx(expected())
-    run = [*words(FAULT), "--friction-law", "dieterich_ruina", "--json"]
-    dry = nucleation("simulate", tmp_path / "run.nc", *run, "--dry-run")
-    assert theory(dry) == pytest.approx(expected(), rel=1e-3), dry.err
-    asked = {k: v for k, v in FAULT.items() if k != "--normal-stress"}
-    fit = nucleation("specimen", "--length", f"{expected()}m", *words(asked), "--json")
-    assert json.loads(fit.out)["intervals"][0][0] == pytest.approx(50e6, rel=1e-3)
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "more",
     [

@@ -87,15 +87,6 @@ def test_joined_tables_keep_their_longest_text(tmp_path):
     assert list(joined["id"].values) == ["short", "a longer one"]
 
 
-def test_attributes_are_read_from_the_seal(record, tmp_path, monkeypatch):
-    """They are those of the whole dataset, and HDF5 has no part in it."""
-    path = tmp_path / "record.nc"
-    netcdf.write(record.assign_attrs(steps=np.int64(3), end=np.float64(1e-9)), path, command="a")
-    whole = netcdf.read(path).attrs
-    monkeypatch.setattr(xr, "open_dataset", None)
-    assert netcdf.attributes(path) == {k: np.asarray(v).tolist() for k, v in whole.items()}
-
-
 def test_only_files_are_opened(tmp_path):
     """A pipe would be waited for, a device read without end, and an address be asked for."""
     os.mkfifo(tmp_path / "pipe.nc")
