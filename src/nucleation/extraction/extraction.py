@@ -202,10 +202,4 @@ def extract(
         edges.min(),
         edges.max(),
     )
-    return dict(
-        zip(
-            READ,
-            map(float, values),
-            strict=True,
-        )
-    )
+    return dict(zip(READ, map(float, values), strict=True))

@@ -81,12 +81,7 @@ class Operator:
         self.edge: EdgeValues | None = None
         if body.modes.has_edge:
             series = None if len(self.factors) == 1 else (self.compliance, self.forces)
-            self.edge = EdgeValues(
-                body,
-                self.factors,
-                self.moves,
-                series,
-            )
+            self.edge = EdgeValues(body, self.factors, self.moves, series)
 
     def _put_in_series(self) -> None:
         body = self.body
@@ -165,11 +160,7 @@ class Operator:
             below[0, 0] = parts[0][0, 0] - amplitudes
             below[0, 1] = -parts[0][0, 1]
         if before is None:
-            for factors, part in zip(
-                self.factors,
-                parts,
-                strict=True,
-            ):
+            for factors, part in zip(self.factors, parts, strict=True):
                 factors.substitute(part)
             return np.zeros_like(swept)
         rate = np.empty_like(swept)

@@ -149,11 +149,7 @@ def slipping_edge(
     count. Before the event this position moves back and forth; the patch is as long as it has ever
     been. Slip rates (m/s) have the shape (..., nodes); the position is zero where nothing slips.
     """
-    rate = np.maximum(
-        np.abs(slip_rate),
-        STUCK,
-        dtype=float,
-    )  # in double precision
+    rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)  # in double precision
     near = int(
         np.searchsorted(
             x,
@@ -166,11 +162,7 @@ def slipping_edge(
     inside = near - 1 - from_far.argmax(axis=-1)
     outside = np.minimum(inside + 1, x.size - 1)
     edge = _between(x, rate, inside, outside, threshold)
-    return np.where(
-        faster.any(axis=-1),
-        edge,
-        0.0,
-    )
+    return np.where(faster.any(axis=-1), edge, 0.0)
 
 
 def _between(
@@ -187,11 +179,7 @@ def _between(
     """
 
     def log_rate(nodes: NDArray[np.intp]) -> Array:
-        chosen = np.take_along_axis(
-            rate,
-            nodes[..., None],
-            -1,
-        )
+        chosen = np.take_along_axis(rate, nodes[..., None], -1)
         return np.log(chosen[..., 0])
 
     edge = np.log(threshold)
@@ -211,11 +199,7 @@ def slipping_zone(
     periodic: bool = False,
 ) -> tuple[float, float]:
     """Find the zone about the fastest node that slips faster than a threshold at one instant."""
-    rate = np.maximum(
-        np.abs(slip_rate),
-        STUCK,
-        dtype=float,
-    )
+    rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)
     fastest = int(np.argmax(rate))
     if rate[fastest] <= threshold:
         return 0.0, 0.0
@@ -232,15 +216,7 @@ def slipping_zone(
         if not outer.size:
             return float(x[::step][-1])
         outside = np.array(fastest + step * outer[0])
-        return float(
-            _between(
-                x,
-                rate,
-                outside - step,
-                outside,
-                threshold,
-            )
-        )
+        return float(_between(x, rate, outside - step, outside, threshold))
 
     return end(-1), end(1)
 
@@ -258,13 +234,5 @@ def patch_lengths(
     if kind == "edge":
         return slipping_edge(x, slip_rates, threshold)
     periodic = kind == "remote"
-    zones = [
-        slipping_zone(
-            x,
-            rate,
-            threshold,
-            periodic,
-        )
-        for rate in slip_rates
-    ]
+    zones = [slipping_zone(x, rate, threshold, periodic) for rate in slip_rates]
     return np.array([end - begin for begin, end in zones])

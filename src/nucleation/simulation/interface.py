@@ -245,14 +245,7 @@ def _solved(
     solved = -residual[active].astype(np.float32)
     if active.size:
         stiffness, coupling = operator.tangent(active + 1, np.float32)
-        matrix = passes.newton_matrix(
-            stiffness,
-            coupling,
-            coefficient,
-            damping,
-            active,
-            beta,
-        )
+        matrix = passes.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
         *_, solved, info = lapack.sgesv(
             matrix.T,
             solved,

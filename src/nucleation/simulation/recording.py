@@ -273,13 +273,7 @@ class _Energy:
         elastic, kinetic = self._stored(self._state) - self._start
         work, by_friction = self._works
         values = (elastic, kinetic, work, -by_friction)
-        return dict(
-            zip(
-                ENERGIES,
-                map(float, values),
-                strict=True,
-            )
-        )
+        return dict(zip(ENERGIES, map(float, values), strict=True))
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""

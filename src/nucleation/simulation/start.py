@@ -68,11 +68,7 @@ def interface_of(run: Run, grid: Grid) -> Interface:
         tolerance = max(tolerance, min(coarse, run.perturbation.strength))
     if varied.varies == "none":
         return Interface(friction, tolerance)
-    factor = varied.factor(
-        grid.x,
-        grid.length,
-        grid.periodic,
-    )
+    factor = varied.factor(grid.x, grid.length, grid.periodic)
     friction = varied.friction(friction, run.fault.velocity, factor)
     extra: Array | float = 0.0
     if varied.varies == "normal_stress":
@@ -118,11 +114,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
     motion = body.at_rest(displacement, imposed.velocity)
     past = slip_rate[None], log_state[None], response.w[None]
-    state = State(
-        (motion,),
-        np.zeros(1),
-        *past,
-    )
+    state = State((motion,), np.zeros(1), *past)
     interface = InterfaceSolution(
         slip_rate,
         log_state,

@@ -76,11 +76,7 @@ class State:
             )
         )
         plain = {name: arrays[name] for name in _PLAIN}
-        return cls(
-            motions,
-            **plain,
-            edge_error=float(arrays["edge_error"]),
-        )
+        return cls(motions, **plain, edge_error=float(arrays["edge_error"]))
 
     @property
     def time(self) -> float:
@@ -161,12 +157,7 @@ class Dynamics:
         operator = self.operator(step.s)
         imposed, external = self.driven(time)
         load = self._load_with_past(state, step, external)
-        guess = _extrapolated(
-            state,
-            step,
-            self.drive.velocity,
-            self._slip_distance,
-        )
+        guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         scaled, expected, log_state, scale = guess
         rates = self.body.modes.on_all_nodes(expected[1:], imposed.velocity)
         past = self._past(state, step, imposed)
@@ -178,13 +169,7 @@ class Dynamics:
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
             response = operator.respond(load, w, edge)
-            solution = self.interface.solve(
-                operator,
-                response,
-                past,
-                imposed,
-                rates,
-            )
+            solution = self.interface.solve(operator, response, past, imposed, rates)
             moved, velocity, error = operator.balance(
                 response,
                 solution.w,
