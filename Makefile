@@ -90,7 +90,7 @@ REST := import sys, pandas, xarray; table = xarray.open_dataset("results/lengths
 reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		convergence figure_drop \
-		figure_2_simulated pairs figure_map figure_weakening figure_patch_theory \
+		figure_2_simulated pairs figure_map figure_weakening gather_patch_theory \
 		figure_weakening_patches patch_outcomes other_faults \
 		figure_literature --cores "$$CORES"
 	mkdir -p results/reference

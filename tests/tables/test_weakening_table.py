@@ -88,7 +88,11 @@ def with_curves(rows):
 def test_the_figure_has_a_panel_for_each_base_with_curves():
     rows = drawn_rows()
     alone = rows[0].assign(height=("run", np.full(2, 1.0)))  # of one weakening: no curve
-    (axes,) = figure_weakening.draw(with_curves([*rows, alone])).axes
+    table = with_curves([*rows, alone])
+    (axes,) = figure_weakening.draw(table).axes
+    x = table["curve_ratio"].values
+    for line in axes.lines[:3]:
+        np.testing.assert_array_equal(line.get_xydata(), np.transpose([x, 1.0 / np.sqrt(x)]))
     points = [container.lines[0] for container in axes.containers]
     assert [float(point.get_xdata()[0]) for point in points] == [0.5, 1.0, 3.0]
     assert points[0].get_ydata() == pytest.approx(0.75)
@@ -114,12 +118,3 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     again = weakening_curves(runs[1:], [2.5, 6.0])
     np.testing.assert_allclose(again["curve_law"][0], found["curve_law"][1], rtol=1e-2)
     assert np.isnan(found["curve_runaway"]).all()
-
-
-def test_the_figure_draws_the_curves_that_are_given():
-    table = with_curves(drawn_rows())
-    x = table["curve_ratio"].values
-    (axes,) = figure_weakening.draw(table).axes
-    for line in axes.lines[:3]:
-        np.testing.assert_array_equal(line.get_xdata(), x)
-        np.testing.assert_array_equal(line.get_ydata(), 1.0 / np.sqrt(x))

@@ -197,22 +197,6 @@ rule figure_map:
         JOB
 
 
-rule figure_patch_theory:
-    """Stability of the creeping patch by theory"""
-    input:
-        table=f"{RESULTS}/patch_theory.nc",
-        recipe=recipe("figure_patch_theory"),
-    output:
-        drawn("figure_patch_theory"),
-    log:
-        f"{RESULTS}/logs/figures/figure_patch_theory.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_patch:draw_theory",
-    shell:
-        JOB
-
-
 rule figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:

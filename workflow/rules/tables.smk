@@ -86,7 +86,7 @@ rule gather_patch_theory:
     log:
         f"{RESULTS}/logs/patch_theory.log",
     params:
-        call="replication.tables.theory:theory_files",
+        call="replication.tables.theory:theory_table",
         loads=lambda wildcards: laws_of(compared_with_theory()),
         runs=lambda wildcards: as_dicts(compared_with_theory()),
     shell:

@@ -117,7 +117,7 @@ ROLES = {
         one_by_one=False,
         study=(_STABILITY, _BATCHES),
     ),
-    # faults for the test of the patch theory, for `figure_patch_theory`
+    # faults for the test of the patch theory, for `gather_patch_theory`
     "patch_theory": _Role(
         several=True,
         one_by_one=False,

@@ -18,7 +18,6 @@ ROLES: dict[str, tuple[str, ...]] = {
     "figure_weakening_patches": ("weakening_patches",),
     "figure_map": ("map",),
     "figure_patch_stability": ("paper",),
-    "figure_patch_theory": ("converged",),
     "figure_2_simulated": ("pairs_identical", "figure_2_simulated"),
     "figure_literature": ("literature",),
 }

@@ -1,4 +1,4 @@
-"""The linear stability of the creeping patch: of runs, and the theory against simulations."""
+"""The linear stability of the creeping patch in runs."""
 
 from collections.abc import Iterable, Sequence
 
@@ -175,48 +175,3 @@ def _draw_instants(
             rasterized=True,
             **look,
         )
-
-
-_BAND = 3.0  # per cent, within which theory and simulation agree
-
-
-@style.styled()
-def draw_theory(table: xr.Dataset) -> Figure:
-    """Draw L_s over L_c against zeta/a, and the theory's error against simulations."""
-    figure, (ratio, parity) = style.panels(7.6, columns=2)
-    style.letters(ratio, parity)
-    curve = table["curve_ratio"], table["curve_stability"]
-    ratio.semilogx(*curve, color=style.STABILITY, label="thin layers")
-    own = laws.where(table, f_beta=0.0)
-    theory = own["critical_length"]
-    points = own["zeta_over_a"], own["stability_length"] / theory
-    drawn = ratio.scatter(
-        *points,
-        c=own["height"] / theory,
-        s=7.0,
-        norm="log",
-        label="simulated",
-    )
-    figure.colorbar(drawn, ax=ratio, label="$H/L_c$")
-    ratio.axhline(0.5, ls=":", lw=0.6, label="one half")
-    ratio.xaxis.set_major_formatter("{x:g}")
-    ratio.set(xlabel=r"$\zeta/a$", ylabel="$L_s/L_c$")
-    for i, own in enumerate(laws.groups(table, "study")):
-        marker, colour = style.look(i)
-        measured = own["stability_length"] / own["critical_length"]
-        difference = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
-        label = str(own["study"].values[0]).replace("_", " ")
-        parity.plot(
-            measured,
-            difference,
-            marker,
-            color=colour,
-            ms=2.8,
-            label=label,
-        )
-    parity.axhspan(-_BAND, _BAND, color="0.9", label=f"within {_BAND:g} %")
-    parity.set(xlabel="$L_s/L_c$, simulated", ylabel=r"$L_s$: theory / simulation $-$ 1 (%)")
-    below: style.Options = {"loc": "outside lower center", "ncols": 5, "fontsize": style.SMALL}
-    style.legend(figure, parity, title="Studies in (b)", **below)
-    ratio.legend(fontsize=style.SMALL)
-    return figure

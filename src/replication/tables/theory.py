@@ -4,16 +4,15 @@ import contextlib
 import math
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import annotate, declared, table, to_csv
+from nucleation.datasets.variables import declared, table
 from nucleation.extraction.growth import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
-from nucleation.theory.closed_forms import bimaterial_contrast, thin_limit
+from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.status import NoLength
@@ -34,17 +33,9 @@ COLUMNS = declared(
 )
 """``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
 
-DRAWN = declared("""
-    curve_ratio | 1 | weakening over direct effect | zeta/a
-    curve_stability | 1 | L_s over L_c | L_s/L_c
-""")
-"""The thin limit's curve."""
 
-CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
-
-
-def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str, Any]:
-    """The table with the thin limit's curve, and the table as CSV."""
+def theory_table(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """:data:`COLUMNS` of each fault whose L_s is known from simulations."""
     known: dict[str, float] = {}
     for measured in tables:
         known |= measured.set_index(run="id")["stability_length"].to_series().to_dict()
@@ -62,12 +53,7 @@ def theory_files(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> dict[str,
     for own in faults.values():
         mean = float(np.mean([known[run["id"]] for run in own]))
         rows.append(_row(own[0]) | {"stability_length": mean})
-    listed = table(rows, COLUMNS)
-    drawn = listed.assign(
-        curve_ratio=("curve", CURVE),
-        curve_stability=("curve", [thin_limit(ratio)[0] for ratio in CURVE]),
-    )
-    return {".nc": annotate(drawn, DRAWN), ".csv": to_csv(listed)}
+    return table(rows, COLUMNS)
 
 
 def _row(run: Row) -> Row:
