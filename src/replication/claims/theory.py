@@ -45,7 +45,13 @@ _OF_BOTH = ("shear_modulus", "normal_stress", "friction", "a", "zeta", "slip_dis
 
 def main_text(evidence: Evidence, **changes: Any) -> Fault:
     """Two identical half-spaces with the main text's friction, and changes."""
-    kept = {name: getattr(evidence.interface, name) for name in _OF_BOTH}
+    kept = {
+        name: getattr(
+            evidence.interface,
+            name,
+        )
+        for name in _OF_BOTH
+    }
     return Fault(**kept | {"poisson_ratio": evidence.nu} | changes)
 
 
@@ -158,7 +164,10 @@ def _eta_over_largest(evidence: Evidence) -> Result:
 def _uncoupled_frequency(evidence: Evidence) -> Result:
     at = evidence.interface
     expected = math.sqrt(at.zeta / at.a) * at.velocity / at.slip_distance
-    return Result(main_text(evidence).critical_mode().angular_frequency, formula(expected))
+    return Result(
+        main_text(evidence).critical_mode().angular_frequency,
+        formula(expected),
+    )
 
 
 def _friction_perturbation(evidence: Evidence) -> Array:
@@ -194,7 +203,10 @@ def _short_waves(evidence: Evidence) -> float:
         60,
     )[:, None]
     wavenumbers = ratios * curve["critical_wavenumber"].values
-    rates = block(evidence, curve["height"].values).spectrum(wavenumbers)
+    rates = block(
+        evidence,
+        curve["height"].values,
+    ).spectrum(wavenumbers)
     return float(rates.real.max() * evidence.interface.slip_distance / evidence.velocity)
 
 

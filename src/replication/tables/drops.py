@@ -124,7 +124,13 @@ def drop_files(
         stress = parameters.start.initial_shear_stress / own.normal_stress
         try:
             history = mode_history(patches, critical, own.initial_state, stress)
-            laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
+            laws[fault(parameters)] = _Law(
+                history,
+                stability_length_of(
+                    patches,
+                    critical,
+                ),
+            )
         except NoLength:
             continue
     rows = [

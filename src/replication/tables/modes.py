@@ -235,7 +235,10 @@ def _table(rows: list[Row]) -> xr.Dataset:
         found[f"{kind}_frequency"] = (along, both.imag)
     ratio = found["mode_wavenumber"] / found["critical_wavenumber"]
     apart = np.abs(measured - theory) / np.abs(theory)
-    found = found.assign(wavenumber_over_critical=ratio, disagreement=(along, apart))
+    found = found.assign(
+        wavenumber_over_critical=ratio,
+        disagreement=(along, apart),
+    )
     return annotate(found, COLUMNS)
 
 
@@ -320,7 +323,16 @@ def pair_modes(
 def pair_mode_files(base: Run) -> dict[str, Any]:
     """:func:`pair_modes` as files; each pair replaces the moduli of the base."""
     found = pair_modes(base)
-    return _files(found, ["branch", *map(str, found.data_vars)])
+    return _files(
+        found,
+        [
+            "branch",
+            *map(
+                str,
+                found.data_vars,
+            ),
+        ],
+    )
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
