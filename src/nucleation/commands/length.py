@@ -49,8 +49,6 @@ _PERTURBED = declarations(Perturbation)
 _OF_PERTURBATION = {
     "perturbation": _PERTURBED["kind"],
     "strength": _PERTURBED["strength"],
-    "correlation_time": _PERTURBED["correlation_time"],
-    "correlation_length": _PERTURBED["correlation_length"],
 }
 """The perturbation of the length at the drop, the arguments of ``Fault.lengths``."""
 
@@ -65,8 +63,6 @@ _OF_PATCH = {
 _NOTES = {
     "perturbation": "of the length at the drop; normal_load if left out, none: without it",
     "strength": "1e-4 if left out",
-    "correlation_time": "1",
-    "correlation_length": "a fifth of L_b if left out",
     "outside_zeta": "of the surroundings of a weakening patch, for W_c and --width",
     "outside_a": "of the surroundings; that of the patch if left out",
     "width": "needs --outside-zeta",
@@ -172,20 +168,16 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
         "mode": mode,
         "perturbation": perturbed,
         "weakening_patch": patch,
-        "lengths": [_described(key, answer) for key, answer in found.items()],
+        "lengths": [
+            {"key": key, **answer._asdict(), **_WORDS.get(key, {"units": "m"})}
+            for key, answer in found.items()
+        ],
     }
     show(as_json, everything, [*lines, "", *wrapped(remark)])
     return DONE if critical.exists else CODE_OF_STABLE
 
 
 _WORDS = {length.key: length.words() for length in LENGTHS}
-
-
-def _described(key: str, answer: Answer) -> dict[str, Any]:
-    """A length for JSON, in SI units."""
-    numbers = {name: float(getattr(answer, name)) for name in ("value", "low", "high")}
-    texts = {name: str(getattr(answer, name)) for name in ("status", "reason", "doubt")}
-    return {"key": key, **numbers, **texts, **_WORDS.get(key, {"units": "m"})}
 
 
 def _mode(fault: Fault) -> dict[str, Any]:

@@ -78,9 +78,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
     if found is not None:
         value, verdict = fault.single(unknown), _verdict(length, found)
         judged = {"value": value, "verdict": verdict}
-        for key in _JUDGED:
-            numbers = found[key]._asdict()
-            judged[key] = {n: x if isinstance(x, str) else float(x) for n, x in numbers.items()}
+        judged |= {key: found[key]._asdict() for key in _JUDGED}
         lines += [f"At {unknown} = {in_unit(value, fit.unit)} {verdict}."]
     lines.append(f"{NAMES[criterion]} fits into {in_unit(length, 'm')} if")
     lines += _fit_lines(fit)
