@@ -100,6 +100,16 @@ def test_results_are_those_of_single_jobs(batched):
     assert workflow.planned("lengths") == {}
 
 
+def test_a_batch_reports_its_progress(batched):
+    """One line for each run but the last; a job with one run has none."""
+    counts = [
+        sum(path.read_text().count(" of 2 runs done, about ") for path in logs)
+        for one in batched
+        for logs in [(one.directory / "results/logs").glob("*/*.log")]
+    ]
+    assert counts == [1, 0]
+
+
 def assert_same_datasets(one, other):
     """The same runs by their keys, whatever the study, with the same values to the last bit."""
     found, expected = (

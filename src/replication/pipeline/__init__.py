@@ -2,13 +2,15 @@
 
 This room may import every other one. Its messages are one line each, on standard error. A job
 redirects its standard error to its log, with the messages and everything that libraries print;
-warnings and errors of a job also appear on the terminal.
+progress, warnings and errors of a job also appear on the terminal.
 """
 
 import logging
 import sys
 
 LOGGER = logging.getLogger("replication.pipeline")
+PROGRESS = (logging.INFO + logging.WARNING) // 2
+"""Level of messages that appear on the terminal, too, though nothing is wrong."""
 
 
 class _StandardError(logging.Handler):

@@ -4,7 +4,7 @@
 
 No heavy library is loaded before the stores were searched. If Snakemake was forced to run the job,
 the result is made again and compared with the stored one. All that the job writes to standard error
-is appended to LOG; warnings and errors also appear on the terminal.
+is appended to LOG; progress, warnings and errors also appear on the terminal.
 """
 
 import contextlib
@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import LOGGER
+from . import LOGGER, PROGRESS
 from .recipes import read
 from .store import Store, others
 
@@ -38,7 +38,7 @@ def main(
     os.environ |= dict.fromkeys(_ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     terminal = logging.StreamHandler(sys.stderr)
-    terminal.setLevel(logging.WARNING)
+    terminal.setLevel(PROGRESS)
     LOGGER.addHandler(terminal)
     with (
         Path(log).open("a", buffering=1, encoding="utf-8") as stream,

@@ -7,10 +7,12 @@ New results are copied to the stores elsewhere.
 import gc
 import importlib
 import inspect
+import multiprocessing
 import os
 import shlex
 import sys
 import tempfile
+import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import is_dataclass
@@ -25,7 +27,7 @@ from nucleation.datasets.variables import to_csv
 from nucleation.model.quantities import ParameterError
 
 from ..tables.rows import remarked, rows_of, without_event
-from . import LOGGER
+from . import LOGGER, PROGRESS
 from .batches import side_by_side
 from .recipes import Recipe, key_in
 from .store import STEM, Store, others, read_note
@@ -114,6 +116,9 @@ class _Maker:
         them once all were tried.
         """
 
+        number_done = multiprocessing.Value("i", 0)  # of all processes
+        began = time.monotonic()
+
         def one(number: int) -> tuple[str, Any]:
             """Why a part has failed, and the value of the function if it has not."""
             try:
@@ -122,6 +127,13 @@ class _Maker:
                 LOGGER.info(error)
                 return str(error), None
             parts[number].show()
+            with number_done:
+                number_done.value += 1
+                done = number_done.value
+            if done < len(parts):
+                left = (time.monotonic() - began) / done * (len(parts) - done)
+                text = f"{done} of {len(parts)} runs done, about {left:.0f} s left"
+                LOGGER.log(PROGRESS, text)
             return "", function(number, result)
 
         names = [part.name for part in parts]
