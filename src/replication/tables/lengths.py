@@ -248,7 +248,8 @@ def files(table: xr.Dataset) -> dict[str, Any]:
     frame = table.to_dataframe()
     names = []
     for name in map(str, table.data_vars):
-        is_given = name in ("kind", "below", "far_side") or name in known_parameters()
+        of_run = name in known_parameters() and name not in MEASURES
+        is_given = of_run or name in ("kind", "below", "far_side")
         if name in COMPARED or (is_given and frame[name].nunique(dropna=False) > 1):
             names.append(name)
     return {".nc": table, ".csv": frame[names].to_csv(index=False)}
