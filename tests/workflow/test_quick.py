@@ -125,3 +125,10 @@ def test_change_of_code_reruns_what_depends_on_it(checkout, additions, expected)
     # of another checkout the template is another file: the job then finds the article in the store
     assert set(planned) - {"write_article"} == expected - {"write_article"}
     assert planned.get("simulate", 0) in (0, SIMULATIONS)
+
+
+def test_claims_are_in_the_order_of_the_paper(results):
+    listed = pd.read_csv(results / "tables" / "claims.csv")["id"].tolist()
+    claims = read_yaml(ROOT / "src/replication/claims/claims.yaml")
+    stated = [id for entries in claims.values() for id in entries]
+    assert listed == [id for id in stated if id in listed]

@@ -7,8 +7,9 @@ FIGURES_BEYOND = ["figure_patch_stability", "figure_drop", "figure_map"]
 
 @functools.cache
 def statements():
-    """The claims, by subject."""
-    return read_yaml(Path(SOURCE, "replication", "claims", "claims.yaml"))
+    """Subjects with their claims, in pairs: a recipe sorts mappings, and tables have the paper's order."""
+    subjects = read_yaml(Path(SOURCE, "replication", "claims", "claims.yaml"))
+    return [[subject, list(entries.items())] for subject, entries in subjects.items()]
 
 
 rule claims:
@@ -31,7 +32,7 @@ rule claims:
             "longer": simulations(longer()),
             "patches": patches(*in_role(JUDGED)),
         },
-        statements=lambda wildcards: {k: v for k, v in statements().items() if k != PAIRED},
+        statements=lambda wildcards: [own for own in statements() if own[0] != PAIRED],
         settings=asdict(settings.extraction),
         longer_runs=lambda wildcards: [{**run, "role": LONGER} for run in as_dicts(longer())],
         patch_ids=lambda wildcards: [run.id for run in patched_runs(*in_role(JUDGED))],
@@ -54,7 +55,7 @@ rule evaluate_pairs:
         f"{RESULTS}/logs/tables/claims_pairs.log",
     params:
         call="replication.claims.table:of_pairs",
-        statements=lambda wildcards: {PAIRED: statements()[PAIRED]},
+        statements=lambda wildcards: [own for own in statements() if own[0] == PAIRED],
     shell:
         JOB
 

@@ -25,6 +25,9 @@ from .verdicts import Computation, Missing, Result, Verdict, judge, read, worst
 Statements = Mapping[str, Mapping[str, Mapping[str, Any]]]
 """The entries of ``claims.yaml`` by subject and id."""
 
+Ordered = Sequence[tuple[str, Sequence[tuple[str, Mapping[str, Any]]]]]
+"""The same in pairs, in the paper's order."""
+
 NUMBERS: dict[str, Computation] = {
     **theory.NUMBERS,
     **simulations.NUMBERS,
@@ -41,6 +44,10 @@ _HEADER = (
     "| where | statement | paper | ours (range) | method | verdict | reason |",
     "|---|---|---|---|---|---|---|",
 )
+
+
+def _by_subject(ordered: Ordered) -> Statements:
+    return {subject: dict(entries) for subject, entries in ordered}
 
 
 def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) -> list[Row]:
@@ -144,7 +151,7 @@ def escaped(text: str) -> str:
 
 
 def of_paper(
-    statements: Statements,
+    statements: Ordered,
     base: Run,
     settings: ExtractionSettings,
     theory: xr.Dataset,
@@ -177,7 +184,7 @@ def of_paper(
         tuple(tables),
         by_id,
     )
-    rows = evaluate(statements, evidence)
+    rows = evaluate(_by_subject(statements), evidence)
     listed = json.dumps(
         rows,
         indent=1,
@@ -187,9 +194,9 @@ def of_paper(
     return {".csv": to_csv(rows), ".md": to_markdown(rows), ".json": listed + "\n"}
 
 
-def of_pairs(statements: Statements, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+def of_pairs(statements: Ordered, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
     """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations."""
-    rows = evaluate(statements, {"pairs": pairs, "modes": modes})
+    rows = evaluate(_by_subject(statements), {"pairs": pairs, "modes": modes})
     return {".csv": to_csv(rows), ".md": to_markdown(rows)}
 
 
