@@ -39,7 +39,7 @@ hypothesis.settings.load_profile("project")
 SYSTEM = ("workflow/cluster", "faults", "workflow")
 """Directories of tests that start the whole workflow."""
 
-LONG = (*SYSTEM, "docs", "test_packaging.py", "verification")
+LONG = (*SYSTEM, "test_random_faults.py", "docs", "test_packaging.py", "verification")
 """What is begun first, by the time that its longest file takes; all others take less."""
 
 
