@@ -1,14 +1,10 @@
 """Hops over nodes are as a strength that is uneven with the period of the nodes: docs/drop.md."""
 
-import dataclasses
-
 import numpy as np
 import pytest
-from parts import with_parts
 from scipy.signal import savgol_filter
 
 from nucleation.extraction.extraction import Record, extract
-from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import instants
@@ -20,7 +16,6 @@ pytestmark = pytest.mark.slow
 THEORY = 0.4509  # m
 COARSE = 200  # elements, on each of which a fine mesh has three
 UNEVEN = 0.58  # relative strength of the period, that makes the patch swing as the hops do
-ROUGH = Perturbation(kind="strength", strength=1e-4)  # replaced by the mesh's period
 FAULT = PAPER_RUN.replaced(
     height=0.02,
     block_length=1.35,
@@ -36,8 +31,8 @@ def recorded(parameters, uneven=0.0):
     """A run up to its drop on a fault whose strength has the period of the coarse mesh."""
     usual = composed(parameters)
     wave = np.cos(2.0 * np.pi * COARSE * usual.grid.x / parameters.block.length)
-    rough = with_parts(parameters, perturbation=ROUGH)
-    drive = dataclasses.replace(composed(rough).drive, factor=1.0 + uneven * wave)
+    steady, factor = usual.drive, 1.0 + uneven * wave
+    drive = steady._replace(at=lambda time: steady.at(time)._replace(strength=factor))
     dynamics = Dynamics(usual.body, usual.interface, drive, usual.scheme)
     recorder = Recorder(parameters, dynamics)
     for instant in instants(parameters, dynamics=dynamics):

@@ -3,14 +3,17 @@
 import json
 import math
 import os
+import re
 import shutil
 import sys
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import click
 
+from ..installed import DISTRIBUTION
 from ..model.quantities import Quantity
 
 Row = Sequence[str] | str
@@ -53,6 +56,17 @@ def with_unit(value: Any, entry: Quantity) -> str:
     return f"{value}{entry.unit_suffix}"
 
 
+def _with_addresses(text: str) -> str:
+    """The text with the addresses of pages, docs/drop.md, in an installation."""
+
+    def address(cited: re.Match[str]) -> str:
+        installed = Path(sys.prefix, "share", "doc", DISTRIBUTION, cited[1])
+        in_checkout = (Path(__file__).parents[3] / cited[0]).exists()
+        return str(installed) if installed.exists() and not in_checkout else cited[0]
+
+    return re.sub(r"\bdocs/(\w+\.md)\b", address, text)
+
+
 def wrapped(*texts: str, err: bool = False, indent: int | None = None) -> list[str]:
     """Texts wrapped to the terminal, if there is one, the standard error's with `err`.
 
@@ -62,7 +76,7 @@ def wrapped(*texts: str, err: bool = False, indent: int | None = None) -> list[s
     to_terminal = os.environ.get("COLUMNS") or (stream and stream.isatty())
     width = max(shutil.get_terminal_size().columns, _LEAST_TERMINAL) if to_terminal else 10**6
     lines: list[str] = []
-    for text in texts:
+    for text in map(_with_addresses, texts):
         hanging = len(text) - len(text.lstrip()) + 2 if indent is None else indent
         lines += textwrap.wrap(
             text,

@@ -120,6 +120,8 @@ class Growth:
         near = (self.length >= start) & (self.length <= NEAR * start)
         last = np.flatnonzero(near)[-1]
         lengths = self.length[near]
+        if lengths.size < 2:  # a single length has no slope
+            return ClosedForm(start, np.nan, np.nan)
         times = self.time[near]
         rates = trend(history, history.rate.real)(lengths)
         slope = float(np.polyfit(lengths, rates, 1)[0])
