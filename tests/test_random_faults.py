@@ -130,7 +130,7 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", range(0, NUMBER, 10))
+@pytest.mark.parametrize("number", range(NUMBER))
 def test_a_study_has_the_lengths_of_its_fault(number):
     """L_s is located within 1e-3; a study refuses, with a reason, what no simulation can have."""
     given, _ = random_fault(number)
