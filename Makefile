@@ -63,7 +63,7 @@ test-quick: $(DEV_STAMP) ## Run those that are neither slow nor start a whole sy
 torture: $(DEV_STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	FAULT_COUNT="$$FAULTS" FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
 
-lint: $(DEV_STAMP) ## Check style, types, and which wing imports which
+lint: $(DEV_STAMP) ## Check style, types, and which package imports which
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/snakefmt --check Snakefile workflow

@@ -64,8 +64,7 @@ from replication.configuration.studies import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication import figures
-from nucleation.model.friction import Friction
-from nucleation.model.friction import plugins
+from nucleation.model.friction import Friction, plugins
 from nucleation.run.derived import fault, identity
 from nucleation.model.quantities import ParameterError
 from replication.pipeline.check import CURRENT

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from asked import expected_drop
+from thin_limit import thin_limit
 
 from nucleation.datasets.variables import table
 from nucleation.run.derived import fault
 from nucleation.run.run import PAPER_RUN
-from nucleation.theory.closed_forms import thin_limit
 from replication.figures import figure_weakening
 from replication.tables import drops as module
 from replication.tables.drops import (

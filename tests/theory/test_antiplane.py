@@ -13,6 +13,7 @@ from asked import (
     transfer_functions,
 )
 from scipy.optimize import brentq
+from thin_limit import thin_limit
 
 from benchmarks.assembled import assemble
 from nucleation.api import (
@@ -26,7 +27,6 @@ from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.start import body_of
-from nucleation.theory.closed_forms import thin_limit
 from nucleation.theory.creep.lengths import stability_length_of
 
 BP1 = {

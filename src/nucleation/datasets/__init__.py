@@ -1,6 +1,6 @@
 """Files: how datasets are written and read, and the metadata of their variables and origin.
 
-This wing imports nothing else of the package.
+This package imports no other one of the library.
 """
 
 

@@ -110,7 +110,7 @@ class Lengths(Mapping[str, Answer]):
     def _rows(self) -> list[tuple[str, ...]]:
         rows = []
         for key, answer in self.items():
-            shown = [f"{TITLES[key]}", "", "", ""]
+            shown = [TITLES[key], "", "", ""]
             if answer.exists:
                 shown[1] = f"{answer.value:.4g} m"
                 if answer.high > answer.low * 1.0001:

@@ -121,9 +121,6 @@ WORDS = ("far_side", "second_far_side", "plane", "loading", "evolution")
 ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
 """Parameters of a zone beside the fault."""
 
-OF_THEORY = ("far_side", *ZONE)
-"""Parameters that no simulation has: its first far side is free, and it has no zone."""
-
 
 def labelled(value: Any) -> bool:
     """Whether it is a DataArray; this does not load xarray."""

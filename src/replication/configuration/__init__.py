@@ -1,4 +1,4 @@
 """From YAML to checked settings and runs; every problem is found before any work starts.
 
-The wing uses the wings of physics below it, but never the compiled solver.
+It uses the packages of physics below it, but never the compiled solver.
 """

@@ -6,9 +6,9 @@ from asked import critical_length
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import root
 from scipy.special import sici
+from thin_limit import thin_limit
 
 from nucleation.api import Fault
-from nucleation.theory.closed_forms import thin_limit
 from nucleation.theory.creep.lengths import stability_answers
 from nucleation.theory.creep.response import SLIMMEST, response
 from nucleation.theory.evaluation import evaluate

@@ -50,7 +50,7 @@ REACHES = (5.0, 25.0, 250.0)
 thinner than the last are extrapolated."""
 
 SLIMMEST = REACHES[-1]
-EXTRAPOLATED = 1e-3  # error of L_s of the slimmest layers, against their limit (closed_forms)
+EXTRAPOLATED = 1e-3  # error of L_s of the slimmest layers, against the limit in tests
 ROUNDING = 1.0 + 1e-9  # of a ratio that is compared with REACHES
 
 SlimLayers: TypeAlias = dict[tuple[int, float, bool], tuple[Array, Array]]
