@@ -175,3 +175,10 @@ def test_a_closed_output_is_no_error(nucleation, monkeypatch):
     monkeypatch.setattr(sys, "stdout", None)
     monkeypatch.setattr(sys, "stderr", None)
     assert commands.run(WORDS) == 0
+
+
+def test_plates_must_be_thinner_than_the_lengths(nucleation):
+    """Plane stress has no thickness that the library could compare with."""
+    words = "plates that are much thinner than these lengths"
+    assert words in nucleation(*WORDS, "--plane", "stress").out
+    assert words not in nucleation(*WORDS).out

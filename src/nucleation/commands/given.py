@@ -262,7 +262,10 @@ def system_of_fault(
                 key = law.called.get(name, name)
                 texts[key in named].append(f"{key} = {with_unit(getattr(law, name), entry)}")
     heads = {True: "Given", False: "Not given, so the paper's" if paper else "Others"}
-    return [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
+    lines = [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
+    if fault.plane == "stress":  # which has no thickness to compare with
+        lines.append("Plane stress holds for plates that are much thinner than these lengths.")
+    return lines
 
 
 @contextlib.contextmanager
