@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 from asked import critical_length, stability_length
 from docs.prose import says, span, table
+from thin_limit import thin_limit
 
 from nucleation.api import Friction
-from nucleation.theory.closed_forms import thin_limit
 
 SHOWN = 0.005  # m
 
