@@ -22,10 +22,7 @@ PLATES = Fault(
     zeta=0.0156, slip_distance=0.5e-6, friction=0.41, velocity=1e-5, height=0.1, plane="stress",
 )  # fmt: skip
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.filterwarnings("ignore::UserWarning"),
-]
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::UserWarning")]
 
 
 @pytest.mark.parametrize(

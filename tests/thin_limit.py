@@ -48,11 +48,6 @@ def thin_limit(zeta_over_a):
         return np.array([-longest_wave(at).imag for at in frequency])
 
     homogeneous = np.sqrt([zeta_over_a])  # the frequency of homogeneous sliding
-    (frequency,) = roots(
-        negative,
-        np.array([LOWEST]),
-        homogeneous,
-        PRECISION,
-    )
+    (frequency,) = roots(negative, np.array([LOWEST]), homogeneous, PRECISION)
     found = longest_wave(frequency)
     return float(1.0 / (2.0 * np.pi * np.sqrt(found.real))), float(frequency)

@@ -188,11 +188,6 @@ def test_velocity_strengthening(a, zeta):
         assert ours == pytest.approx(expected, rel=1e-9)
 
 
-def test_search_without_growth_is_an_error():
-    with pytest.raises(ValueError, match="no growth in the range of the search"):
-        search.half_space_load(0.0, a=0.01, zeta=-0.005)
-
-
 def test_theory_by_hand():
     """The main text's numbers put into the formulas by hand."""
     expected = {

@@ -59,21 +59,13 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
     response = expected @ [g1, -1j * f * g2]
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
-    columns = {
-        "id": [name] * 2,
-        "shear_modulus": [mu] * 2,
-        "second_shear_modulus": psi * mu,
-        "poisson_ratio": [nu[0]] * 2,
-        "second_poisson_ratio": [nu[1]] * 2,
-        "friction": [f] * 2,
-        "a": [a] * 2,
-        "zeta": [zeta] * 2,
-        "slip_distance": [ell] * 2,
-        "velocity": [v] * 2,
-        "normal_stress": [sigma0] * 2,
-        "mode_wavenumber": [k] * 2,
-    }
-    found = {name: ("run", np.array(values)) for name, values in columns.items()}
+    same = {
+        "id": name, "shear_modulus": mu, "poisson_ratio": nu[0], "second_poisson_ratio": nu[1],
+        "friction": f, "a": a, "zeta": zeta, "slip_distance": ell, "velocity": v,
+        "normal_stress": sigma0, "mode_wavenumber": k,
+    }  # fmt: skip
+    found = {name: ("run", np.array([value] * 2)) for name, value in same.items()}
+    found["second_shear_modulus"] = "run", psi * mu
     found["measured_growth"] = ("run", "branch"), rates.real
     found["measured_frequency"] = ("run", "branch"), rates.imag
     return xr.Dataset(found)

@@ -17,17 +17,17 @@ TALL = {"height": 0.1}
 BAD = {
     # out of range: key, value, unit, range
     "incompressible": (
-        changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"],
+        changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"]
     ),
     "zero height in list": (with_run(height=[0.01, 0]), [f"{LAST}.height[1] = 0 m"]),
     # wrong type
     "runs are a mapping": (
-        changed("studies.paper.runs", {"height": 0.1}), ["studies.paper.runs", "must be a list"],
+        changed("studies.paper.runs", {"height": 0.1}), ["studies.paper.runs", "must be a list"]
     ),
     "the whole is empty": (None, ["the configuration = None must be a mapping"]),
     # unknown words
     "unknown state evolution": (
-        with_run(height=0.01, evolution="ageing"), [f"{LAST}.evolution = 'ageing'", "aging, slip"],
+        with_run(height=0.01, evolution="ageing"), [f"{LAST}.evolution = 'ageing'", "aging, slip"]
     ),
     "unknown key": (changed("material.densty", 1.0), ["densty", "mean density?"]),
     "study's name": (changed("studies.a/b", {"runs": [{"height": 1}]}), ["'a/b'", "as a name"]),
@@ -37,18 +37,18 @@ BAD = {
     "value twice": (with_run(height=[0.2, 0.2]), [f"{LAST}.height = [0.2, 0.2] has a value twice"]),
     "same run, other name": (
         with_run(height=0.05, n_x=400),
-        [f"{LAST} gives the simulation paper-aging-H0.05-phi1-n_x400 again"],
+        [f"{LAST} gives the simulation paper-aging-H0.05-phi1-n_x400 again"]
     ),
     "range backwards": (
         with_run(height={"start": 0.1, "stop": 0.01, "num": 3}),
-        [f"{LAST}.height: start 0.1 must be less than stop 0.01"],
+        [f"{LAST}.height: start 0.1 must be less than stop 0.01"]
     ),
     "log range from zero": (
         changed("curves.f_beta", {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}),
-        ["curves.f_beta: start 0.0 must be positive on a log scale"],
+        ["curves.f_beta: start 0.0 must be positive on a log scale"]
     ),
     "a strength of nothing": (
-        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"],
+        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"]
     ),
     "roughness finer than elements": (
         study({**TALL, "perturbation": "strength", "strength": 1e-3, "correlation_length": 1e-4}),
@@ -56,24 +56,24 @@ BAD = {
     ),
     "mesh beyond the memory": (
         with_run(height=0.1, n_x=100000, n_y=10000),
-        [f"{LAST}: n_x = 100000, n_y = 10000", "MB", "limits.memory = 2000 MB"],
+        [f"{LAST}: n_x = 100000, n_y = 10000", "MB", "limits.memory = 2000 MB"]
     ),
     "too many runs": (
         with_run(height=THOUSAND, initial_state=THOUSAND),
-        [f"{LAST} has 1000000 simulations, more than 10000"],
+        [f"{LAST} has 1000000 simulations, more than 10000"]
     ),
     "nothing to nucleate": (
         changed("studies.x", {"runs": [{"height": 0.1, "aging_coefficient": 0.0}]}),
-        ["studies.x.runs[0]:", "zeta"],
+        ["studies.x.runs[0]:", "zeta"]
     ),
     # beyond what a number can be, or a list
     "list in a list": (
         study({**TALL, "velocity": [[1e-5]]}),
-        [f"{RUN}.velocity[0] = [1e-05] m/s", "[1e-30, 1000) m/s"],
+        [f"{RUN}.velocity[0] = [1e-05] m/s", "[1e-30, 1000) m/s"]
     ),
     "range that stands still": (
         changed("curves.heights", {"start": 0.1, "stop": 0.1 + 1e-9, "num": 50}),
-        ["curves.heights: its 50 values from 0.1 on are not all different"],
+        ["curves.heights: its 50 values from 0.1 on are not all different"]
     ),
     # names and places
     "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
@@ -88,7 +88,7 @@ BAD = {
     ),
     "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "named without braces"]),
     "code by a detour": (
-        changed("results", "results/../src"), ["results = 'src'", "code that makes results"],
+        changed("results", "results/../src"), ["results = 'src'", "code that makes results"]
     ),
     "the directory itself": (changed("results", "a/.."), ["results = '.'", "of its own"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
@@ -97,11 +97,11 @@ BAD = {
     # contradictions
     "low edge above the edge": (
         changed("extraction.edge_threshold_low", 0.1),
-        ["edge_threshold_low = 0.1, edge_threshold = 0.01", "must ascend, each in (0, 1]"],
+        ["edge_threshold_low = 0.1, edge_threshold = 0.01", "must ascend, each in (0, 1]"]
     ),
     "shortest step above the longest": (
         study(TALL, defaults={"shortest_step": 0.5}),
-        [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"],
+        [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"]
     ),
     "a theory without instability": (
         {"friction": {"aging_coefficient": 0.0},

@@ -36,11 +36,11 @@ def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
 
 BAD = {
     "the name of an earlier version": (
-        with_run(height=0.1, length=2.0), [f"{RUN}.length = 2.0", "did you mean block_length?"],
+        with_run(height=0.1, length=2.0), [f"{RUN}.length = 2.0", "did you mean block_length?"]
     ),
     "a law of friction as evolution": (
         with_run(height=0.1, friction_law="aging"),
-        [f"{RUN}.friction_law = 'aging'", "one of dieterich_ruina, product", "called evolution"],
+        [f"{RUN}.friction_law = 'aging'", "one of dieterich_ruina, product", "called evolution"]
     ),
     "another law's parameter in the section": (
         {**study({"height": 0.1}),

@@ -21,23 +21,23 @@ BAD = {
     "unknown": (study(TALL, role="maps"), ["studies.s.role = 'maps'", "one of own, paper"]),
     "lengths, one by one": (
         study(TALL, role="map", runs_per_job=2),
-        ["studies.s.measure = lengths is not allowed with role = map: it must be stability"],
+        ["studies.s.measure = lengths is not allowed with role = map: it must be stability"]
     ),
     "a table of its own": (
         study(TALL, role="converged", table="own"),
-        ["studies.s.table = own is not allowed with role = converged: it must be lengths"],
+        ["studies.s.table = own is not allowed with role = converged: it must be lengths"]
     ),
     "less than the interface": (
         study(TALL | {"record": "lengths"}, role="converged"),
-        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "must be interface"],
+        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "must be interface"]
     ),
     "perturbed": (
         study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="convergence_quiet"),
-        ["perturbation = state is not allowed with role = convergence_quiet: it must be none"],
+        ["perturbation = state is not allowed with role = convergence_quiet: it must be none"]
     ),
     "one body": (
         study(TALL, role="pairs"),
-        ["second_body = rigid is not allowed with role = pairs: it must be deformable"],
+        ["second_body = rigid is not allowed with role = pairs: it must be deformable"]
     ),
     "two maps": (
         {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",

@@ -138,9 +138,7 @@ LOADED = PAPER_RUN.replaced(
 def test_a_patch_in_the_interior_turns_unstable_where_theory_says():
     """It begins where the fault is weakest: the numbers of docs/creeping_patch.md, coarser."""
     parameters = with_parts(
-        LOADED,
-        law=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),
-        heterogeneity=WEAK,
+        LOADED, law=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039), heterogeneity=WEAK
     ).replaced(longest_step=0.4)
     dynamics, velocity = composed(parameters), parameters.fault.velocity
     recorder = Recorder(parameters, dynamics)

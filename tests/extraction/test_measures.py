@@ -63,8 +63,7 @@ def test_numbers_of_a_steady_front():
 
 
 @pytest.mark.parametrize(
-    ("slower", "faster", "time"),
-    [(9.9, 101.0, 2e-3), (10.1, 101.0, np.nan), (9.9, 99.0, np.nan)],
+    ("slower", "faster", "time"), [(9.9, 101.0, 2e-3), (10.1, 101.0, np.nan), (9.9, 99.0, np.nan)]
 )
 def test_ends_of_the_acceleration(slower, faster, time):
     """From the onset on, which is two steps of 1 ms before the end."""

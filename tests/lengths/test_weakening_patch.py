@@ -8,13 +8,7 @@ from asked import weakening_patch_length
 from nucleation.api import Fault
 from nucleation.lengths import weakening_patch as patch_outcomes
 from nucleation.lengths.answer import process_zone
-from nucleation.lengths.weakening_patch import (
-    NO_WIDTH,
-    OTHER_A,
-    OTHER_B,
-    patch_answer,
-    simulated,
-)
+from nucleation.lengths.weakening_patch import NO_WIDTH, OTHER_A, OTHER_B, patch_answer, simulated
 
 ROCK = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.01, "b": 0.015,
@@ -29,7 +23,7 @@ STATE_LENGTH = 40e9 * 5e-6 / (0.015 * 50e6)
         ({}, 0.5 * STATE_LENGTH),
         ({"second_shear_modulus": math.inf, "friction": 0.6, "height": 1e-4},
          math.sqrt(2e-4 * STATE_LENGTH)),
-        ({"plane": "antiplane"}, 0.375 * STATE_LENGTH),
+        ({"plane": "antiplane"}, 0.375 * STATE_LENGTH)
     ],
 )  # fmt: skip
 def test_process_zone(changed, zone):

@@ -75,11 +75,7 @@ def test_constants_along_x_are_those_declared(law, varies):
     [
         (PAPER_RUN, {"heterogeneity": "zeta", "change": -2e3}, r"lie in \(-1000, 1000\)"),
         (PAPER_RUN, {"loading": "sideways"}, "must be one of edge, remote"),
-        (
-            PAPER_RUN,
-            {"loading": "remote"},
-            "stress_rate = 0 Pa/s is not allowed with",
-        ),
+        (PAPER_RUN, {"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with"),
         (PAPER_RUN, {"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
         (PAPER_RUN, {"change": 0.1}, "heterogeneity = none: it must be 0"),
         (PAPER_RUN, {"heterogeneity": "b"}, "it must be different from 0"),
@@ -96,11 +92,7 @@ def test_bad_values_are_refused(parameters, change, words):
 
 EDGE = PAPER_RUN.replaced(height=0.02, block_length=0.6, n_x=60, n_y=6, grading=2.0)
 TWO = {"second_body": "deformable", "second_far_side": "clamped"}
-CASES = {
-    "edge, two": EDGE.replaced(**TWO),
-    "remote": REMOTE,
-    "remote, two": REMOTE.replaced(**TWO),
-}
+CASES = {"edge, two": EDGE.replaced(**TWO), "remote": REMOTE, "remote, two": REMOTE.replaced(**TWO)}
 
 
 @pytest.mark.parametrize("parameters", CASES.values(), ids=CASES)

@@ -72,8 +72,7 @@ def test_a_simulation_of_the_library_shows_itself_on_a_terminal(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("changed", "part"),
-    [({}, 50), ({"end_time": 20.0}, 75), ({"end_time": 10.0}, 99)],
+    ("changed", "part"), [({}, 50), ({"end_time": 20.0}, 75), ({"end_time": 10.0}, 99)]
 )
 def test_part_of_the_way_is_by_the_end_time_where_no_patch_is_long(changed, part):
     instant = next(instants(COARSE))

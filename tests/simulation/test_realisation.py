@@ -6,11 +6,7 @@ from scipy.interpolate import BSpline
 from scipy.stats import kstest
 
 from nucleation.model.settings import MEAN_SQUARE, correlation, spectral_density
-from nucleation.simulation.perturbed import (
-    Series,
-    Sheet,
-    normals,
-)
+from nucleation.simulation.perturbed import Series, Sheet, normals
 
 
 def test_numbers_are_standard_normal_and_independent():

@@ -15,7 +15,7 @@ STUDY = {
                  "perturbation": "normal_load", "strength": 1e-4, "seed": 3},
     "runs": [
         {"height": 0.02, "second_height": 0.03, "second_shear_modulus": 6.2e9,
-         "second_far_side": ["free", "clamped"]},
+         "second_far_side": ["free", "clamped"]}
     ],
 }  # fmt: skip
 
