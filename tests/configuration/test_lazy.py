@@ -85,16 +85,12 @@ def test_what_needs_no_expansion_is_refused_at_once(section, said, expanded):
         ("papers-aging-H0.05-phi1", ["no run papers-aging-H0.05-phi1; studies: paper, converged"]),
     ],
 )
-def test_an_unknown_run_is_told_with_those_like_it(name, fragments):
+def test_an_unknown_run_or_batch_is_told_with_those_like_it(name, fragments):
     with pytest.raises(ParameterError) as caught:
         papers().run(name)
     for fragment in fragments:
         assert fragment in str(caught.value)
-
-
-def test_an_unknown_batch_is_told_with_those_like_it():
     with pytest.raises(ParameterError, match="no batch paper-7; the study paper has paper-"):
         papers().batch("paper-7")
-    settings = configure({"studies": {"good": GOOD}})
     with pytest.raises(ParameterError, match="no batch good-0; the study good has none"):
-        settings.batch("good-0")
+        configure({"studies": {"good": GOOD}}).batch("good-0")

@@ -3,53 +3,13 @@
 import copy
 
 import pytest
-from configurations import CONFIG, PAPER, assert_one_problem, study
+from configurations import CONFIG, PAPER
 
 from replication import figures
 from replication.configuration.load import configure, load
 from replication.configuration.roles import PAIRS, REFINEMENTS, ROLES
 
 TALL = {"height": 0.1}
-
-
-def two(role):
-    own = {"role": role, "runs": [TALL]}
-    return {"studies": {"one": own, "other": {**own, "runs": [TALL | {"initial_state": 2.0}]}}}
-
-
-BAD = {
-    "unknown": (study(TALL, role="maps"), ["studies.s.role = 'maps'", "one of own, paper"]),
-    "lengths, one by one": (
-        study(TALL, role="map", runs_per_job=2),
-        ["studies.s.measure = lengths is not allowed with role = map: it must be stability"]
-    ),
-    "a table of its own": (
-        study(TALL, role="converged", table="own"),
-        ["studies.s.table = own is not allowed with role = converged: it must be lengths"]
-    ),
-    "less than the interface": (
-        study(TALL | {"record": "lengths"}, role="converged"),
-        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "must be interface"]
-    ),
-    "perturbed": (
-        study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="convergence_quiet"),
-        ["perturbation = state is not allowed with role = convergence_quiet: it must be none"]
-    ),
-    "one body": (
-        study(TALL, role="pairs"),
-        ["second_body = rigid is not allowed with role = pairs: it must be deformable"]
-    ),
-    "two maps": (
-        {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",
-                            "runs": [TALL]} for name in ("one", "other")}},
-        ["studies.other.role = map is not allowed: studies.one has it"],
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("config", "fragments"), BAD.values(), ids=BAD.keys())
-def test_what_a_role_needs_is_asked_for(config, fragments):
-    assert_one_problem(config, fragments)
 
 
 @pytest.mark.parametrize("role", [name for name, role in ROLES.items() if role.several])
