@@ -1,7 +1,10 @@
-"""The command as a whole: help, version, completion, exit codes."""
+"""The command as a whole: help, version, completion, exit codes, and its page's examples."""
 
+import doctest
+import re
 import shlex
 import subprocess
+from pathlib import Path
 
 import pytest
 from click.shell_completion import ShellComplete
@@ -55,3 +58,36 @@ def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
         shell=True, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert ended.stdout.startswith("Usage") and ended.stderr == ""
+
+
+CHECKER = doctest.OutputChecker()
+PAGE = (Path(__file__).parents[2] / "docs" / "command_line.md").read_text(encoding="utf-8")
+
+
+def examples():
+    """Command lines of the page, continued lines joined, and the output that it shows."""
+    for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL):
+        command, _, output = block.replace("\\\n", " ").partition("\n")
+        yield command.removeprefix("$ nucleation "), output
+
+
+@pytest.mark.system
+def test_examples(nucleation, tmp_path, monkeypatch):
+    """Run one after another, they print what docs/command_line.md has."""
+    monkeypatch.chdir(tmp_path)
+    (file,) = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
+    Path("fault.yaml").write_text(file)
+    found = list(examples())
+    assert len(found) == 7
+    for command, output in found:
+        ended = nucleation(*shlex.split(command))
+        said = re.sub(r"^step \d.*\n", "", ended.out + ended.err, flags=re.MULTILINE)
+        assert CHECKER.check_output(output, said, doctest.ELLIPSIS), f"{command}\n{said}"
+    assert Path("run.png").stat().st_size > 10000
+
+
+def test_exit_codes_of_the_page():
+    table = re.findall(r"^\| (\d+) \| (.*) \|$", PAGE, re.MULTILINE)
+    assert len(table) == 5
+    for code, meaning in table:
+        assert re.search(rf"^  {code} +{re.escape(meaning)}$", commands.EXIT_CODES, re.MULTILINE)

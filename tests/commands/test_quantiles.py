@@ -42,9 +42,10 @@ def test_the_library_s_numbers(nucleation, samples):
     assert any(x.startswith("4 draws of a, poisson_ratio: 0 left out, 1 of the") for x in lines)
 
 
-def test_the_length_at_the_drop_of_draws(nucleation):
-    words = [*ROCK[:-1], "5um (4 to 6)", "--poisson-ratio", ".25", "--a", ".005", "--b", ".02"]
-    own = [*words, "--velocity", "1um/s", "--friction", ".6", "--height", "2m", "--draws", "20"]
+def test_the_length_at_the_drop_of_draws(nucleation, tmp_path):
+    (file := tmp_path / "distances.csv").write_text("slip_distance (um)\n4\n6\n")
+    words = [*ROCK[:-2], "--samples", file, "--poisson-ratio", ".25", "--a", ".005", "--b", ".02"]
+    own = [*words, "--velocity", "1um/s", "--friction", ".6", "--height", "2m"]
     assert "length at the drop" not in nucleation(*own).out
     found = json.loads(nucleation(*own, "--strength", "1e-4", "--json").out)
     (drop,) = (entry for entry in found["lengths"] if entry["key"] == "drop_length")

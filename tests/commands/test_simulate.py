@@ -81,15 +81,6 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
     assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
-def test_parameters_from_a_file(nucleation, tmp_path):
-    (file := tmp_path / "flat.yaml").write_text("height: 20 mm\nn_x: 80\nevolution: slip\n")
-    words = ["simulate", tmp_path / "run.nc", "--dry-run", "--parameters", file]
-    found = planned(nucleation(*words))
-    assert found["height"] in ("20 mm", "2 cm") and found["n_x"] == "80"
-    assert found["evolution"] == "slip"
-    assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
-
-
 def test_every_parameter_has_an_option(nucleation):
     help = nucleation("simulate", "--help").out
     text = " ".join(help.split())
@@ -135,9 +126,8 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
 def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tmp_path):
     """It was refused; whether it has an event is what one asks the simulation."""
     words = ["--height", "10cm", "--plane", "stress", "--second-body", "deformable", "--n-x", "100"]
-    ended = nucleation(
-        "simulate", tmp_path / "run.nc", *words, "--block-length", "25cm", "--dry-run"
-    )
+    words += ["--block-length", "25cm", "--dry-run"]
+    ended = nucleation("simulate", tmp_path / "run.nc", *words)
     assert ended.code == 0 and "critical length 0.3" in ended.out
     assert "may have an event all the same" in " ".join(ended.err.split())
 
