@@ -2,6 +2,7 @@
 
 import errno
 import os
+import random
 import resource
 
 import numpy as np
@@ -22,7 +23,7 @@ def declared(*data) -> xr.Dataset:
 def record() -> xr.Dataset:
     rate = np.random.default_rng(1).random((40, 30))
     return declared(
-        {"slip_rate": (("time", "x"), rate), "id": ("run", ["a", "b"]), "velocity": 1e-5},
+        {"slip_rate": (("time", "x"), rate), "id": ("run", ["a-φ", "b"]), "velocity": 1e-5},
         {"time": np.arange(40.0), "x": np.linspace(0.0, 1.0, 30)},
     )
 
@@ -108,3 +109,38 @@ def test_lack_of_room_is_said_by_the_system(tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert caught.value.errno == errno.EFBIG
     assert not list(tmp_path.iterdir())
+
+
+def flip(content, random):
+    content[random.randrange(len(content))] ^= 1 << random.randrange(8)
+
+
+def truncate(content, random):
+    del content[random.randrange(len(content)) :]
+
+
+def overwrite(content, random):
+    """Noise in the place of some bytes."""
+    begin = random.randrange(len(content) - 8)
+    content[begin : begin + 8] = random.randbytes(8)
+
+
+def swap(content, random):
+    one, other = (random.randrange(len(content) // 64) * 64 for _ in range(2))
+    first, second = content[one : one + 64], content[other : other + 64]
+    content[one : one + 64], content[other : other + 64] = second, first
+
+
+@pytest.mark.parametrize("damage", [flip, truncate, overwrite, swap])
+def test_damage_is_refused_before_hdf5_reads_a_byte(record, damage, tmp_path, monkeypatch):
+    path = tmp_path / "record.nc"
+    netcdf.write(record, path, parameters='{"n": [1]}')
+    whole = path.read_bytes()
+    monkeypatch.setattr(xr, "open_dataset", None)
+    for seed in range(50):
+        content = bytearray(whole)
+        damage(content, random.Random(seed))
+        path.write_bytes(content)
+        if bytes(content) != whole:
+            with pytest.raises(DatasetError, match=r"record\.nc is damaged, or not of this"):
+                netcdf.read(path)

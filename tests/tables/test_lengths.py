@@ -13,7 +13,6 @@ from replication.tables.lengths import (
     files,
     join,
     lengths_table,
-    of_studies,
     over_realisations,
     realisations,
     row,
@@ -47,6 +46,7 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
     np.testing.assert_allclose(found["length"], [0.52, 0.7, 0.6])
     np.testing.assert_allclose(found["length_low"], [0.46, 0.6, 0.5])
     np.testing.assert_allclose(found["length_high"], [0.56, 0.8, 0.7])
+    assert row(rows(), "b")["height"].item() == 0.2
     quiet = over_realisations(rows(length=[0.5, 0.7, np.nan, 0.6]))  # none is passed over
     np.testing.assert_allclose(quiet["length"], [np.nan, 0.7, 0.6])
 
@@ -110,22 +110,10 @@ def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, k
     parameters = changed(**given)
     simulation = record()
     if given.get("loading") == "remote":
-        simulation = simulation.assign(
-            fastest_position=("step", np.zeros(simulation.sizes["step"]))
-        )
+        nowhere = np.zeros(simulation.sizes["step"])
+        simulation = simulation.assign(fastest_position=("step", nowhere))
     table = made_up_table(parameters, simulation)
     assert (table["stability_status"].item() != "unknown") == known
-
-
-def test_the_row_of_a_run_is_found_by_its_id():
-    assert row(rows(), "b")["height"].item() == 0.2
-
-
-def test_the_columns_file_names_each_column_once():
-    joined = xr.Dataset({"id": ("run", ["a"])})
-    head, *lines = of_studies([joined])[".columns.csv"].splitlines()
-    assert head == "column,units,meaning,symbol"
-    assert len(lines) == len({line.partition(",")[0] for line in lines}) > 40
 
 
 def test_csv_has_what_people_compare():

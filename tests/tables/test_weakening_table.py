@@ -1,4 +1,4 @@
-"""Simulated drops beside L_s, L_run and the law: the table, and the figure that is drawn of it."""
+"""Simulated drops beside L_s, L_run and the law, also of other faults: tables and the figure."""
 
 import numpy as np
 import pytest
@@ -7,22 +7,23 @@ from asked import expected_drop
 from thin_limit import thin_limit
 
 from nucleation.datasets.variables import table
-from nucleation.run.derived import fault
+from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import PAPER_RUN
 from replication.figures import figure_weakening
 from replication.tables import drops as module
 from replication.tables.drops import (
     EXPECTED,
+    OTHER_FAULTS,
     WEAKENING,
     WEAKENING_CURVES,
     expected,
+    gather_other_faults,
     weakening_curves,
     weakening_files,
 )
 from replication.tables.lengths import COLUMNS as LENGTHS
 
 STRONG = PAPER_RUN.replaced(perturbation="normal_load", strength=1e-4)
-QUIET = PAPER_RUN
 
 
 def lengths(parameters, seeds):
@@ -56,7 +57,7 @@ def test_a_row_has_the_answer_of_the_law():
 
 
 def test_a_fault_without_an_answer_has_its_reason():
-    row = expected(QUIET)
+    row = expected(PAPER_RUN)
     assert np.isnan(row["expected_length"])
     assert "nothing is perturbed" in row["doubt"]
 
@@ -104,10 +105,8 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     law = {"friction_law": "dieterich_ruina", "strength": 1e-4, "perturbation": "normal_load"}
     thin = PAPER_RUN.replaced(**(law | {"height": 0.002}))
     high = PAPER_RUN.replaced(**(law | {"height": 3.0, "second_body": "deformable"}))
-    runs = []
-    for parameters in (thin, high):
-        one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
-        runs.append(one)
+    same = {"study": "own", "critical_length": 0.5}
+    runs = [same | {"parameters": parameters.to_dict()} for parameters in (thin, high)]
     found = weakening_curves(runs, [2.5, 6.0])
     assert set(found) == set(WEAKENING_CURVES)
     assert found["curve_half_spaces"].values.tolist() == [False, True]
@@ -118,3 +117,38 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     again = weakening_curves(runs[1:], [2.5, 6.0])
     np.testing.assert_allclose(again["curve_law"][0], found["curve_law"][1], rtol=1e-2)
     assert np.isnan(found["curve_runaway"]).all()
+
+
+FAULTS = [STRONG, STRONG.replaced(strength=1e-5)]
+RUNS = [{"parameters": parameters.to_dict()} for parameters in FAULTS]
+
+
+def drops(lengths):
+    """The study's table: a list of lengths (m) for each fault."""
+    digests = [ensemble(FAULTS[i]) for i, own in enumerate(lengths) for _ in own]
+    count = len(digests)
+    columns = {name: np.zeros(count) for name in OTHER_FAULTS if name not in EXPECTED}
+    columns |= {"length": np.concatenate(lengths), "ensemble": np.array(digests)}
+    columns["reached_length"] = np.nan_to_num(columns["length"], nan=0.9)
+    columns |= {"zeta": np.full(count, 0.014), "a": np.full(count, 0.007)}
+    return xr.Dataset({name: ("run", values) for name, values in columns.items()})
+
+
+def test_each_fault_has_its_own_realisations():
+    known = [expected_drop(parameters) for parameters in FAULTS]
+    first = [known[0].low, known[0].high, 1.01 * known[0].high, 0.5]
+    second = [1.001 * known[1].low, 0.999 * known[1].low]
+    found = gather_other_faults(drops([first, second]), RUNS)
+    assert found["realisations"].values.tolist() == [4, 2]
+    assert found["inside"].values.tolist() == [2, 1]
+    np.testing.assert_allclose(found["length"], [np.mean(first), np.mean(second)])
+    np.testing.assert_allclose(found["expected_length"], [one.length for one in known])
+    np.testing.assert_allclose(found["zeta_over_a"], 2.0)
+
+
+def test_a_realisation_without_a_drop_is_outside():
+    low, high = expected_drop(FAULTS[0]).low, expected_drop(FAULTS[0]).high
+    found = gather_other_faults(drops([[0.5 * (low + high), np.nan]]), RUNS[:1])
+    assert found["inside"].values.tolist() == [1]
+    assert np.isnan(found["length"])
+    assert found["reached_length"].values.tolist() == [0.9]
