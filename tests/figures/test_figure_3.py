@@ -1,11 +1,12 @@
-"""Figure 3: theory, points with error bars, and the inset's snapshots."""
+"""Figure 3: theory, points with error bars, the inset's snapshots, and markers by law."""
 
 import drawn_layout
 import numpy as np
 import pytest
+import xarray as xr
 
 from nucleation.pictures import style
-from replication.figures import figure_3
+from replication.figures import figure_3, figure_patch, laws
 
 THICK = "paper-7"  # the run in the inset
 
@@ -73,13 +74,11 @@ def test_inset_shows_the_slip_rate_from_creep_to_just_after_the_onset(axes, thic
         np.testing.assert_array_equal(line.get_xdata(), thick["x"])
         np.testing.assert_array_equal(line.get_ydata(), thick["slip_rate"].isel(time=i))
     assert inset.get_yscale() == "log" and "(m/s)" in inset.get_ylabel()
+    length = float(thick_row["length"])
+    assert any(set(line.get_xdata()) == {length} for line in inset.get_lines())
     onset = times[creep[-1]]
     later = [1e3 * (times[i] - onset) for i in event]
     texts = [text.get_text() for text in inset.get_legend().get_texts()]
-    length = float(thick_row["length"])
-    assert any(set(line.get_xdata()) == {length} for line in inset.get_lines())
-    (arrow,) = [a for a in inset.texts if getattr(a, "arrow_patch", None) is not None]
-    assert (arrow.xy[0], arrow.xyann[0]) == (length, 0.0)
     assert texts[3:] == [f"$t_c={onset:.1f}$ s"] + [f"$t_c+{t:.3g}$ ms" for t in later]
 
 
@@ -103,3 +102,48 @@ def test_marks_of_one_height_stand_side_by_side(axes):
         np.testing.assert_allclose(at, moved[container.get_label()])
     assert moved["FEM, aging law"].tolist() == [0.0, 0.0]
     assert len({round(float(x)) for x, _ in moved.values()}) == len(moved)
+
+
+def table(*rows):
+    law, initial_state = zip(*rows, strict=True)
+    return xr.Dataset(
+        {"evolution": ("run", list(law)), "initial_state": ("run", list(initial_state))}
+    )
+
+
+def test_every_law_has_a_look_of_its_own():
+    names = ["slip", "halfway", "my_law", "aging", "slip"]
+    found = list(laws.kinds(table(*((name, 1.0) for name in names), ("slip", 5.0))))
+    labels = ["aging law", "slip law", "slip law", "halfway law", "my law law"]
+    assert [name for name, *_ in found] == labels
+    assert [old for _, old, *_ in found] == [False, False, True, False, False]
+    assert len({(marker, colour) for *_, (marker, _, colour, _), _ in found}) == 5
+
+
+@pytest.mark.parametrize(
+    ("rows", "shown"),
+    [
+        ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
+        ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
+        ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
+    ],
+)
+def test_what_is_shown_where_one_law_is(rows, shown):
+    found = figure_patch.shown(table(*rows).assign(role=("run", ["own"] * 3)))
+    assert list(zip(found["evolution"].values, found["initial_state"].values, strict=True)) == shown
+
+
+def test_other_laws_are_drawn(theory, lengths, thick):
+    """The paper's lengths as if they were of laws that the paper does not have."""
+    names = {"aging": "halfway", "slip": "third"}
+    law = [names[law] for law in lengths["evolution"].values]
+    others = lengths.assign(evolution=("run", law))
+    axes = figure_3.draw(theory, others, thick, THICK).axes[0]
+    assert {"FEM, halfway law", "FEM, third law"} <= set(points(axes))
+    assert sum(len(c[0].get_xdata()) for c in axes.containers) == 11  # all that have a length
+    columns = ("length", "length_low", "length_high")
+    patches = others.rename({name: f"stability_{name}" for name in columns})
+    left, right = figure_3.draw_extended(theory, others, patches, others).axes
+    assert "halfway law" in [text.get_text() for text in right.get_legend().get_texts()]
+    assert len(left.containers) > 3
+    assert set(figure_patch.shown(patches)["evolution"].values) == {"halfway"}

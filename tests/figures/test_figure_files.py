@@ -1,5 +1,6 @@
 """The written files, and what all figures have in common."""
 
+import itertools
 import os
 import subprocess
 import sys
@@ -16,7 +17,7 @@ from replication.figures import theory as theory_figures
 
 pytestmark = pytest.mark.slow
 
-FIGURES = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
+LEGENDS = {"figure_1": 0, "figure_2": 1, "figure_3": 2, "figure_s1": 1, "figure_s2": 0}
 SOURCE = Path(style.__file__).parents[2]
 
 
@@ -40,63 +41,6 @@ BLACK = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_files_are_the_same_under_any_settings_small_and_embed_their_fonts(draw, name, tmp_path):
-    figure = draw(name)
-    inches = figure.get_size_inches()[0]
-    assert np.isclose(2.54 * inches, [style.SINGLE_COLUMN, style.DOUBLE_COLUMN]).any()
-    usual = [path.read_bytes() for path in style.save(figure, tmp_path / "deep" / "height-0.5")]
-    names = ["height-0.5.pdf", "height-0.5.png"]
-    assert sorted(path.name for path in (tmp_path / "deep").iterdir()) == names
-    content = usual[0]
-    assert content.startswith(b"%PDF") and b"/FontFile2" in content
-    assert b"/Type3" not in content and b"CreationDate" not in content
-    assert len(content) < 1_000_000
-    with mpl.rc_context(BLACK):
-        before = dict(mpl.rcParams)
-        black = [path.read_bytes() for path in style.save(draw(name), tmp_path / "black")]
-        assert dict(mpl.rcParams) == before
-    assert black == usual
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_text_is_legible_and_neither_overlaps_nor_is_cut(draw, name):
-    figure = draw(name)
-    drawn_layout.require_legible(figure)
-
-
-@pytest.mark.parametrize("name", ["figure_2", "figure_3", "figure_s1", "figure_s2"])
-def test_legends_cover_no_data(draw, name):
-    figure = draw(name)
-    drawn_layout.boxes(figure)  # lays it out
-    legends = [a.get_legend() for a in drawn_layout.all_axes(figure) if a.get_legend()]
-    assert len(legends) == {"figure_2": 1, "figure_3": 2, "figure_s1": 1, "figure_s2": 0}[name]
-    for legend in legends:
-        box = legend.get_window_extent()
-        for axes in figure.axes:
-            for line in axes.get_lines():
-                if line.get_transform() != axes.transData:
-                    continue
-                x, y = line.get_data()
-                position = np.linspace(0, len(x) - 1, 2000)
-                x, y = (np.interp(position, np.arange(len(x)), values) for values in (x, y))
-                assert drawn_layout.points_inside(axes, x, y, box) == 0, line.get_label()
-
-
-def test_bytes_depend_on_no_hash_seed(tmp_path):
-    code = (
-        "import sys; from nucleation.pictures import style;"
-        "from replication.figures import figure_1;"
-        "style.save(figure_1.draw(), sys.argv[1])"
-    )
-    for seed in ("1", "2"):
-        environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(SOURCE)}
-        command = [sys.executable, "-c", code, str(tmp_path / seed)]
-        subprocess.run(command, check=True, env=environment, timeout=600)
-    for suffix in ("pdf", "png"):
-        assert (tmp_path / f"1.{suffix}").read_bytes() == (tmp_path / f"2.{suffix}").read_bytes()
-
-
 def test_a_failed_write_leaves_the_old_file_alone(tmp_path, monkeypatch):
     target = tmp_path / "figure.pdf"
     target.write_text("old")
@@ -111,3 +55,50 @@ def test_a_failed_write_leaves_the_old_file_alone(tmp_path, monkeypatch):
         style.save(figure, tmp_path / "figure")
     assert [p.name for p in tmp_path.iterdir()] == ["figure.pdf"]
     assert target.read_text() == "old"
+
+
+@pytest.mark.parametrize("name", LEGENDS)
+def test_figures_are_legible_and_their_files_small_with_fonts_of_their_own(draw, name, tmp_path):
+    """No text overlaps or is cut, and no legend covers data."""
+    figure = draw(name)
+    drawn_layout.require_legible(figure)
+    legends = [a.get_legend() for a in drawn_layout.all_axes(figure) if a.get_legend()]
+    assert len(legends) == LEGENDS[name]
+    lines = [(axes, line) for axes in figure.axes for line in axes.get_lines()]
+    for (axes, line), legend in itertools.product(lines, legends):
+        if line.get_transform() == axes.transData:
+            x, y = line.get_data()
+            position = np.linspace(0, len(x) - 1, 2000)
+            x, y = (np.interp(position, np.arange(len(x)), values) for values in (x, y))
+            box = legend.get_window_extent()
+            assert drawn_layout.points_inside(axes, x, y, box) == 0, line.get_label()
+    inches = figure.get_size_inches()[0]
+    assert np.isclose(2.54 * inches, [style.SINGLE_COLUMN, style.DOUBLE_COLUMN]).any()
+    usual = [path.read_bytes() for path in style.save(figure, tmp_path / "deep" / "height-0.5")]
+    names = ["height-0.5.pdf", "height-0.5.png"]
+    assert sorted(path.name for path in (tmp_path / "deep").iterdir()) == names
+    content = usual[0]
+    assert content.startswith(b"%PDF") and b"/FontFile2" in content
+    assert b"/Type3" not in content and b"CreationDate" not in content
+    assert len(content) < 1_000_000
+    with mpl.rc_context(BLACK):  # nobody's own settings matter
+        before = dict(mpl.rcParams)
+        black = [path.read_bytes() for path in style.save(draw(name), tmp_path / "black")]
+        assert dict(mpl.rcParams) == before
+    assert black == usual
+
+
+CODE = """
+import sys
+from nucleation.pictures import style
+from replication.figures import figure_1
+style.save(figure_1.draw(), sys.argv[1])
+"""
+
+
+def test_bytes_depend_on_no_hash_seed(draw, tmp_path):
+    usual = [path.read_bytes() for path in style.save(draw("figure_1"), tmp_path / "usual")]
+    environment = {**os.environ, "PYTHONHASHSEED": "1", "PYTHONPATH": str(SOURCE)}
+    command = [sys.executable, "-c", CODE, str(tmp_path / "seed")]
+    subprocess.run(command, check=True, env=environment, timeout=600)
+    assert [(tmp_path / f"seed.{kind}").read_bytes() for kind in ("pdf", "png")] == usual

@@ -17,15 +17,12 @@ X = np.linspace(0.0, 1.0, 101)
 def table():
     ratio = np.array([0.50] * 5 + [0.55] * 5)
     columns = {
-        "role": ["paper"] * 5 + ["converged"] * 5,
+        "role": ["paper"] * 5 + ["converged"] * 5, "height": HEIGHTS, "critical_length": THEORY,
         "evolution": ["aging", "aging", "aging", "slip", "aging"] * 2,
-        "height": HEIGHTS,
-        "initial_state": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
-        "critical_length": THEORY,
-        "stability_length": ratio * THEORY,
+        "initial_state": [1.0, 1.0, 1.0, 1.0, 1e3] * 2, "stability_length": ratio * THEORY,
         "stability_length_low": (ratio - 0.01) * THEORY,
         "stability_length_high": (ratio + 0.02) * THEORY,
-    }
+    }  # fmt: skip
     return xr.Dataset({name: ("run", np.asarray(values)) for name, values in columns.items()})
 
 
@@ -74,16 +71,6 @@ def test_growth_frequency_and_modulus_of_the_mode_of_the_converged_runs(drawn):
     for line in modes:
         x, y = line.get_data()
         np.testing.assert_allclose(y[x < 1], np.sin(np.pi * x[x < 1]), atol=1e-12)
-
-
-def test_ranges_follow_the_memory_time_and_the_papers_runs_stand_in(drawn, table, patches):
-    slower = PAPER_RUN.replaced(velocity=1e-6).to_json()  # D/V is ten times as long
-    slow = figure_patch.draw_stability(
-        table.isel(run=slice(5)), [patch.assign_attrs(parameters=slower) for patch in patches[:5]]
-    )
-    assert sum(line.get_marker() == "." for line in slow.axes[0].lines) == 3
-    for axes, other in zip(drawn.axes[:2], slow.axes[:2], strict=True):
-        np.testing.assert_allclose(axes.get_ylim(), 10.0 * np.array(other.get_ylim()))
 
 
 def test_extended_figure_has_all_lengths(extended, theory, lengths, table):

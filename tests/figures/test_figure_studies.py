@@ -13,13 +13,9 @@ from replication.figures import figure_studies
 
 
 def table(theory, length):
-    theory, length = np.asarray(theory, dtype=float), np.asarray(length, dtype=float)
-    columns = {
-        "length": length,
-        "length_low": 0.9 * length,
-        "length_high": 1.2 * length,
-        "critical_length": theory,
-    }
+    length = np.asarray(length, dtype=float)
+    columns = {"length": length, "length_low": 0.9 * length, "length_high": 1.2 * length}
+    columns["critical_length"] = np.asarray(theory, dtype=float)
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
@@ -47,11 +43,9 @@ def test_one_number_is_a_curve():
 
 def test_kinds_have_their_mark_and_curve():
     """Equal curves are seen, as their dashes differ; a study without numbers is over L_c."""
-    for varied in (
-        {"evolution": list("aabb"), "height": [1, 2, 1, 2]},
-        {"evolution": list("aabb")},
-    ):
-        axes = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], **varied).axes[0]
+    for varied in ({"height": [1, 2, 1, 2]}, {}):
+        kinds = {"evolution": list("aabb")}
+        axes = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], **kinds, **varied).axes[0]
         labels = axes.get_legend_handles_labels()[1]
         assert labels == ["theory", "simulation, a", "simulation, b"]
         first, second = (line for line in axes.lines if line.get_linewidth() == 1.0)
@@ -69,9 +63,8 @@ def test_theory_is_a_smooth_curve_where_it_is_given():
 
 def grid(rows):
     """Three heights for each of some weakenings, with the theory's lengths."""
-    x, y = np.meshgrid(
-        [0.01, 0.1, 1.0, 3.0, 9.0, 20.0, 30.0, 40.0, 50.0, 60.0], np.arange(1.0, rows + 1)
-    )
+    heights = [0.01, 0.1, 1.0, 3.0, 9.0, 20.0, 30.0, 40.0, 50.0, 60.0]
+    x, y = np.meshgrid(heights, np.arange(1.0, rows + 1))
     return (x / y).ravel(), {"height": x.ravel().tolist(), "zeta_over_a": y.ravel().tolist()}
 
 
