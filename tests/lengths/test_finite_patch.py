@@ -102,7 +102,7 @@ def test_lengths_of_finite_patches():
     np.testing.assert_allclose(found["loaded_patch"], factor * scale)
     # as Uenishi and Rice's with the weakening of steady states in the place of W
     for i in range(2):
-        rate = lengths_in_use(**FAULT, a=a[i], zeta=zeta[i], weakening_rate=zeta[i] * 1e6 / 5e-7)[
-            "uenishi_rice"
-        ]
-        assert float(rate) == pytest.approx(float(found["creeping_asperity"][i]))
+        rate = zeta[i] * 1e6 / 5e-7
+        weakening = lengths_in_use(**FAULT, a=a[i], zeta=zeta[i], weakening_rate=rate)
+        expected = pytest.approx(float(found["creeping_asperity"][i]))
+        assert float(weakening["uenishi_rice"]) == expected

@@ -10,7 +10,8 @@ from nucleation.api import ParameterError
 
 FRICTION = {"a": 0.0068, "zeta": 0.016, "friction": 0.41}
 PMMA = {"poisson_ratio": 0.35, **FRICTION}
-OTHERS = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "slip_distance": 5e-7}
+KNOWN = {"shear_modulus": 3.1e9, "slip_distance": 5e-7}
+OTHERS = {**KNOWN, "normal_stress": 1e6}
 BODIES = {
     "half-spaces": {},
     "plates": {"height": 0.1, "plane": "stress"},
@@ -33,15 +34,12 @@ def by_hand(unknown, length, bodies):
     return OTHERS["slip_distance"] / softness
 
 
-def without(unknown):
-    return {name: value for name, value in OTHERS.items() if name != unknown}
-
-
 @pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
 @pytest.mark.parametrize("unknown", ["normal_stress", "slip_distance"])
 def test_the_end_is_that_of_the_equation(unknown, bodies):
     for length in (0.03, 0.2, 3.0):
-        found = specimen_fit(unknown, length, **PMMA, **without(unknown), **bodies)
+        given = {name: value for name, value in OTHERS.items() if name != unknown}
+        found = specimen_fit(unknown, length, **PMMA, **given, **bodies)
         [(low, high)] = found.intervals
         end, other = (low, high) if unknown == "normal_stress" else (high, low)
         assert end == pytest.approx(by_hand(unknown, length, bodies), rel=1e-8)
@@ -50,13 +48,10 @@ def test_the_end_is_that_of_the_equation(unknown, bodies):
 
 @pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
 def test_the_creeping_patch_fits_where_it_says(bodies):
-    found = specimen_fit(
-        "normal_stress", 0.2, "stability", **PMMA, **without("normal_stress"), **bodies
-    )
-    [(low, _)] = found.intervals
-    at = stability_length(**PMMA, **without("normal_stress"), **bodies, normal_stress=low)
-    assert at == pytest.approx(0.2, rel=1e-4)
-    whole = specimen_fit("normal_stress", 0.2, **PMMA, **without("normal_stress"), **bodies)
+    fault = PMMA | bodies | KNOWN
+    [(low, _)] = specimen_fit("normal_stress", 0.2, "stability", **fault).intervals
+    assert stability_length(**fault, normal_stress=low) == pytest.approx(0.2, rel=1e-4)
+    whole = specimen_fit("normal_stress", 0.2, **fault)
     assert low < whole.intervals[0][0]  # L_s is shorter than L_c
 
 
@@ -76,11 +71,9 @@ def test_several_answers():
 
 def test_no_answer():
     stable = PMMA | {"zeta": -0.01}
-    found = specimen_fit("normal_stress", 0.2, **stable, **without("normal_stress"))
+    found = specimen_fit("normal_stress", 0.2, **stable, **KNOWN)
     assert found.intervals == () and not found.exists
-    short = specimen_fit(
-        "normal_stress", 0.2, within=(1e4, 1e6), **PMMA, **without("normal_stress")
-    )
+    short = specimen_fit("normal_stress", 0.2, within=(1e4, 1e6), **PMMA, **KNOWN)
     assert short.intervals == () and short.exists
 
 
@@ -98,6 +91,6 @@ def test_no_answer():
     ],
 )
 def test_what_is_refused(changed, said):
-    usual = {"unknown": "normal_stress", "length": 0.2, **PMMA, **without("normal_stress")}
+    usual = {"unknown": "normal_stress", "length": 0.2, **PMMA, **KNOWN}
     with pytest.raises(ParameterError, match=said):
         specimen_fit(**usual | changed)

@@ -10,18 +10,13 @@ OPTIONS = tuple("--" + name.replace("_", "-") for name in API)
 FILE = ("a", "zeta", "slip_distance", "height")
 
 
-@pytest.mark.parametrize(
-    ("name", "meant"),
-    [
-        ("Dc", "slip_distance"),
-        ("D_RS", "slip_distance"),
-        ("sigma_n", "normal_stress"),
-        ("G", "shear_modulus"),
-        ("nu", "poisson_ratio"),
-        ("V_pl", "velocity"),
-        ("f0", "friction"),
-    ],
-)
+SYMBOLS = {
+    "Dc": "slip_distance", "D_RS": "slip_distance", "sigma_n": "normal_stress", "f0": "friction",
+    "G": "shear_modulus", "nu": "poisson_ratio", "V_pl": "velocity",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "meant"), SYMBOLS.items())
 def test_symbols_of_other_texts(name, meant):
     assert hint(name, API) == f"did you mean {meant}?"
     assert hint("--" + name, OPTIONS) == f"did you mean --{meant.replace('_', '-')}?"
