@@ -61,7 +61,6 @@ def test_a_failed_write_leaves_the_old_file_alone(tmp_path, monkeypatch):
 def test_figures_are_legible_and_their_files_small_with_fonts_of_their_own(draw, name, tmp_path):
     """No text overlaps or is cut, and no legend covers data."""
     figure = draw(name)
-    usual = [path.read_bytes() for path in style.save(figure, tmp_path / "deep" / "height-0.5")]
     drawn_layout.require_legible(figure)
     legends = [a.get_legend() for a in drawn_layout.all_axes(figure) if a.get_legend()]
     assert len(legends) == LEGENDS[name]
@@ -75,6 +74,7 @@ def test_figures_are_legible_and_their_files_small_with_fonts_of_their_own(draw,
             assert drawn_layout.points_inside(axes, x, y, box) == 0, line.get_label()
     inches = figure.get_size_inches()[0]
     assert np.isclose(2.54 * inches, [style.SINGLE_COLUMN, style.DOUBLE_COLUMN]).any()
+    usual = [path.read_bytes() for path in style.save(draw(name), tmp_path / "deep" / "height-0.5")]
     names = ["height-0.5.pdf", "height-0.5.png"]
     assert sorted(path.name for path in (tmp_path / "deep").iterdir()) == names
     content = usual[0]
