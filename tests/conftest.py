@@ -10,11 +10,12 @@ from pathlib import Path
 
 import hypothesis
 import pytest
+import square_evolution
 
 pytest_plugins = ("coarse_run",)
 
 # make test hands its own settings (VENV=...) to every make below it
-for name in (
+for name in [
     "MAKEFLAGS",
     "MFLAGS",
     "MAKELEVEL",
@@ -24,7 +25,7 @@ for name in (
     "TARGETS",
     "CONFIG",
     "PRUNE",
-):
+]:
     os.environ.pop(name, None)
 
 # Workers are processes: threads of the linear algebra would take the cores from one another.
@@ -41,6 +42,12 @@ SYSTEM = ("workflow/cluster", "faults", "workflow")
 
 LONG = (*SYSTEM, "test_random_faults.py", "docs", "test_packaging.py", "verification")
 """What is begun first, by the time that its longest file takes; all others take less."""
+
+
+@pytest.fixture
+def square(monkeypatch):
+    """The state evolves by a law that is not the project's."""
+    monkeypatch.setattr("nucleation.model.friction.Friction.evolution_law", square_evolution)
 
 
 @pytest.hookimpl(tryfirst=True)  # marks are chosen from afterwards

@@ -39,12 +39,6 @@ def test_process_zone_of_the_paper():
     assert thin.process_zone() == pytest.approx(math.sqrt(2 * 0.005 * thick), rel=2e-3)
 
 
-@pytest.fixture
-def square(monkeypatch):
-    """The state evolves by a law that is not the project's."""
-    monkeypatch.setattr(Friction, "evolution_law", square_evolution)
-
-
 def weakening(growth, omega):
     """Mean fall of friction with slip over b/D, along a slip that takes Omega down to 1."""
     omegas = np.geomspace(omega, 1.0 + 1e-9, 200_001)

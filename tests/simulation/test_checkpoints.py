@@ -57,13 +57,11 @@ def loaded(path):
 
 
 def kept_at(parameters, steps):
-    """The undisturbed record, and the arrays offered after some of its steps (negative: from the
-    last)."""
-    offered, wanted = [], set(steps)
+    """The undisturbed record, and the arrays offered after some of its steps."""
+    offered = []
 
     def keep(arrays):
-        number = len(offered)
-        offered.append(arrays() if number in wanted else None)
+        offered.append(arrays() if len(offered) in steps else None)
 
     return simulate(parameters, keep=keep), offered
 
@@ -126,7 +124,17 @@ def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
     assert f"resumes from {path}" in said
 
 
-def test_checkpoints_are_written_every_so_often(tmp_path):
+def test_checkpoints_are_written_as_often_as_the_environment_has_it(tmp_path, monkeypatch):
+    """Only how often: what a run is does not depend on it."""
+    monkeypatch.delenv(VARIABLE, raising=False)
+    assert interval() == EVERY == 60.0
+    monkeypatch.setenv(VARIABLE, "0")
+    assert interval() == 0.0
+    for text in ("-1", "nan", "a minute"):
+        monkeypatch.setenv(VARIABLE, text)
+        with pytest.raises(ParameterError, match=f"{VARIABLE} = '{text}' is not allowed: a time"):
+            _Checkpoint(tmp_path / "a.npz", "this run")
+    monkeypatch.delenv(VARIABLE)
     one = checkpoint(tmp_path / "run.npz", every=1e9)
     one.keep(lambda: pytest.fail("it is not yet time"))
     assert not list(tmp_path.iterdir())
@@ -134,20 +142,6 @@ def test_checkpoints_are_written_every_so_often(tmp_path):
     for value in (np.array(1.0), np.array([[2, 3]]), np.array(True), np.empty(0)):
         two.keep(lambda value=value: {"value": value})
         np.testing.assert_array_equal(two.load()["value"], value, strict=True)
-
-
-def test_environment_tells_how_often(tmp_path, monkeypatch):
-    """Only how often: what a run is does not depend on it."""
-    monkeypatch.delenv(VARIABLE, raising=False)
-    assert interval() == EVERY == 60.0
-    _Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: pytest.fail("it is not yet time"))
-    monkeypatch.setenv(VARIABLE, "0")
-    _Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: {"value": np.array(1.0)})
-    assert (tmp_path / "a.npz").exists()
-    for text in ("-1", "nan", "a minute"):
-        monkeypatch.setenv(VARIABLE, text)
-        with pytest.raises(ParameterError, match=f"{VARIABLE} = '{text}' is not allowed: a time"):
-            _Checkpoint(tmp_path / "a.npz", "this run")
 
 
 def test_checkpoint_of_another_run_is_refused(tmp_path):

@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-import square_evolution
 from hypothesis import given
 from hypothesis import strategies as st
 
 from nucleation.extraction.definitions import find_onset
 from nucleation.extraction.extraction import Record
-from nucleation.model.friction import Friction
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import start
 from nucleation.simulation.event import (
@@ -110,9 +108,8 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     force = np.abs(made["driving_force"].values)
     fast = made["maximal_slip_rate"].values > 10.0 * THICK.fault.velocity
     always = np.ones(fast.size, dtype=bool)
-    naive_onset = find_onset(
-        made["step_time"].values, force, THICK.memory_time, 0.02, fast, always, ~always
-    )
+    steps = made["step_time"].values
+    naive_onset = find_onset(steps, force, THICK.memory_time, 0.02, fast, always, ~always)
     assert naive_onset is not None, "anything that slips fast was enough"
     assert made.attrs["status"].startswith(Outcome.END_TIME) and record.onset is None
 
@@ -181,12 +178,6 @@ def test_a_front_changes_the_logarithm_of_the_state_by_one(begin, fall, width):
     assert front_width(COARSE, X, state) == pytest.approx(width)
 
 
-@pytest.fixture
-def square(monkeypatch):
-    """The state evolves by a law that is not the project's."""
-    monkeypatch.setattr(Friction, "evolution_law", square_evolution)
-
-
 @pytest.mark.slow
 def test_a_run_that_its_mesh_cant_resolve_says_so(square):
     """It had an event in a patch of .11 L_c, and was completed without a word."""
@@ -198,8 +189,7 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
     assert "; no event: the drop at t = 0.4" in status
     force = np.abs(made["driving_force"].values)
     always = np.ones(force.size, dtype=bool)
-    first = find_onset(
-        record.step_time, force, COARSE.memory_time, 0.02, record._fast, always, ~always
-    )
+    masks = record._fast, always, ~always
+    first = find_onset(record.step_time, force, COARSE.memory_time, 0.02, *masks)
     at_first = record.lengths[record.frames_at(record.step_time[[first.start]])[0]]
     assert at_first < (FEW + 1) * X[1] < record.lengths_at_drop[0, 0]

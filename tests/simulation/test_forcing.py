@@ -49,12 +49,10 @@ def test_the_drive_moves_as_declared(records):
     assert velocity.std() == pytest.approx(1e-7, rel=0.8)
     assert [drive.at(t).velocity for t in record["step_time"].values] == pytest.approx(velocity)
     time = record["time"].values
-    np.testing.assert_allclose(
-        record["slip_rate"].values[:, 0], [drive.at(t).velocity for t in time], rtol=1e-14
-    )
-    np.testing.assert_allclose(
-        record["slip"].values[:, 0], [drive.at(t).displacement for t in time], rtol=1e-13
-    )
+    edge = [drive.at(t) for t in time]
+    rates, slips = (record[name].values[:, 0] for name in ("slip_rate", "slip"))
+    np.testing.assert_allclose(rates, [at.velocity for at in edge], rtol=1e-14)
+    np.testing.assert_allclose(slips, [at.displacement for at in edge], rtol=1e-13)
     stuck = np.abs(record["slip"].values[:, 30])  # slip there is that of the drive less w
     assert stuck.max() < 2e-3 * drive.at(time[-1]).displacement
 
@@ -119,9 +117,8 @@ STRENGTH = 1.3
 def last_step(parameters, drive=None, interface=None):
     """The report after some steps of the usual composition, but for drive and interface."""
     usual = composed(parameters)
-    dynamics = Dynamics(
-        usual.body, interface or usual.interface, drive or usual.drive, usual.scheme
-    )
+    others = interface or usual.interface, drive or usual.drive
+    dynamics = Dynamics(usual.body, *others, usual.scheme)
     state, report = at_rest(dynamics, parameters)
     for rung in LADDER:
         state, report = dynamics.advance(state, rung)
@@ -133,11 +130,9 @@ def test_strength_multiplies_friction():
     strength = np.full(17, STRENGTH)
     drive = steady._replace(at=lambda time: steady.at(time)._replace(strength=strength))
     _, found = last_step(SLIDING, drive)
-    stronger = dataclasses.replace(
-        friction,
-        base_friction=STRENGTH * friction.base_friction,
-        rate_coefficient=STRENGTH * friction.rate_coefficient,
-    )
+    names = ("base_friction", "rate_coefficient")
+    larger = {name: STRENGTH * getattr(friction, name) for name in names}
+    stronger = dataclasses.replace(friction, **larger)
     _, expected = last_step(SLIDING, interface=Interface(stronger))
     assert np.count_nonzero(expected.interface.slip_rate > 1e-5) >= 2
     for name in ("slip_rate", "log_state", "tangential", "normal"):

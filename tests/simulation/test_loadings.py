@@ -104,13 +104,9 @@ def test_onset_converges_with_mesh_tolerance_and_step(parameters):
 
     def onset(elements=120, tolerance=1e-2, longest_step=0.1):
         made = own.replaced(
-            n_x=elements + odd,
-            n_y=elements // 10,
-            end_time=20.0,
-            time_after_event=0.0,
-            tolerance=tolerance,
-            longest_step=longest_step,
-        )
+            n_x=elements + odd, n_y=elements // 10, end_time=20.0, time_after_event=0.0,
+            tolerance=tolerance, longest_step=longest_step,
+        )  # fmt: skip
         return extract(simulate(made))["onset_time"]
 
     coarse = onset()

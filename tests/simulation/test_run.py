@@ -1,4 +1,4 @@
-"""Whole runs on coarse grids: outcome, records, and what must not matter."""
+"""Whole runs of one body and of two on coarse grids: outcome, records, what must not matter."""
 
 import dataclasses
 import itertools
@@ -13,6 +13,7 @@ from nucleation.simulation.event import Outcome
 from nucleation.simulation.interface import Interface, NewtonFailure
 from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import SimulationFailure, instants, simulate
+from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 COARSE = PAPER_RUN.replaced(
@@ -131,17 +132,40 @@ def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
 def test_a_perturbed_patch_grows_under_a_law_that_is_steep_at_rest():
     """Nodes whose strength is exceeded must not count as solved: the fault would open in 2.8 s."""
     parameters = PAPER_RUN.replaced(
-        friction_law="dieterich_ruina",
-        log_state_coefficient=0.0136,  # zeta/a = 1
-        height=0.03,
-        block_length=3.427,
-        n_x=100,
-        n_y=4,
-        grading=20.0,
-        perturbation="normal_load",
-        strength=1e-4,
-        end_time=3.0,
-    )
+        friction_law="dieterich_ruina", log_state_coefficient=0.0136, height=0.03, end_time=3.0,
+        block_length=3.427, n_x=100, n_y=4, grading=20.0, perturbation="normal_load", strength=1e-4
+    )  # fmt: skip
+    assert parameters.fault.zeta == pytest.approx(parameters.fault.a)
     record = simulate(parameters)
     assert record.attrs["status"] == Outcome.END_TIME
     assert (np.abs(record["slip_rate"][-1]) > 0.1 * parameters.fault.velocity).sum() >= 4
+
+
+LOW = COARSE.replaced(height=0.02, block_length=1.2, n_y=4, longest_step=0.4, end_time=2.0)
+PAIR = LOW.replaced(second_body="deformable", second_n_y=5)
+
+
+def test_bodies_meet_at_the_interface():
+    parameters = PAIR.replaced(second_height=0.03, second_density=2400.0, end_time=0.3)
+    record = simulate(parameters)
+    assert Run.from_json(record.attrs["parameters"]).below.material.density == 2400.0
+    dynamics = composed(parameters)
+    for instant in itertools.islice(instants(parameters, dynamics=dynamics), 0, 21, 10):
+        state = instant.state
+        above_x, above_y = dynamics.body.nodal_values(state.displacement)
+        below_x, below_y = dynamics.body.nodal_values(state.displacement, 1)
+        np.testing.assert_allclose(above_y[0], below_y[0], atol=1e-18)  # no opening
+        slip = above_x[0] - below_x[0]
+        np.testing.assert_allclose(slip[1:], state.past_w[0], atol=1e-18)
+
+
+def test_a_stiff_clamped_block_is_the_rigid_base():
+    """Force and slip rates are the same, but for the base's own compliance."""
+    stiff = PAIR.replaced(
+        second_shear_modulus=9e12, second_height=0.001, second_n_y=2, second_far_side="clamped"
+    )
+    rigid, stiff = (simulate(run) for run in (LOW, stiff))
+    force = [float(run["driving_force"][-1]) for run in (rigid, stiff)]
+    assert force[1] == pytest.approx(force[0], rel=1e-4)
+    rates = [run["slip_rate"].values[-1] for run in (rigid, stiff)]
+    np.testing.assert_allclose(rates[1], rates[0], rtol=2e-3, atol=1e-9)

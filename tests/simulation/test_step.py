@@ -16,14 +16,8 @@ from nucleation.simulation.stepping import BDF, _Formula
 
 
 def small(law="aging", **mesh):
-    return PAPER_RUN.replaced(
-        height=0.02,
-        block_length=0.4,
-        **{"n_x": 16, "n_y": 4, "grading": 2.0} | mesh,
-        evolution=law,
-        normal_stress=2e5,
-        velocity=1e-3,
-    )
+    mesh = {"n_x": 16, "n_y": 4, "grading": 2.0, "height": 0.02, "block_length": 0.4} | mesh
+    return PAPER_RUN.replaced(evolution=law, normal_stress=2e5, velocity=1e-3, **mesh)
 
 
 # growing steps, then many of 3e-5 s (D/V is 5e-4 s) while the first nodes break loose
@@ -62,9 +56,8 @@ def test_start_without_shear_is_uniaxial_stress():
     np.testing.assert_allclose(u_x, nu * scale * x, atol=1e-9 * scale)
     np.testing.assert_allclose(u_y, -(1.0 - nu) * scale * y, atol=1e-9 * scale)
     assert abs(report.driving_force) < 1e-8 * stress * parameters.fault.height
-    np.testing.assert_allclose(
-        report.interface.normal, stress * dynamics.grid.nodal_lengths, rtol=1e-8
-    )
+    carried = stress * dynamics.grid.nodal_lengths
+    np.testing.assert_allclose(report.interface.normal, carried, rtol=1e-8)
 
 
 def test_without_density_every_step_is_a_static_field():

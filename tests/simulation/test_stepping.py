@@ -142,8 +142,5 @@ def test_the_largest_growth_of_steps_is_stable_and_twice_as_much_is_not():
     [(1.0, 0.85), (8.0, 0.85 / 2.0), (0.125, 1.7), (0.0, 2.0), (1e9, 0.2), (np.inf, 1.0)],
 )
 def test_the_step_follows_the_cube_root_of_the_error_with_a_margin(error, factor):
-    """The local error is of third order, over the tolerance; infinite without an estimate.
-
-    A step grows to twice and shrinks to a fifth at most.
-    """
+    """To twice and to a fifth at most; the error is infinite without an estimate."""
     assert _step_factor(error, BDF()) == pytest.approx(factor)
