@@ -47,8 +47,5 @@ def lengths_in_use(weakening_rate=None, **fault):
     return values_of(Fault(**fault), weakening_rate)
 
 
-def expected_drop(parameters):
-    return drop_of_run(parameters)
-
-
+expected_drop = drop_of_run
 CRITERIA = {"critical_length": critical_length, "stability_length": stability_length}

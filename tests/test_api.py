@@ -95,10 +95,6 @@ def test_texts_have_units_as_on_the_command_line():
         api.Run(api.PAPER, block_length="5 s")
 
 
-def test_parameters_are_shown_for_completion():
-    assert inspect.signature(api.Fault).parameters["height"].default == math.inf
-
-
 def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
     mode = asked.critical_mode(**PAPER, velocity=1e-5, height=0.01)
     k = mode.wavenumber * np.array([0.9, 1.0, 1.1])
@@ -157,6 +153,7 @@ def test_each_name_has_an_example(name):
 
 
 def test_example_of_the_module():
+    assert inspect.signature(api.Fault).parameters["height"].default == math.inf  # for completion
     assert doctest.testmod(api) == (0, 3)  # failed, attempted
     with pytest.raises(AttributeError, match="no attribute 'simulations'"):
         api.simulations  # noqa: B018

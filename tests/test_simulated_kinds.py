@@ -1,15 +1,14 @@
-"""A simulated fault of each kind does as the library answers: strong, weak, specimen, patch."""
+"""A simulated fault of each kind does as the library answers: strong, weak, specimen.
+
+Weakening patches do so in tables/test_weakening_patches.py.
+"""
 
 import math
-from pathlib import Path
 
 import pytest
 
 from nucleation.api import Fault, Run, extract, simulate
-from nucleation.lengths.weakening_patch import DYNAMIC, bounds
-from replication.configuration.load import load
 
-ROOT = Path(__file__).parents[1]
 NOISE = {"perturbation": "normal_load", "strength": 1e-5}
 
 STRONG = Fault(
@@ -48,26 +47,3 @@ def test_a_specimen_that_may_nucleate_does(length):
     waves = math.sqrt(PLATES.shear_modulus / PLATES.density)
     dynamic = 2.0 * PLATES.a * PLATES.normal_stress * waves / PLATES.shear_modulus
     assert float(simulate(run).maximal_slip_rate.max()) > dynamic
-
-
-def patches():
-    """Simulated patches of one friction, zeta/a = 1 among surroundings of half that strength."""
-    runs = load(ROOT / "config" / "beyond.yaml").runs
-    return [
-        run.run for run in runs if run.study == "weakening_patches" and run.run.fault.height == 1.77
-    ]
-
-
-def test_patches_creep_below_the_bounds_and_have_events_above():
-    ends, events = bounds("zeta", 1.0, 0.5)
-    tried = set()
-    for run in patches():
-        inside = run.fault.replace(zeta=0.0068)
-        ratio = run.heterogeneity.width / inside.weakening_patch_length(outside_zeta=-0.0034)
-        peak = float(simulate(run).maximal_slip_rate.max()) / run.fault.velocity
-        if ratio <= ends:
-            assert peak < DYNAMIC[0]
-        if ratio >= events:
-            assert peak > DYNAMIC[0]
-        tried |= {ratio <= ends, ratio >= events}
-    assert tried == {True, False}

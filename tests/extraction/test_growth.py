@@ -26,7 +26,6 @@ PARAMETERS = PAPER_RUN.replaced(
     height=0.02, block_length=1.8, n_x=120, n_y=6, end_time=11.0, tolerance=5e-2
 )
 THEORY = 0.451  # m
-FIRST = "stability_length"
 
 
 @pytest.fixture(scope="module")
@@ -111,15 +110,11 @@ def test_table_compares_with_the_reference_study():
     stiff = {"shear_modulus": 9e9}
     declared = [("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5)]
     declared += [("converged", stiff, 0.8), ("paper", stiff, 0.84)]
-    runs = [
-        StudyRun(
-            role, "mine", PARAMETERS.replaced(**changes), 0.4, PARAMETERS.fault, role=role
-        ).to_dict()
-        for role, changes, _ in declared
-    ]
-    patches = [
-        xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for _, _, length in declared
-    ]
+    runs, patches = [], []
+    for role, changes, length in declared:
+        own = PARAMETERS.replaced(**changes)
+        runs.append(StudyRun(role, "mine", own, 0.4, PARAMETERS.fault, role=role).to_dict())
+        patches.append(xr.Dataset(dict.fromkeys(FITTED, 1.0) | {"stability_length": length}))
     table = gather_stability(runs, patches)
     assert set(table.data_vars) == set(STABILITY)
     np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25, 2.0, 2.1])
