@@ -28,6 +28,8 @@ assert doubling.doubled({}) == {}
 """
 KEPT = """
 import sys
+from nucleation.fem import compiling
+compiling.LOCK_ATTEMPTS = 20
 sys.path.insert(0, sys.argv[1])
 from doubling import doubled
 

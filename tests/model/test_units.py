@@ -1,4 +1,4 @@
-"""Values as people write them, and arrays that carry a unit."""
+"""Names and values as people write them, and arrays that carry a unit."""
 
 import math
 from decimal import Decimal
@@ -9,6 +9,7 @@ import pint
 import pytest
 import xarray as xr
 
+from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import QUICK, magnitude, parse, registry
 from nucleation.run.names import parameters
@@ -153,3 +154,36 @@ def test_arrays_refused(value, words):
     with pytest.raises(ParameterError, match=words) as refused:
         magnitude("normal_stress", value, STRESS)
     assert str(refused.value).startswith("normal_stress")
+
+
+API = tuple(QUANTITIES)
+OPTIONS = tuple("--" + name.replace("_", "-") for name in API)
+FILE = ("a", "zeta", "slip_distance", "height")
+
+
+SYMBOLS = {
+    "Dc": "slip_distance", "D_RS": "slip_distance", "sigma_n": "normal_stress", "f0": "friction",
+    "G": "shear_modulus", "nu": "poisson_ratio", "V_pl": "velocity",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "meant"), SYMBOLS.items())
+def test_symbols_of_other_texts(name, meant):
+    assert hint(name, API) == f"did you mean {meant}?"
+    assert hint("--" + name, OPTIONS) == f"did you mean --{meant.replace('_', '-')}?"
+
+
+@pytest.mark.parametrize("name", ["E", "youngs_modulus", "--youngs-modulus", "Young's modulus"])
+def test_youngs_modulus_is_not_the_shear_modulus(name):
+    assert hint(name, API) == "give shear_modulus: mu = E/(2 (1 + nu))"
+
+
+@pytest.mark.parametrize("name", ["a-b", "a_minus_b", "b-a"])
+def test_the_difference_of_a_and_b_has_its_sign(name):
+    assert hint(name, API).startswith("give zeta: zeta = b - a")
+    assert hint(name, FILE).startswith("give zeta: ")
+
+
+def test_misspelt_names():
+    assert hint("heigth", API) == "did you mean height?"
+    assert hint("xyz", API) == ""
