@@ -53,9 +53,8 @@ def test_a_fault_is_a_flat_mapping(name, tmp_path):
     fault = Fault(**FAULTS[name])
     assert Fault.from_dict(fault.to_dict()) == fault
     path = tmp_path / "fault.yaml"
-    path.write_text(
-        "\n".join(f"{k}: {v}" for k, v in fault.to_dict().items()).replace("inf", "'inf'")
-    )
+    text = "\n".join(f"{k}: {v}" for k, v in fault.to_dict().items())
+    path.write_text(text.replace("inf", "'inf'"))
     assert Fault.from_file(path) == fault
 
 

@@ -77,9 +77,8 @@ def strengthening_threshold(a, zeta):
         decays = [decay(x) for x in grid]
         least = int(np.argmin(decays))
         near = grid[max(least - 1, 0) : least + 2]
-        found = minimize_scalar(
-            decay, bounds=(near[0], near[-1]), method="bounded", options={"xatol": 1e-12}
-        )
+        ends, fine = (near[0], near[-1]), {"xatol": 1e-12}
+        found = minimize_scalar(decay, bounds=ends, method="bounded", options=fine)
         return -found.fun
 
     return float(brentq(largest_rate, 1e-3, 50.0, xtol=1e-10))

@@ -37,7 +37,6 @@ BELOW, ABOVE = read({"below": 1.0}), read({"above": 1.0})
     ("printed", "low", "high"),
     [
         ("13", 12.5, 13.5),
-        ("0.15", 0.145, 0.155),
         ("0.0156", 0.01555, 0.01565),
         ("-1", -1.5, -0.5),
         ("0.40", 0.395, 0.405),
@@ -107,7 +106,6 @@ def test_words_are_intervals_with_a_reading():
         (formula(1.0), 0.9, 0.9, 0.9),
         (ABOVE, 0.9, 0.9, 1.05),
         (BELOW, 1.05, 0.9, 1.05),
-        (words("most"), 0.9, 0.9, 1.05),
         (read({"reading": "good"}), 0.9, 0.9, 1.05),
     ],
 )
@@ -141,7 +139,6 @@ GOOD, BAD = 12.8, 18.9
         (Result(between(1.05, 0.9, 1.1), BELOW), Verdict.NOT_REPLICATED, "the bound, 1."),
         (Result(BAD, explained=(math.nan, "Why.")), Verdict.NOT_REPLICATED, "outside"),
         (Result(-99.0, words("expected")), Verdict.NOT_SUPPORTED, "within 25 % of one"),
-        (Result(-99.0, words("almost everywhere")), Verdict.NOT_SUPPORTED, "90 %"),
         (Result(-99.0, words("small variation")), Verdict.NOT_REPLICATED, "10 %"),
     ],
 )

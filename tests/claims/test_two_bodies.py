@@ -124,22 +124,16 @@ def test_a_length_that_depends_on_the_height_decides_nothing(higher, left_out):
     """Identical blocks with the zeta/a of the pairs, twice as high, in another study."""
     pairs = table(1.2, slope=0.2)
     identical = pairs.isel(run=[2])
-    taller = identical.assign(
-        role=("run", ["pairs_weak"]),
-        height=2.0 * identical["height"],
-        length_ratio=higher * identical["length_ratio"],
-        ensemble=("run", ["taller"]),
-        id=("run", ["taller"]),
-    )
+    names = {"role": "pairs_weak", "ensemble": "taller", "id": "taller"}
+    taller = identical.assign({name: ("run", [value]) for name, value in names.items()})
+    for name, factor in (("height", 2.0), ("length_ratio", higher)):
+        taller[name] = factor * identical[name]
     row = judged("pairs-smaller", xr.concat([pairs, taller], "run"))
     assert row["verdict"] == ("cannot be checked" if left_out else "not supported")
     other = pairs.isel(run=slice(2, None))
-    other = other.assign(
-        zeta_over_a=0.0 * other["zeta_over_a"] + 10.0,
-        length_ratio=0.5 * other["length_ratio"],
-        ensemble=("run", [f"other-{i}" for i in range(5)]),
-        id=("run", [f"other-{i}" for i in range(5)]),
-    )
+    ids = "run", [f"other-{i}" for i in range(5)]
+    other = other.assign(length_ratio=0.5 * other["length_ratio"], ensemble=ids, id=ids)
+    other = other.assign(zeta_over_a=0.0 * other["zeta_over_a"] + 10.0)
     row = judged("pairs-smaller", xr.concat([pairs, taller, other], "run"))
     assert row["verdict"] == ("replicated" if left_out else "not supported")
 

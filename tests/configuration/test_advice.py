@@ -42,9 +42,8 @@ def test_process_zone_of_the_paper():
 def weakening(growth, omega):
     """Mean fall of friction with slip over b/D, along a slip that takes Omega down to 1."""
     omegas = np.geomspace(omega, 1.0 + 1e-9, 200_001)
-    slip = np.concatenate(
-        [[0.0], np.cumsum(np.diff(omegas) / growth(0.5 * (omegas[1:] + omegas[:-1])))]
-    )
+    steps = np.diff(omegas) / growth(0.5 * (omegas[1:] + omegas[:-1]))
+    slip = np.concatenate([[0.0], np.cumsum(steps)])
     fall = np.log(omegas)
     energy = np.sum(0.5 * (fall[1:] + fall[:-1]) * np.diff(slip))
     return fall[0] ** 2 / (2.0 * energy)

@@ -67,6 +67,8 @@ BAD = [
     # contradictions
     (changed("extraction.edge_threshold_low", 0.1),
      ["edge_threshold_low = 0.1, edge_threshold = 0.01", "must ascend, each in (0, 1]"]),
+    (study(TALL | {"event_drop": 0.05}) | {"extraction": {"drop": 0.1}},
+     ["event_drop = 0.05 is not allowed with extraction.drop = 0.1"]),
     (study(TALL, defaults={"shortest_step": 0.5}),
      [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"]),
     ({"friction": {"aging_coefficient": 0.0},

@@ -141,9 +141,8 @@ def curves(*runs, **settings):
 
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])
 def test_curve_goes_through_the_runs(interface):
-    runs, found = curves(
-        {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}, interface=interface
-    )
+    entry = {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}
+    runs, found = curves(entry, interface=interface)
     assert set(found) == {"aging", "slip"}
     for run in runs:
         curve = found[run.labels["evolution"]]

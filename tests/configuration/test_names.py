@@ -5,7 +5,6 @@ from configurations import messages, study
 
 from nucleation.fault import Fault
 from nucleation.fault.files import read_yaml
-from nucleation.model.friction.constants import constants_of
 from nucleation.run.complete import stiffness_of
 from nucleation.run.run import PAPER_RUN
 from replication.configuration.load import configure
@@ -40,23 +39,6 @@ def test_a_second_body_is_named():
     runs = runs_of({"second_body": "deformable", "second_height": [0.1, 0.2], "height": 0.3})
     assert [run.run.below.height for run in runs] == [0.1, 0.2]
     assert runs[0].id == "s-aging-H0.3-phi1-second_bodydeformable-second_height0.1"
-
-
-def test_laws_are_compared_by_one_study():
-    """Both laws with the same constants: the theory's length is one, the laws are two."""
-    constant = {"friction": 0.5, "a": 0.01, "zeta_over_a": 1.0}
-    runs = runs_of(
-        {"height": 0.1, "friction_law": ["product", "dieterich_ruina"]}, defaults=constant
-    )
-    assert [run.id for run in runs] == [
-        "s-aging-H0.1-phi1-friction_lawproduct", "s-aging-H0.1-phi1-friction_lawdieterich_ruina",
-    ]  # fmt: skip
-    for run in runs:
-        found = constants_of(run.run.law, 1e-5)
-        assert found == pytest.approx(constant | {"zeta": 0.01, "b": 0.02})
-    assert runs[0].critical_length == pytest.approx(runs[1].critical_length, rel=1e-9)
-    assert runs[1].value("friction_law") == "dieterich_ruina"
-    assert runs[1].value("aging_coefficient") is None
 
 
 @pytest.mark.parametrize("bottom", ["free", "clamped", "roller"])

@@ -57,11 +57,10 @@ def test_spectrum_equals_that_of_differences(friction, patch):
     ]
     reference = np.linalg.eigvals(np.array(columns).T)
     reference = reference[np.argsort(-reference.real)]
-    scale = np.abs(reference[:4]).max()
-    np.testing.assert_allclose(patch.eigenvalues[:4].real, reference[:4].real, atol=1e-4 * scale)
-    np.testing.assert_allclose(
-        np.abs(patch.eigenvalues[:4].imag), np.abs(reference[:4].imag), atol=1e-3 * scale
-    )
+    first, found = reference[:4], patch.eigenvalues[:4]
+    scale = np.abs(first).max()
+    np.testing.assert_allclose(found.real, first.real, atol=1e-4 * scale)
+    np.testing.assert_allclose(np.abs(found.imag), np.abs(first.imag), atol=1e-3 * scale)
 
 
 def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):

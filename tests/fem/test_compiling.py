@@ -49,9 +49,8 @@ def test_two_processes_compile_for_other_arguments_at_once(tmp_path):
     programs = (TWO_AT_ONCE.format(x, 2 * x) for x in (3, 2.5))
     running = [subprocess.Popen([sys.executable, "-c", p, str(tmp_path)]) for p in programs]
     assert [process.wait() for process in running] == [0, 0]
-    third = subprocess.run(
-        [sys.executable, "-c", KEPT, str(tmp_path)], check=True, capture_output=True, text=True
-    )
+    command = [sys.executable, "-c", KEPT, str(tmp_path)]
+    third = subprocess.run(command, check=True, capture_output=True, text=True)
     assert third.stdout.split() == ["6", "5.0", "0"]
 
 

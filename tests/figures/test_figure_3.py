@@ -106,9 +106,8 @@ def test_marks_of_one_height_stand_side_by_side(axes):
 
 def table(*rows):
     law, initial_state = zip(*rows, strict=True)
-    return xr.Dataset(
-        {"evolution": ("run", list(law)), "initial_state": ("run", list(initial_state))}
-    )
+    columns = {"evolution": ("run", list(law)), "initial_state": ("run", list(initial_state))}
+    return xr.Dataset(columns)
 
 
 def test_every_law_has_a_look_of_its_own():

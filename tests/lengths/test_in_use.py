@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-import xarray as xr
 from asked import lengths_in_use
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
@@ -210,20 +209,6 @@ def test_ranges_of_validity_in_a_over_b(key, inside, outside):
 
     assert all(length(ratio) > 0.0 for ratio in inside)
     assert all(np.isnan(length(ratio)) for ratio in outside)
-
-
-def test_arrays_and_names():
-    a = xr.DataArray([0.004, 0.006, 0.02], dims="a")
-    stress = xr.DataArray([1e6, 2e6], dims="stress", coords={"stress": [1.0, 2.0]})
-    fault = ROCK | LOAD | {"a": a, "b": 0.015, "normal_stress": stress}
-    found = lengths_in_use(**fault)["rubin_ampuero_localised"]
-    assert found.dims == ("a", "stress") and found.coords["stress"].values.tolist() == [1.0, 2.0]
-    for i, j in np.ndindex(found.shape):
-        point = fault | {"a": float(a[i]), "normal_stress": float(stress[j])}
-        alone = lengths_in_use(**point)["rubin_ampuero_localised"]
-        assert_allclose(found[i, j], alone)
-    plain = lengths_in_use(**ROCK | LOAD | {"a": [[0.01], [0.02]], "b": [0.03, 0.04, 0.05]})
-    assert plain["rice_ruina"].shape == (2, 3)
 
 
 TWO = {"friction": 0.6, "second_shear_modulus": 4e9, "second_poisson_ratio": 0.3}

@@ -105,9 +105,7 @@ def test_when_frames_are_taken(start, times, rates, frames):
     ("width", "remarks"),
     [(1.2, ["not resolved: at the onset the front is 1.2 elements wide"]), (1.3, [])],
 )
-def test_a_front_within_an_element_and_a_quarter_is_not_resolved(
-    start, monkeypatch, width, remarks
-):
+def test_a_front_within_an_element_and_a_quarter_is_lost(start, monkeypatch, width, remarks):
     monkeypatch.setattr(recording, "front_width", lambda *_: width)
     dynamics, state, report = start
     recorder = Recorder(PARAMETERS, dynamics)

@@ -56,7 +56,7 @@ def test_bdf3_is_exact_for_cubics(previous, ratio, growth, earlier, c):
 
 
 @given(steps, ratios, ratios, coefficients)
-def test_extrapolation_is_exact_for_quadratics_and_the_error_is_that_of_a_cubic(
+def test_extrapolation_is_exact_for_quadratics_and_has_the_error_of_a_cubic(
     previous, ratio, growth, c
 ):
     past = past_times(previous, growth)

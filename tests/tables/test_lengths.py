@@ -21,16 +21,11 @@ from replication.tables.lengths import (
 
 def rows(**changes):
     columns = {
-        "id": ["a-seed1", "b", "a-seed2", "c-seed1"],
-        "study": ["one", "one", "one", "two"],
-        "height": [0.1, 0.2, 0.1, 0.1],
-        "ensemble": ["e1", "e2", "e1", "e1"],
-        "seed": [1, 0, 2, 1],
-        "length": [0.50, 0.7, 0.54, 0.6],
-        "length_low": [0.48, 0.6, 0.46, 0.5],
-        "length_high": [0.55, 0.8, 0.56, 0.7],
-        "steps": [3000, 3, 3001, 3],
-    }
+        "id": ["a-seed1", "b", "a-seed2", "c-seed1"], "study": ["one", "one", "one", "two"],
+        "height": [0.1, 0.2, 0.1, 0.1], "ensemble": ["e1", "e2", "e1", "e1"], "seed": [1, 0, 2, 1],
+        "length": [0.50, 0.7, 0.54, 0.6], "length_low": [0.48, 0.6, 0.46, 0.5],
+        "length_high": [0.55, 0.8, 0.56, 0.7], "steps": [3000, 3, 3001, 3],
+    }  # fmt: skip
     return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
 
 
@@ -54,9 +49,8 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
 def test_rows_say_what_lies_below(table):
     assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
     assert np.isnan(table["second_height"].item())
-    pair = changed(
-        second_body="deformable", second_far_side="clamped", second_shear_modulus=9e9, height=0.02
-    )
+    second = {"second_far_side": "clamped", "second_shear_modulus": 9e9}
+    pair = changed(second_body="deformable", height=0.02, **second)
     row = description(made_up_run("pair", pair) | {"study": "made_up", "role": "own"})
     names = "far_side", "second_height", "second_shear_modulus", "second_poisson_ratio"
     second = [row[name] for name in names]

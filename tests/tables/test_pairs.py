@@ -49,9 +49,8 @@ def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
     made = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
     assert made["stability_length"].values.tolist() == [0.1, 0.1, 0.2, 0.2]
     lengths, ratio = np.array([1.0, 3.0, 5.0, 9.0]), np.array([0.5, 0.7, 0.6, 0.8])
-    faults = pairs_over_realisations(
-        made.assign(length=("run", lengths), length_ratio=("run", ratio))
-    )
+    made = made.assign(length=("run", lengths), length_ratio=("run", ratio))
+    faults = pairs_over_realisations(made)
     assert faults["height"].values.tolist() == [0.02, 0.03]
     assert faults["length"].values.tolist() == [2.0, 7.0]
     assert faults["realisations"].values.tolist() == [2, 2]
