@@ -36,10 +36,8 @@ hypothesis.settings.register_profile(
     "project", deadline=None, max_examples=100, derandomize=os.environ.get("CI") == "true"
 )
 hypothesis.settings.load_profile("project")
-
 SYSTEM = ("workflow/cluster", "faults", "workflow")
 """Directories of tests that start the whole workflow."""
-
 LONG = (*SYSTEM, "test_random_faults.py", "docs", "test_packaging.py", "verification")
 """What is begun first, by the time that its longest file takes; all others take less."""
 

@@ -34,10 +34,8 @@ def test_the_workflow_needs_nothing_that_is_not_copied():
     """Files of the checkout that rules name, beside the results."""
     texts = [(ROOT / "Snakefile").read_text()]
     texts += [path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk")]
-    named = {ROOT / path for text in texts for path in re.findall(r'\bours\("([^"]+)"\)', text)}
-    named |= {
-        ROOT / path for text in texts for path in re.findall(r'Path\(BASE, "([^"]+)"\)', text)
-    }
+    place = r'(?:\bours\(|Path\(BASE, )"([^"]+)"\)'
+    named = {ROOT / path for text in texts for path in re.findall(place, text)}
     assert named > {ROOT / "docs" / "article.md.in"}
     for path in {path for path in named if path.exists()} | {ROOT / "CITATION.cff"}:
         assert any(path.is_relative_to(ROOT / name) for name in copied()), path

@@ -14,7 +14,6 @@ TEXTS = {path: path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob
 TREES = {path: ast.parse(text) for path, text in TEXTS.items()}
 NAMES = ("COMMENT", "NL", "NEWLINE", "INDENT", "DEDENT", "ENCODING", "ENDMARKER")
 WITHOUT_MEANING = {getattr(tokenize, name) for name in NAMES}
-
 WORDS = {
     ("what", "whatever"): 1.5,
     ("said", "says", "say", "told", "tells", "tell", "asked", "asks", "ask"): 0.5,
@@ -22,7 +21,6 @@ WORDS = {
     ("whose", "which"): 12.0,
 }
 """Most occurrences of words in a thousand words of docstrings."""
-
 PHRASES = re.compile(
     r"\b(what (is|has|was|are)|whose|of which|says?|said|tells?|told|asks?|stands|lies)\b",
     re.IGNORECASE,

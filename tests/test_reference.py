@@ -9,8 +9,6 @@ from nucleation.simulation.run import simulate
 
 SETTINGS = papers()
 RUNS = {run.id: run for run in SETTINGS.runs if SETTINGS.studies[run.study].table == "lengths"}
-
-
 LENGTHS = table("lengths").set_index("id")
 
 

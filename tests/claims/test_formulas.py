@@ -20,8 +20,6 @@ from replication.claims.verdicts import Verdict
 
 NU = 1.0 / 3.0
 WEAKENINGS = evidence().theory["zeta_over_a"].values
-
-
 HALF_SPACE = 120.0  # kH
 
 
@@ -135,17 +133,15 @@ def test_block_on_a_rigid_base(q):
 
 @pytest.mark.parametrize("q", [0.3, 1.0, 3.0, 10.0])
 def test_response_matrix_and_field(q):
+    """A half-space's matrix is that of a thick layer."""
+    thick = matrix(layer(HALF_SPACE))
+    np.testing.assert_allclose(printed.half_space_response(NU), thick, atol=1e-10)
     ours = matrix(layer(q))
     np.testing.assert_allclose(printed.response_matrix(q, NU), ours, rtol=1e-8, atol=1e-8)
     y = np.linspace(0.0, q, 9)
     u, w = block_field(q, y)
     field = printed.block_field(q, y / q, NU)
     np.testing.assert_allclose(field / field[0, 0], [u, 1j * w], atol=1e-9)
-
-
-def test_response_matrix_of_a_half_space():
-    ours = matrix(layer(HALF_SPACE))
-    np.testing.assert_allclose(printed.half_space_response(NU), ours, atol=1e-10)
 
 
 def test_the_librarys_critical_wavenumber_is_the_one_found_by_search():

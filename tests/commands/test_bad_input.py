@@ -44,7 +44,6 @@ LENGTH = [
     (["show", "run.nc", "--plott", "1"], ["No such option '--plott'; did you mean --plot?"]),
     (length(parameters="other.yaml"), ["unknown key; known: shear_modulus"]),
 ]
-
 SIMULATE = [
     ([], ["Missing argument 'OUTPUT'"]),
     (["run.txt"], ["OUTPUT = 'run.txt'", "must end in .nc"]),
@@ -68,7 +67,6 @@ SIMULATE = [
     (["new.nc", "--parameters", "twice.yaml"], ["height is given twice"]),
     (["new.nc", "--parameters", "foreign.nc"], ["foreign.nc is not valid YAML"]),
 ]
-
 SHOW = [
     ([], ["Missing argument 'FILE'"]),
     (["none.nc"], ["none.nc", "does not exist"]),
@@ -76,7 +74,6 @@ SHOW = [
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["plain.nc", "--plot", "new.png"], ["a plot of simulations alone"]),
 ]
-
 LINES = [
     *LENGTH,
     *((["simulate", *words], said) for words, said in SIMULATE),

@@ -14,7 +14,6 @@ RUN, LAST = "studies.s.runs[0]", "studies.paper.runs[6]"
 THOUSAND = {"start": 1, "stop": 9, "num": 1000}
 TALL = {"height": 0.1}
 RIGID = "is not allowed with second_body = rigid"
-
 BAD = [
     # out of range: key, value, unit, range
     (changed("material.poisson_ratio", 0.5), ["poisson_ratio = 0.5", "s ratio", "(-1, 0.5)"]),

@@ -21,7 +21,6 @@ from replication.configuration.runs import StudyRun
 from replication.tables.ratios import STABILITY, gather_stability
 
 pytestmark = pytest.mark.slow
-
 PARAMETERS = PAPER_RUN.replaced(
     height=0.02, block_length=1.8, n_x=120, n_y=6, end_time=11.0, tolerance=5e-2
 )

@@ -20,7 +20,6 @@ from nucleation.simulation.start import composed
 from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
 
 pytestmark = pytest.mark.slow
-
 PARAMETERS = PAPER_RUN.replaced(
     height=0.1, block_length=3.2, n_x=400, n_y=8, grading=10.0, end_time=14.0, longest_step=0.04
 )
@@ -33,7 +32,7 @@ PERIODS, SKIPPED, FROZEN = 3.0, 0.5, 8  # followed, left out at first; instants 
 class Twin:
     """A kicked run beside the run it started from, and what is seen of the two."""
 
-    def __init__(self, frozen, instant, length):
+    def __init__(self, frozen, instant):
         self.patch, self.dynamics = frozen, composed(PARAMETERS)
         patch, self.rate = self.freeze(instant)
         self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
@@ -43,22 +42,21 @@ class Twin:
         self.state = dataclasses.replace(instant.state, past_log_states=past)
         self.start = instant.state.time
         self.end = self.start + 2.0 * np.pi * PERIODS / self.rate.imag
-        self.time, self.amplitude, self.frozen, self.lengths = [], [], [], []
+        self.time, self.amplitude, self.frozen = [], [], []
 
     def freeze(self, instant):
         at = instant.report.interface
         return self.patch(at.slip_rate, np.exp(at.log_state), at.normal)
 
-    def advance(self, instant, length):
-        """Take the step that the run has taken, whose patch is as long (m)."""
+    def advance(self, instant):
+        """Take the step that the run has taken."""
         steps = instant.state.last_step, self.state.last_step
         beta = self.dynamics.scheme.leading_coefficient(*steps)
         rung = round(RUNGS_PER_OCTAVE * np.log2(beta))
         self.state, _ = self.dynamics.advance(self.state, rung)
         self.time.append(instant.state.time - self.start)
         self.amplitude.append(self.difference(instant.state) @ self.weights)
-        if self.time[-1] >= len(self.lengths) * (self.end - self.start) / FROZEN:
-            self.lengths.append(length)
+        if self.time[-1] >= len(self.frozen) * (self.end - self.start) / FROZEN:
             self.frozen.append(self.freeze(instant)[1])
 
     def difference(self, state):
@@ -86,11 +84,11 @@ def followed():
         rate = instant.report.interface.slip_rate
         length = max(length, float(slipping_edge(x, rate, threshold)))
         for twin in active:
-            twin.advance(instant, length)
+            twin.advance(instant)
         active = [twin for twin in active if instant.state.time < twin.end]
         if waiting and length >= waiting[0] * THEORY:
             waiting.pop(0)
-            active.append(Twin(frozen, instant, length))
+            active.append(Twin(frozen, instant))
             found.append(active[-1])
         if not (active or waiting):
             return found

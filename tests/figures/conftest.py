@@ -76,9 +76,8 @@ def make_simulation(height: float, length: float) -> xr.Dataset:
     t = time[:, None]
     since = np.clip(t - ONSET, 0.0, None)
     burst = np.exp(-(((since - PEAK) / (0.35 * PEAK)) ** 2)) * (since > 0.0)
-    front = length * np.sqrt(np.clip(t / ONSET, 1e-6, 1.0)) + 0.8 * x[-1] * np.clip(
-        (since - 0.5 * PEAK) / PEAK, 0.0, 1.0
-    )
+    crossed = np.clip((since - 0.5 * PEAK) / PEAK, 0.0, 1.0)
+    front = length * np.sqrt(np.clip(t / ONSET, 1e-6, 1.0)) + 0.8 * x[-1] * crossed
     inside = expit((front - x) / (0.012 * length))
     rate = 1e-13 + inside * (VELOCITY + 0.08 * burst * np.exp((x - front) / (0.3 * length)))
     tau = inside * 0.40 + 0.16 * np.exp(-(((x - front) / (0.05 * length)) ** 2)) - 0.1 * burst

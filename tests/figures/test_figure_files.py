@@ -16,7 +16,6 @@ from replication.figures import figure_1, figure_3
 from replication.figures import theory as theory_figures
 
 pytestmark = pytest.mark.slow
-
 LEGENDS = {"figure_1": 0, "figure_2": 1, "figure_3": 2, "figure_s1": 1, "figure_s2": 0}
 SOURCE = Path(style.__file__).parents[2]
 

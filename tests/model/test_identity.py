@@ -6,8 +6,6 @@ from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import PAPER_RUN
 
 PAIR = PAPER_RUN.replaced(second_body="deformable", height=0.02)
-
-
 PHYSICS = [
     {"shear_modulus": 9e9}, {"poisson_ratio": 0.2}, {"density": 2000.0}, {"height": 0.01},
     {"initial_state": 2.0}, {"velocity": 2e-5}, {"normal_stress": 2e6}, {"slip_distance": 1e-6},

@@ -159,8 +159,6 @@ def test_arrays_refused(value, words):
 API = tuple(QUANTITIES)
 OPTIONS = tuple("--" + name.replace("_", "-") for name in API)
 FILE = ("a", "zeta", "slip_distance", "height")
-
-
 SYMBOLS = {
     "Dc": "slip_distance", "D_RS": "slip_distance", "sigma_n": "normal_stress", "f0": "friction",
     "G": "shear_modulus", "nu": "poisson_ratio", "V_pl": "velocity",

@@ -67,11 +67,14 @@ def test_bad_values_are_refused(values, message):
 
 
 def test_what_follows_from_the_fault():
+    """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
     run = Run(GRANITE, n_x=800)
     critical = run.critical_length
     assert run.block.length == float(f"{6.0 * critical:.4g}") and run.block.n_x == 800
     assert run.fault.initial_state == pytest.approx(20.0 * 5e-6 / 1e-6)
     assert run.law.law == "dieterich_ruina" and run.law.slip_distance == 5e-6
+    assert run.law.reference_slip_rate == 1e-6
+    assert run.law.regularisation_slip_rate == pytest.approx(1e-10)
     assert run.stepping.end_time > run.growth_time(critical) > run.stepping.time_after_event
     zone = 30e9 / 0.75 * 5e-6 / (0.015 * 50e6)
     assert run.perturbation.correlation_length == pytest.approx(0.2 * zone)

@@ -138,7 +138,6 @@ COARSE = PAPER_RUN.replaced(
     tolerance=5e-2, longest_step=0.2
 )  # fmt: skip
 """The mesh of docs/extending.md: two elements to the process zone of the aging law."""
-
 X = np.linspace(0.0, 1.84, 61)
 
 
