@@ -1,11 +1,10 @@
-"""For all tests: their order, what hypothesis does, and why tests were skipped.
+"""For all tests: their order, and what hypothesis does.
 
 Each file is run by one worker (make test). Were a long one begun last, the other core would wait.
 """
 
 import functools
 import os
-from collections import Counter
 from pathlib import Path
 
 import hypothesis
@@ -60,17 +59,3 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def _rank(path: Path) -> int:
     own = path.relative_to(Path(__file__).parent)
     return next((rank for rank, name in enumerate(LONG) if own.is_relative_to(name)), len(LONG))
-
-
-def pytest_terminal_summary(
-    terminalreporter: pytest.TerminalReporter, config: pytest.Config
-) -> None:
-    """What was not run, why, and how to have it run."""
-    reports = terminalreporter.stats.get("skipped", [])
-    reasons = Counter(str(report.longrepr[2]).removeprefix("Skipped: ") for report in reports)
-    if reasons or config.option.markexpr:
-        terminalreporter.section("not run")
-    for reason, number in sorted(reasons.items()):
-        terminalreporter.line(f"{number} skipped: {reason}")
-    if config.option.markexpr:
-        terminalreporter.line(f"all but '{config.option.markexpr}' left out: make test runs them")

@@ -73,14 +73,11 @@ def judged(name, table=None, modes_=None):
     return table_of_claims.evaluate_one(name, FOUND[name], evidence)
 
 
-@pytest.mark.parametrize(
-    ("factors", "verdict", "reach"),
-    [
-        ((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
-        ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
-        ((0.99, 1.0, 1.01), "replicated", None),
-    ],
-)
+@pytest.mark.parametrize(("factors", "verdict", "reach"), [
+    ((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
+    ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
+    ((0.99, 1.0, 1.01), "replicated", None),
+])  # fmt: skip
 def test_the_mean_of_the_realisations_decides_for_any_range(factors, verdict, reach):
     row = judged("pairs-half-spaces", repeated(table(0.77), factors))
     assert row["verdict"] == verdict
@@ -105,14 +102,11 @@ def test_contrast_has_to_shorten(slope, verdict):
     assert judged("pairs-smaller", table(1.2, slope=0.2))["verdict"] == "not supported"
 
 
-@pytest.mark.parametrize(
-    ("factors", "verdicts"),
-    [
-        ((1.005, 0.995), ("replicated", "replicated")),
-        ((1.02, 1.0), ("not replicated", "replicated")),
-        ((1.0, -1.0), ("replicated", "not replicated")),
-    ],
-)
+@pytest.mark.parametrize(("factors", "verdicts"), [
+    ((1.005, 0.995), ("replicated", "replicated")),
+    ((1.02, 1.0), ("not replicated", "replicated")),
+    ((1.0, -1.0), ("replicated", "not replicated")),
+])  # fmt: skip
 def test_the_response_of_half_spaces_is_read_from_the_rates(factors, verdicts):
     for name, factor, verdict in zip(("pairs-g1", "pairs-g2"), factors, verdicts, strict=True):
         row = judged(name, modes_=modes(*factors))

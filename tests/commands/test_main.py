@@ -34,14 +34,11 @@ def test_completion():
     assert "--shear-modulus" in complete("length", "--sh")
 
 
-@pytest.mark.parametrize(
-    ("error", "code", "words"),
-    [
-        (OSError(28, "No space left", "run.nc"), 2, "Error: run.nc: No space left\n"),
-        (MemoryError(), 2, "Error: not enough memory\n"),
-        (KeyboardInterrupt(), commands.INTERRUPTED, "\nInterrupted\n"),
-    ],
-)
+@pytest.mark.parametrize(("error", "code", "words"), [
+    (OSError(28, "No space left", "run.nc"), 2, "Error: run.nc: No space left\n"),
+    (MemoryError(), 2, "Error: not enough memory\n"),
+    (KeyboardInterrupt(), commands.INTERRUPTED, "\nInterrupted\n"),
+])  # fmt: skip
 def test_what_the_system_refuses(nucleation, monkeypatch, error, code, words):
     def failing(*_, **__):
         raise error

@@ -69,15 +69,12 @@ def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):
     assert "4 of the others stable" in ended.out
 
 
-@pytest.mark.parametrize(
-    "words, message",
-    [
-        ([*WORDS, "--a", "0.01"], "a is given twice: as an option and in the samples"),
-        ([*ROCK, "--poisson-ratio", ".25"], "zeta or b = a . zeta is needed"),
-        ([*WORDS, "--width", "2m"], "width is not allowed beside ranges"),
-        ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
-    ],
-)
+@pytest.mark.parametrize("words, message", [
+    ([*WORDS, "--a", "0.01"], "a is given twice: as an option and in the samples"),
+    ([*ROCK, "--poisson-ratio", ".25"], "zeta or b = a . zeta is needed"),
+    ([*WORDS, "--width", "2m"], "width is not allowed beside ranges"),
+    ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
+])  # fmt: skip
 def test_what_is_refused(nucleation, samples, words, message):
     ended = nucleation(*words, *samples)
     assert ended.code == 2

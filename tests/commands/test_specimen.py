@@ -71,16 +71,13 @@ PLATES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("length", "criterion", "verdict"),
-    [
-        ("25", "critical", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the"),
-        ("20", "critical", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
-        ("15", "critical", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
-        ("15", "stability", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
-        ("12", "critical", "blocks of one simulated fault had events from 0.7 L_s on"),
-    ],
-)
+@pytest.mark.parametrize(("length", "criterion", "verdict"), [
+    ("25", "critical", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the"),
+    ("20", "critical", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
+    ("15", "critical", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
+    ("15", "stability", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
+    ("12", "critical", "blocks of one simulated fault had events from 0.7 L_s on"),
+])  # fmt: skip
 def test_a_simulated_event_is_not_denied(nucleation, length, criterion, verdict):
     """Blocks of these lengths had events of .13 to .36 m/s; L_c, .32 m, denied all of them."""
     ended = nucleation("specimen", "--length", f"{length}cm", *PLATES, "--criterion", criterion)

@@ -2,12 +2,20 @@
 
 import numpy as np
 import pytest
-from extraction.made_up_patch import force_record
 
 from nucleation.extraction.definitions import find_onset
 from nucleation.simulation.event import slipping_edge, slipping_zone
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
+
+
+def force_record(onset=10.0, fall=0.004, size=0.05, end=12.0):
+    """|f_d| rising as a square root, then falling by `size` within `fall` seconds."""
+    times = [np.arange(0.0, onset, 0.01), onset + np.linspace(0.0, 2 * fall, 81)]
+    time = np.concatenate((*times, np.arange(onset + 3 * fall, end, 0.01)))
+    force = 1e4 * np.sqrt(time + 0.1)
+    force *= 1 - size * np.clip((time - onset) / fall, 0.0, 1.0)
+    return time, force
 
 
 def onset_of(time, force, drop=0.02, fast=True, ruptures=False):
@@ -100,14 +108,11 @@ def test_a_force_that_a_rupture_raises_is_past_its_onset(ruptured):
     assert onset.start <= onset.steep <= onset.end == force.size - 1
 
 
-@pytest.mark.parametrize(
-    ("falls", "steep"),
-    [
-        ([0.05, 0.05, 0.15, 0.9], 6),  # the first fall by more than the load has risen in a step
-        ([0.05, 0.05, 0.9], 6),  # the last fall counts
-        ([0.09, 0.09, 0.09, 0.09, 0.9], 4),  # only falls up to the end of the drop count
-    ],
-)
+@pytest.mark.parametrize(("falls", "steep"), [
+    ([0.05, 0.05, 0.15, 0.9], 6),  # the first fall by more than the load has risen in a step
+    ([0.05, 0.05, 0.9], 6),  # the last fall counts
+    ([0.09, 0.09, 0.09, 0.09, 0.9], 4),  # only falls up to the end of the drop count
+])  # fmt: skip
 def test_the_steep_part_falls_faster_than_loading_has_raised_the_force(falls, steep):
     """The force rises by 0.1 in a step up to the maximum, 1.4, which is step 4."""
     rises = 1.0 + 0.1 * np.arange(5)

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from configurations import study
-from extraction.made_up_patch import VELOCITY, synthetic_simulation
+from extraction.test_definitions import force_record
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
@@ -13,6 +14,26 @@ from nucleation.simulation.run import simulate
 from replication.configuration.load import configure
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
+VELOCITY = PAPER_RUN.fault.velocity
+
+
+def synthetic_simulation(onset=10.0, decay=0.05, **drop):
+    """A patch that grows as 0.05 sqrt(t), its slip rate decaying exponentially ahead."""
+    x = np.linspace(0.0, 2.0, 801)
+    step_time, force = force_record(onset=onset, **drop)
+    time = step_time[::3]
+    edge = 0.05 * np.sqrt(time)
+    rate = VELOCITY * np.exp(-np.maximum(x - edge[:, None], 0.0) / decay)
+    return xr.Dataset(
+        {
+            "slip_rate": (("time", "x"), rate),
+            "step_time": ("step", step_time),
+            "driving_force": ("step", -force),
+            "maximal_slip_rate": ("step", np.where(step_time < onset, 1.0, 1e5) * VELOCITY),
+        },
+        coords={"time": time, "x": x},
+        attrs={"parameters": PAPER_RUN.to_json()},
+    )
 
 
 def test_lengths_follow_every_frame():

@@ -21,14 +21,11 @@ def points(axes):
     return {c.get_label(): c for c in axes.containers}
 
 
-@pytest.mark.parametrize(
-    ("label", "marker", "colour", "runs"),
-    [
-        ("FEM, aging law", "o", style.AGING, range(8)),
-        ("FEM, slip law", "^", style.SLIP, (8, 9)),
-        (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, (10,)),
-    ],
-)
+@pytest.mark.parametrize(("label", "marker", "colour", "runs"), [
+    ("FEM, aging law", "o", style.AGING, range(8)),
+    ("FEM, slip law", "^", style.SLIP, (8, 9)),
+    (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, (10,)),
+])  # fmt: skip
 def test_points_and_error_bars(axes, lengths, label, marker, colour, runs):
     expected = lengths.isel(run=list(runs))
     line, _, (bars,) = points(axes)[label]
@@ -119,14 +116,11 @@ def test_every_law_has_a_look_of_its_own():
     assert len({(marker, colour) for *_, (marker, _, colour, _), _ in found}) == 5
 
 
-@pytest.mark.parametrize(
-    ("rows", "shown"),
-    [
-        ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
-        ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
-        ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
-    ],
-)
+@pytest.mark.parametrize(("rows", "shown"), [
+    ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
+    ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
+    ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
+])  # fmt: skip
 def test_what_is_shown_where_one_law_is(rows, shown):
     found = figure_patch.shown(table(*rows).assign(role=("run", ["own"] * 3)))
     assert list(zip(found["evolution"].values, found["initial_state"].values, strict=True)) == shown

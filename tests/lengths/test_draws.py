@@ -102,18 +102,15 @@ def test_invalid_draws_are_left_out_and_counted():
         draw_samples(KNOWN | {"slip_distance": [-1.0, np.nan]})
 
 
-@pytest.mark.parametrize(
-    "changed, message",
-    [
-        ({"slip_distance": "5um (6 to 10)"}, "VALUE .LOW to HIGH.*5 and 95 %"),
-        ({"slip_distance": "5um (4MPa to 10)"}, "4MPa.*stress.*m is needed"),
-        ({"slip_distance": "5um (-4 to 10)"}, r"-4e-06 m .*must lie in \[1e-15"),
-        ({"height": "5cm (1 to inf)"}, "finite"),
-        ({"slip_distance": 5e-6}, "no parameter has a range"),
-        ({"slip_distance": [5e-6, 6e-6], "a": [0.01] * 3}, "equal in number.*slip_distance 2"),
-        ({"slip_distance": [[5e-6]]}, "numbers in a row"),
-    ],
-)
+@pytest.mark.parametrize("changed, message", [
+    ({"slip_distance": "5um (6 to 10)"}, "VALUE .LOW to HIGH.*5 and 95 %"),
+    ({"slip_distance": "5um (4MPa to 10)"}, "4MPa.*stress.*m is needed"),
+    ({"slip_distance": "5um (-4 to 10)"}, r"-4e-06 m .*must lie in \[1e-15"),
+    ({"height": "5cm (1 to inf)"}, "finite"),
+    ({"slip_distance": 5e-6}, "no parameter has a range"),
+    ({"slip_distance": [5e-6, 6e-6], "a": [0.01] * 3}, "equal in number.*slip_distance 2"),
+    ({"slip_distance": [[5e-6]]}, "numbers in a row"),
+])  # fmt: skip
 def test_what_is_wrong_is_named(changed, message):
     with pytest.raises(ParameterError, match=message):
         draw_samples(KNOWN | changed)
@@ -122,18 +119,15 @@ def test_what_is_wrong_is_named(changed, message):
 PLAIN = "slip_distance (um),a\n5,0.01\n4.5,0.02\n"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        PLAIN.replace(",", ";"),
-        PLAIN.replace(",", "\t"),
-        "# of a chain\n" + PLAIN.replace("\n4.5", "\n  # warm\n\n4.5"),
-        ",slip_distance (um),a\n0,5,0.01\n1,4.5,0.02\n",
-        '"","slip_distance (um)","a"\n"1",5,0.01\n"2",4.5,0.02\n',
-        PLAIN.replace("\n", "\r\n"),
-        PLAIN.replace("(um)", "[µm]"),
-    ],
-)
+@pytest.mark.parametrize("text", [
+    PLAIN.replace(",", ";"),
+    PLAIN.replace(",", "\t"),
+    "# of a chain\n" + PLAIN.replace("\n4.5", "\n  # warm\n\n4.5"),
+    ",slip_distance (um),a\n0,5,0.01\n1,4.5,0.02\n",
+    '"","slip_distance (um)","a"\n"1",5,0.01\n"2",4.5,0.02\n',
+    PLAIN.replace("\n", "\r\n"),
+    PLAIN.replace("(um)", "[µm]"),
+])  # fmt: skip
 def test_a_file_of_samples(tmp_path, text):
     path = tmp_path / "posterior.csv"
     path.write_text(text, encoding="utf-8-sig")
@@ -142,21 +136,18 @@ def test_a_file_of_samples(tmp_path, text):
     assert found["a"].tolist() == [0.01, 0.02]
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("a\n", "is empty"),
-        ("a,zeto\n1,2\n", "line 1: column 'zeto' is unknown; did you mean zeta"),
-        ("Dc (um)\n5\n", "did you mean slip_distance"),
-        ("a,a\n1,2\n", "line 1: column a is there twice"),
-        ("a (MPa)\n1\n", "line 1.*unit of stress"),
-        ("# x\na,b\n0.1\n", "line 3: 1 cells, but the header has 2"),
-        ("a,b\n0,01,0,02\n", "line 2: 4 cells, but the header has 2"),
-        ("a;b\n0,01;0.02\n", "line 2, column 'a': '0,01' is no number; write a decimal point"),
-        ("a,b\n0.1,\n", "line 2, column 'b': '' is no number"),
-        ("a\n5um\n", "line 2, column 'a': '5um' is no number.*no unit"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    ("a\n", "is empty"),
+    ("a,zeto\n1,2\n", "line 1: column 'zeto' is unknown; did you mean zeta"),
+    ("Dc (um)\n5\n", "did you mean slip_distance"),
+    ("a,a\n1,2\n", "line 1: column a is there twice"),
+    ("a (MPa)\n1\n", "line 1.*unit of stress"),
+    ("# x\na,b\n0.1\n", "line 3: 1 cells, but the header has 2"),
+    ("a,b\n0,01,0,02\n", "line 2: 4 cells, but the header has 2"),
+    ("a;b\n0,01;0.02\n", "line 2, column 'a': '0,01' is no number; write a decimal point"),
+    ("a,b\n0.1,\n", "line 2, column 'b': '' is no number"),
+    ("a\n5um\n", "line 2, column 'a': '5um' is no number.*no unit"),
+])  # fmt: skip
 def test_a_file_that_is_wrong(tmp_path, text, message):
     path = tmp_path / "posterior.csv"
     path.write_text(text)

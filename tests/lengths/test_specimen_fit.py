@@ -77,19 +77,16 @@ def test_no_answer():
     assert short.intervals == () and short.exists
 
 
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({"unknown": "a"}, "unknown = 'a' is not allowed: one of normal_stress, slip_distance"),
-        ({"criterion": "L_c"}, "criterion = 'L_c' is not allowed: one of critical, stability"),
-        ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
-        ({"length": [1.0, 2.0]}, "a specimen is one"),
-        ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
-        ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
-        ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
-        ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),
-    ],
-)
+@pytest.mark.parametrize(("changed", "said"), [
+    ({"unknown": "a"}, "unknown = 'a' is not allowed: one of normal_stress, slip_distance"),
+    ({"criterion": "L_c"}, "criterion = 'L_c' is not allowed: one of critical, stability"),
+    ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
+    ({"length": [1.0, 2.0]}, "a specimen is one"),
+    ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
+    ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
+    ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
+    ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),
+])  # fmt: skip
 def test_what_is_refused(changed, said):
     usual = {"unknown": "normal_stress", "length": 0.2, **PMMA, **KNOWN}
     with pytest.raises(ParameterError, match=said):

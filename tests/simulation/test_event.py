@@ -114,15 +114,12 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     assert made.attrs["status"].startswith(Outcome.END_TIME) and record.onset is None
 
 
-@pytest.mark.parametrize(
-    ("kind", "time", "position", "expected"),
-    [
-        ("edge", 1.0, 0.1, True),
-        ("edge", 0.04, 0.1, False),  # before D/V
-        ("edge", 1.0, 0.9, False),  # at the far end
-        ("remote", 0.04, 0.9, True),
-    ],
-)
+@pytest.mark.parametrize(("kind", "time", "position", "expected"), [
+    ("edge", 1.0, 0.1, True),
+    ("edge", 0.04, 0.1, False),  # before D/V
+    ("edge", 1.0, 0.9, False),  # at the far end
+    ("remote", 0.04, 0.9, True),
+])  # fmt: skip
 def test_whose_burst_it_is(kind, time, position, expected):
     parameters = PAPER_RUN.replaced(loading=kind, stress_rate=1.0 if kind == "remote" else 0.0)
     slow, fast = 9.0 * parameters.fault.velocity, 11.0 * parameters.fault.velocity

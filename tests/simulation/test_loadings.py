@@ -70,21 +70,18 @@ def test_constants_along_x_are_those_declared(law, varies):
     assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
 
 
-@pytest.mark.parametrize(
-    ("parameters", "change", "words"),
-    [
-        (PAPER_RUN, {"heterogeneity": "zeta", "change": -2e3}, r"lie in \(-1000, 1000\)"),
-        (PAPER_RUN, {"loading": "sideways"}, "must be one of edge, remote"),
-        (PAPER_RUN, {"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with"),
-        (PAPER_RUN, {"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
-        (PAPER_RUN, {"change": 0.1}, "heterogeneity = none: it must be 0"),
-        (PAPER_RUN, {"heterogeneity": "b"}, "it must be different from 0"),
-        (PAPER_RUN, {"heterogeneity": "b", "change": -1.0}, r"lie in \(-1, 1000\)"),
-        (REMOTE, {"n_x": 60}, "n_x = 60 .*: it must be odd"),
-        (REMOTE, {"centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
-        (REMOTE, {"width": 0.01}, r"width = 0.01 m is not allowed"),
-    ],
-)
+@pytest.mark.parametrize(("parameters", "change", "words"), [
+    (PAPER_RUN, {"heterogeneity": "zeta", "change": -2e3}, r"lie in \(-1000, 1000\)"),
+    (PAPER_RUN, {"loading": "sideways"}, "must be one of edge, remote"),
+    (PAPER_RUN, {"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with"),
+    (PAPER_RUN, {"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
+    (PAPER_RUN, {"change": 0.1}, "heterogeneity = none: it must be 0"),
+    (PAPER_RUN, {"heterogeneity": "b"}, "it must be different from 0"),
+    (PAPER_RUN, {"heterogeneity": "b", "change": -1.0}, r"lie in \(-1, 1000\)"),
+    (REMOTE, {"n_x": 60}, "n_x = 60 .*: it must be odd"),
+    (REMOTE, {"centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
+    (REMOTE, {"width": 0.01}, r"width = 0.01 m is not allowed"),
+])  # fmt: skip
 def test_bad_values_are_refused(parameters, change, words):
     with pytest.raises(ParameterError, match=words):
         composed(parameters.replaced(**change))

@@ -86,16 +86,12 @@ def recorded(start, times, rates):
 STEPS = np.arange(100)
 
 
-@pytest.mark.parametrize(
-    ("times", "rates", "frames"),
-    [
-        (1e-6 * STEPS, V + 0.0 * STEPS, [0, 40, 80]),  # every forty steps
-        (0.05 * STEPS[:25] * (1 + 1e-9), V + 0.0 * STEPS[:25], [0, 8, 16, 24]),  # 0.4 D/V
-        # a slip rate has changed by half its logarithm: for fast slip asinh(v / V) grows as log(v)
-        (1e-6 * STEPS[:21], 1e4 * V * np.exp(0.1001 * STEPS[:21]), [0, 5, 10, 15, 20]),
-    ],
-    ids=["steps", "time", "slip rate"],
-)
+@pytest.mark.parametrize(("times", "rates", "frames"), [
+    (1e-6 * STEPS, V + 0.0 * STEPS, [0, 40, 80]),  # every forty steps
+    (0.05 * STEPS[:25] * (1 + 1e-9), V + 0.0 * STEPS[:25], [0, 8, 16, 24]),  # 0.4 D/V
+    # a slip rate has changed by half its logarithm: for fast slip asinh(v / V) grows as log(v)
+    (1e-6 * STEPS[:21], 1e4 * V * np.exp(0.1001 * STEPS[:21]), [0, 5, 10, 15, 20]),
+], ids=["steps", "time", "slip rate"])  # fmt: skip
 def test_when_frames_are_taken(start, times, rates, frames):
     record = recorded(start, MEMORY * times, rates)
     np.testing.assert_array_equal(record["time"], MEMORY * times[frames])

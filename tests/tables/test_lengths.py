@@ -91,15 +91,12 @@ def test_a_run_without_an_event_has_the_length_that_it_reached():
 REMOTE = {"loading": "remote", "stress_rate": 1e5}
 
 
-@pytest.mark.parametrize(
-    ("given", "known"),
-    [
-        ({}, True),
-        ({"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, True),
-        (REMOTE | {"heterogeneity": "friction", "change": -0.1, "width": 0.3}, True),
-        (REMOTE | {"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, False),
-    ],
-)
+@pytest.mark.parametrize(("given", "known"), [
+    ({}, True),
+    ({"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, True),
+    (REMOTE | {"heterogeneity": "friction", "change": -0.1, "width": 0.3}, True),
+    (REMOTE | {"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, False),
+])  # fmt: skip
 def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):
     parameters = changed(**given)
     simulation = record()

@@ -33,17 +33,14 @@ def test_all_are_named_and_counted():
     assert [line.partition(":")[0] for line in lines[1:]] == ["r", "t"]
 
 
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
-        ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
-        ({"reached_length": 0.999}, "filled the half of the block"),
-        ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
-        ({"critical_length": float("nan"), "zeta": -0.01}, "stable by the theory"),
-        ({"status": "failed: tension"}, "failed: tension"),
-    ],
-)
+@pytest.mark.parametrize(("changed", "said"), [
+    ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
+    ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
+    ({"reached_length": 0.999}, "filled the half of the block"),
+    ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
+    ({"critical_length": float("nan"), "zeta": -0.01}, "stable by the theory"),
+    ({"status": "failed: tension"}, "failed: tension"),
+])  # fmt: skip
 def test_reasons(changed, said):
     assert said in why(ROW | changed)
 

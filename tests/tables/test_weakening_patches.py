@@ -105,19 +105,16 @@ def row(ratio, outcome, velocity=1e-5):
     return {"width_ratio": ratio, "outcome": outcome, "velocity": velocity}
 
 
-@pytest.mark.parametrize(
-    ("rows", "bounds"),
-    [
-        ([row(0.9, "creep"), row(1.1, "slow slip"), row(1.3, "event", 1e-9)], (1.1, 1.3)),
-        ([row(1.1, "slow slip"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.1, 1.3)),
-        ([row(1.1, "event"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.0, 1.3)),
-        ([row(1.1, "slow slip"), row(1.2, "event"), row(1.3, "slow slip", 1e-9)], (1.1, math.inf)),
-        ([row(1.1, "slow slip"), row(1.2, "undecided"), row(1.3, "slow slip"),
-          row(1.4, "undecided", 1e-9), row(1.5, "event", 1e-9)], (1.1, 1.5)),
-        ([row(1.1, "slow slip"), row(1.4, "event"), row(1.5, "slow slip"),
-          row(1.6, "event", 1e-9), row(1.8, "event", 1e-9)], (1.1, 1.6)),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("rows", "bounds"), [
+    ([row(0.9, "creep"), row(1.1, "slow slip"), row(1.3, "event", 1e-9)], (1.1, 1.3)),
+    ([row(1.1, "slow slip"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.1, 1.3)),
+    ([row(1.1, "event"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.0, 1.3)),
+    ([row(1.1, "slow slip"), row(1.2, "event"), row(1.3, "slow slip", 1e-9)], (1.1, math.inf)),
+    ([row(1.1, "slow slip"), row(1.2, "undecided"), row(1.3, "slow slip"),
+      row(1.4, "undecided", 1e-9), row(1.5, "event", 1e-9)], (1.1, 1.5)),
+    ([row(1.1, "slow slip"), row(1.4, "event"), row(1.5, "slow slip"),
+      row(1.6, "event", 1e-9), row(1.8, "event", 1e-9)], (1.1, 1.6)),
+])  # fmt: skip
 def test_bounds(rows, bounds):
     """Slow slip ends below the first event at any V, and events begin above the last slow slip."""
     slow, events = bounds
