@@ -1,4 +1,4 @@
-"""What studies are for: roles with their requirements, and names that say nothing."""
+"""What studies are for: roles that several may share, and names that can be any."""
 
 import copy
 
@@ -8,8 +8,6 @@ from configurations import CONFIG, PAPER
 from replication import figures
 from replication.configuration.load import configure, load
 from replication.configuration.roles import PAIRS, REFINEMENTS, ROLES
-
-TALL = {"height": 0.1}
 
 
 @pytest.mark.parametrize("role", [name for name, role in ROLES.items() if role.several])

@@ -24,7 +24,6 @@ WEAKENING = {"a": 0.0068, "zeta": 0.016}  # a/b = 0.298
 NEUTRAL = {"a": 0.02, "zeta": 0.005}  # a/b = 0.8
 PLANE_MODULUS = 3.1e9 / (1 - 1 / 3)
 STATE_LENGTH = PLANE_MODULUS * 5e-7 / (0.0228 * 1e6)
-BEYOND = {length.key: length.beyond for length in LENGTHS}
 
 
 def one(key, **changes):

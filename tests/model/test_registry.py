@@ -36,12 +36,9 @@ def test_another_law_keeps_what_all_share():
 
 
 def test_parameters_of_another_law_are_refused():
-    with pytest.raises(ParameterError) as caught:
+    words = r"= 0\.1, state_scale = 1\.0 is not .* dieterich_ruina has no such .* has law, evolu"
+    with pytest.raises(ParameterError, match=words):
         Friction(law="dieterich_ruina", aging_coefficient=0.1, state_scale=1.0)
-    assert str(caught.value).startswith(
-        "aging_coefficient = 0.1, state_scale = 1.0 is not allowed: "
-        "the friction law dieterich_ruina has no such parameter; it has law, evolution, "
-    )
     with pytest.raises(ParameterError, match=r"friction_law = 'none'.*one of dieterich_ruina, pr"):
         Friction(law="none")
 

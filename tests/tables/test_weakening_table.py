@@ -143,12 +143,7 @@ def test_each_fault_has_its_own_realisations():
     assert found["inside"].values.tolist() == [2, 1]
     np.testing.assert_allclose(found["length"], [np.mean(first), np.mean(second)])
     np.testing.assert_allclose(found["expected_length"], [one.length for one in known])
+    alone = gather_other_faults(drops([[known[0].length, np.nan]]), RUNS[:1])  # one has no drop
+    assert alone["inside"].values.tolist() == [1] and np.isnan(alone["length"])
+    assert alone["reached_length"].values.tolist() == [0.9]
     np.testing.assert_allclose(found["zeta_over_a"], 2.0)
-
-
-def test_a_realisation_without_a_drop_is_outside():
-    low, high = expected_drop(FAULTS[0]).low, expected_drop(FAULTS[0]).high
-    found = gather_other_faults(drops([[0.5 * (low + high), np.nan]]), RUNS[:1])
-    assert found["inside"].values.tolist() == [1]
-    assert np.isnan(found["length"])
-    assert found["reached_length"].values.tolist() == [0.9]
