@@ -1,9 +1,7 @@
 """The paper's formulas and the library against evaluations that use neither.
 
 Navier's equation with 150 digits (theory/layer_problem.py) gives the transfer functions, a search
-for growing roots of Eq. (5) (search.py) the critical wavenumbers. Each claim that needs no run is
-compared with these: the printed formula by :mod:`replication.claims.printed`, the library by the
-number in the table.
+for growing roots of Eq. (5) (search.py) the critical wavenumbers, for printed formulas and library.
 """
 
 from decimal import Decimal

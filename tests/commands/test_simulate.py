@@ -109,9 +109,8 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     """A signal leaves a checkpoint; the same command goes on to the same record."""
     output = tmp_path / "run.nc"
     words = ["simulate", str(output), *SMALL]
-    stopped = subprocess.run(
-        [program[0], "-c", STOPPED, *words], capture_output=True, text=True, check=False
-    )
+    command = [program[0], "-c", STOPPED, *words]
+    stopped = subprocess.run(command, capture_output=True, text=True, check=False)
     assert stopped.returncode == 130, stopped.stderr
     assert "stopped by SIGINT" in stopped.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["run.checkpoint.npz"]

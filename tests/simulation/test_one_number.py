@@ -44,10 +44,8 @@ def drop(parameters, units=0):
     return np.array([found["onset_time"], found["length"]])
 
 
-SILENT = PAPER_RUN.replaced(
-    height=0.02, block_length=0.85, n_x=250, n_y=4, grading=20.0, end_time=30.0,
-    time_after_event=0.0
-)  # fmt: skip
+MESH = {"n_x": 250, "n_y": 4, "grading": 20.0, "block_length": 0.85}
+SILENT = PAPER_RUN.replaced(height=0.02, end_time=30.0, time_after_event=0.0, **MESH)
 NINE_DIGITS = 2**20  # units in the last place: arithmetic with nine digits
 
 
