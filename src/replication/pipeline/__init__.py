@@ -1,8 +1,7 @@
 """The workflow: recipes of results, jobs, stores, views of results, and checks.
 
-This room may import every other one. Its messages are one line each, on standard error. A job
-redirects its standard error to its log, with the messages and everything that libraries print;
-progress, warnings and errors of a job also appear on the terminal.
+Messages are one line each, on standard error, which a job redirects to its log; progress, warnings
+and errors of a job also appear on the terminal.
 """
 
 import logging

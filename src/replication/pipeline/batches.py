@@ -15,25 +15,21 @@ from typing import Any
 
 from nucleation.simulation.checkpoints import SIGNALS
 
-_TASK: list[Any] = []  # of this process of the pool: the work, and an event that ends the job
+_TASK: list[Any] = []  # the work of the pool, and an event that ends the job
 
 
-def side_by_side(
-    work: Callable[[int], Any],
-    names: Sequence[str],
-    cores: int,
-) -> list[Any]:
+def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -> list[Any]:
     """The values of a function of 0, 1, ..., computed by a forked process for each core.
 
     If a call fails, those that have begun are finished, no other one begins, and SystemExit has the
     reasons. Signals that stop a job are passed on to its processes.
     """
-    if min(len(names), cores) < 2:
+    processes = min(len(names), cores)
+    if processes < 2:
         return [work(i) for i in range(len(names))]
     context = multiprocessing.get_context("fork")
-    pool = ProcessPoolExecutor(
-        min(len(names), cores), context, initializer=_begin, initargs=(work, context.Event())
-    )
+    _TASK[:] = [work, context.Event()]
+    pool = ProcessPoolExecutor(processes, context, initializer=_begin)
 
     def pass_on(number: int, _frame: FrameType | None) -> None:
         for process in multiprocessing.active_children():
@@ -61,7 +57,7 @@ def side_by_side(
     return [call.result() for call in calls]
 
 
-def _begin(work: Callable[[int], Any], ended: Any) -> None:
+def _begin() -> None:
     """In a process of the pool, before its first call: it ends when the job is killed."""
 
     def end_with_job() -> None:
@@ -73,7 +69,6 @@ def _begin(work: Callable[[int], Any], ended: Any) -> None:
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
     Thread(target=end_with_job, daemon=True).start()
-    _TASK[:] = [work, ended]
 
 
 def _call(number: int) -> Any:

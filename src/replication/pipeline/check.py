@@ -11,13 +11,13 @@ import contextlib
 import json
 import os
 import sys
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from nucleation.datasets import DatasetError
 
-from .planning import PLACES, RECIPES
-from .recipes import key_in, read, shows
+from .recipes import PLACES, RECIPES, key_in, read, shows
 from .store import DAMAGED, Store, read_note
 
 CURRENT = "All is current"
@@ -34,10 +34,7 @@ Expected = Mapping[str, str]
 """For each file its target in the store, or its text if it is the list of a batch."""
 
 Finding = tuple[Path, str, str]
-"""A file that is not as it should be: its path, state and the reason.
-
-States are stale, incomplete, damaged, foreign or unused.
-"""
+"""A file's path, its state (stale, incomplete, damaged, foreign or unused) and the reason."""
 
 
 def plain(text: str) -> str:
@@ -51,13 +48,13 @@ def check_results(results: Path, expected: Expected) -> Iterator[Finding]:
     First wrong entries, then files that show something else, then the entries that are not in use.
     """
     store = Store(results / "store")
-    names: dict[str | None, set[str]] = {}
+    names = defaultdict(set)
     for target in expected.values():
-        names.setdefault(key_in(target), set()).add(os.path.basename(target))
+        names[key_in(target)].add(os.path.basename(target))
     for key in store.listed():
         entry = store.entry(key)
         try:
-            read_note(entry, whole=True, names=names.get(key, ()))
+            read_note(entry, whole=True, names=names[key])
         except DatasetError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
             yield (entry, state, f"{error}: make it again, and it is moved aside")
@@ -97,8 +94,7 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
     for path in sorted(results.rglob("*")):
         if path.relative_to(results).parts[0] in OWN or path.is_dir():
             continue
-        below = [above for above in path.parents if results in above.parents]
-        if any((directory / "store").is_dir() for directory in below):
+        if any((above / "store").is_dir() for above in path.parents if results in above.parents):
             continue  # of another configuration
         wanted = expected.get(str(path))
         leftover = next((text for form, text in LEFTOVERS.items() if path.match(form)), None)

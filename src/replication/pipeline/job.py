@@ -3,8 +3,7 @@
     python -P -m replication.pipeline.job RECIPE RULE THREADS LOG
 
 No heavy library is loaded before the stores were searched. If Snakemake was forced to run the job,
-the result is made again and compared with the stored one. All that the job writes to standard error
-is appended to LOG; progress, warnings and errors also appear on the terminal.
+the result is made again and compared with the stored one.
 """
 
 import contextlib
@@ -22,17 +21,10 @@ FORCED = "NUCLEATION_FORCED"
 """Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
 
 _ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Environment variables that keep a result on one core: on several, sums have another order.
-
-Snakemake sets the first to the threads of the rule."""
+"""They keep a result on one core: on several, sums have another order."""
 
 
-def main(
-    recipe_file: str,
-    rule: str,
-    threads: str,
-    log: str,
-) -> None:
+def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     """Make the result of a recipe and show it; SystemExit if that fails, with the reason logged."""
     began = time.monotonic()
     os.environ |= dict.fromkeys(_ONE_CORE, "1")

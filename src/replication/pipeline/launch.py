@@ -1,14 +1,12 @@
 """What comes before the workflow: bytecode that is not outdated, and a check of the configuration.
 
 ``python -m replication.pipeline.launch`` takes Snakemake's arguments. Snakemake reads the files of
-``--configfile`` before the workflow can check them: a missing file, or one that is no text, ends in
-a traceback, and a file with the key ``__use_yte__`` may contain Python that is executed. With zero
-cores Snakemake waits for ever.
+``--configfile`` before the workflow can check them: a missing file ends in a traceback, and one
+with the key ``__use_yte__`` may contain Python that is executed. With no cores it waits for ever.
 
-The Snakefile executes this module before it imports any other one, so it imports none of them by
-itself. By default Python compares only time and size of a source with its bytecode. If a source
-changes and keeps both (archives, ``rsync -t``, ``touch -r``, two edits within a second), Python
-runs the old bytecode. Checked bytecode is compared with the content of its source.
+The Snakefile executes this module before it imports any other one, so it imports none by itself.
+By default Python runs old bytecode if a source changes and keeps its time and size (archives,
+``rsync -t``, two edits within a second). Checked bytecode is compared with the source's content.
 """
 
 import argparse

@@ -15,7 +15,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import is_dataclass
+from dataclasses import dataclass, is_dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -47,13 +47,7 @@ class _PartFailed(Exception):
     """A part of a batch has failed; the other parts are made."""
 
 
-def make(
-    recipe: Recipe,
-    rule: str,
-    store: Store,
-    threads: int,
-    forced: bool,
-) -> None:
+def make(recipe: Recipe, rule: str, store: Store, threads: int, forced: bool) -> None:
     """Make the result of a recipe and put it into the store; SystemExit with the reason if not.
 
     The parts of a batch are made on `threads` cores. If it is `forced`, a result that the store has
@@ -62,7 +56,7 @@ def make(
     try:
         verify(recipe)
         gc.freeze()  # at its end Python would search all loaded objects, which takes 0.3 s
-        maker = _Maker(rule, store, forced)
+        maker = _Maker(rule, store, forced, others(strict=False))
         each = partial(maker.each, recipe.parts, threads)
         if not recipe.parts:
             maker.result(recipe)
@@ -90,19 +84,14 @@ def verify(recipe: Recipe) -> None:
             )
 
 
+@dataclass
 class _Maker:
     """Makes the results of one rule."""
 
-    def __init__(
-        self,
-        rule: str,
-        store: Store,
-        forced: bool,
-    ) -> None:
-        self._rule = rule
-        self._store = store
-        self._forced = forced
-        self._others = others(strict=False)
+    rule: str
+    store: Store
+    forced: bool  # results that the store has are made again, and compared
+    others: list[Store]
 
     def each(
         self,
@@ -115,7 +104,6 @@ class _Maker:
         It is called in the process that makes the result. If parts have failed, SystemExit names
         them once all were tried.
         """
-
         number_done = multiprocessing.Value("i", 0)  # of all processes
         began = time.monotonic()
 
@@ -150,7 +138,7 @@ class _Maker:
 
         A simulation that has failed raises _PartFailed.
         """
-        if not self._forced and recipe.is_in(self._store):
+        if not self.forced and recipe.is_in(self.store):
             return self._open(recipe.stored(recipe.files[0]))
         if recipe.call == SIMULATE:
             return self._simulated(recipe)
@@ -195,30 +183,25 @@ class _Maker:
         function = getattr(importlib.import_module(module), name)
         sources: dict[str, Any] = {}
         for role, paths in recipe.sources.items():
-            read = self._open(paths) if isinstance(paths, str) else map(self._open, paths)
-            sources[role] = read
+            alone = isinstance(paths, str)
+            sources[role] = self._open(paths) if alone else map(self._open, paths)
         values = {**recipe.values, "origin": _origin(recipe)}
         return function(**arguments(function, values), **sources, **more)
 
     def _open(self, path: str) -> xr.Dataset | Path:
-        """Read a dataset, whose key must be the one in its path; other files are paths.
+        """Read a dataset; other files are paths.
 
         If an entry of the store is damaged, it is moved aside, and DatasetError is raised.
         """
+        file = Path(path)
         key = key_in(path)
         if key is None:
-            return Path(path)
-        file = self._store.entry(key) / f"{STEM}{Path(path).suffix}"
+            return file
         try:
-            if file.suffix != ".nc":
-                read_note(file.parent, whole=True)
-                return file
-            dataset = netcdf.read(file)
-            if dataset.attrs.get("key") != key:
-                raise DatasetError(f"{file} is another result than it should be")
-            return dataset
+            read_note(file.parent, whole=True)
+            return netcdf.read(file) if file.suffix == ".nc" else file
         except DatasetError as error:
-            self._store.set_aside(key)
+            self.store.set_aside(key)
             advice = "It was moved aside: run this again, and it is made again"
             raise DatasetError(f"{error}. {advice}") from None
 
@@ -227,9 +210,7 @@ class _Maker:
         files = made if isinstance(made, Mapping) else {"": made}  # a figure has several files
         if isinstance(made, xr.Dataset):  # which is a mapping, too
             files = {".nc": made}
-        columns = files[".nc"].data_vars.values() if ".nc" in files else ()
-        is_table = columns and len(files[".nc"].dims) == 1 and all(x.ndim == 1 for x in columns)
-        if is_table and ".csv" not in files:
+        if f"{STEM}.csv" in recipe.names and ".csv" not in files:
             files = {**files, ".csv": to_csv(files[".nc"])}
         origin = _origin(recipe)
 
@@ -249,8 +230,8 @@ class _Maker:
 
                     style.save(content, path, origin["key"])
 
-        if recipe.is_in(self._store):
-            entry = self._store.entry(recipe.key)
+        if recipe.is_in(self.store):
+            entry = self.store.entry(recipe.key)
             with tempfile.TemporaryDirectory() as place:
                 write(Path(place))
                 new = sorted(Path(place).iterdir())
@@ -259,8 +240,8 @@ class _Maker:
             LOGGER.info(f"{recipe.name}, made again: {compared} the store, which is kept")
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
-        self._store.put(recipe.key, write, {**about, "rule": self._rule, "name": recipe.name})
-        self._store.give(recipe.key, self._others)
+        self.store.put(recipe.key, write, {**about, "rule": self.rule, "name": recipe.name})
+        self.store.give(recipe.key, self.others)
 
 
 def _origin(recipe: Recipe) -> dict[str, str]:
@@ -297,7 +278,6 @@ def differs(new: Path, old: Path) -> bool:
     """Whether two files of one recipe differ, datasets in more than the machine and the moment."""
     if new.suffix != ".nc":
         return new.read_bytes() != old.read_bytes()
-    ours, theirs = (
-        netcdf.read(path).drop_vars(_OF_MACHINE, errors="ignore") for path in (new, old)
-    )
+    both = map(netcdf.read, (new, old))
+    ours, theirs = (dataset.drop_vars(_OF_MACHINE, errors="ignore") for dataset in both)
     return not ours.equals(theirs)

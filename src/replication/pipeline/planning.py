@@ -1,14 +1,13 @@
 """Planning: the recipe of each result, and whether the result is there already.
 
-Every file that people open is the output of a rule. Each rule has its recipe (:mod:`.recipes`) as
-one more input, a file below the store with the key in its name. The process that plans writes it:
-as old as a file can be if the rule's outputs show the result of that recipe, otherwise with new
-content and newer than the outputs. So Snakemake's own triggers decide correctly, even if its notes
-are lost or times of files are wrong; and what another process plans has other names.
+Each rule has its recipe (:mod:`.recipes`) as one more input, a file below the store with the key in
+its name. The process that plans writes it: as old as a file can be if the rule's outputs show the
+result of that recipe, otherwise with new content and newer than the outputs. So Snakemake's own
+triggers decide correctly, even if its notes are lost or times of files are wrong; and what another
+process plans has other names.
 
-A run, unlike a dry run, starts by showing all results that are in a store; they need no job. Files
-that show another result are removed first, so that none is left if a job fails. All that is used of
-Snakemake's inner parts is used here.
+A run, unlike a dry run, first removes files that show another result, so that none is left if a job
+fails, and shows all results that are in a store. Snakemake's inner parts are used here alone.
 """
 
 import atexit
@@ -23,29 +22,21 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from . import LOGGER
+from . import LOGGER, recipes
 from .job import FORCED
-from .recipes import Recipe, as_json, listed, withdraw, write
+from .recipes import Recipe, listed, withdraw, write
 from .store import NOTE, Store, others
 
-RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
 _PLANNED = "planned"  # file beside recipes with the names and keys of the jobs of the latest run
-PLACES = "places"  # file beside recipes with the two directories that they are of
 _LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 
-Paths = Any
-"""One path, or several in a list, as Snakemake's texts or plain ones."""
+Paths = Any  # one path, or several in a list, as Snakemake's texts or plain ones
 
 
 class Plan:
     """The recipes of a workflow: its rules by name, Snakemake's workflow, and where results go."""
 
-    def __init__(
-        self,
-        rules: Any,
-        workflow: Any,
-        results: str,
-    ) -> None:
+    def __init__(self, rules: Any, workflow: Any, results: str) -> None:
         self._rules = rules  # each is read when it is used, so its definition may come later
         self._workflow = workflow
         self._configured = results
@@ -54,9 +45,8 @@ class Plan:
         self._inputs: dict[str, list[str]] = {}  # by the name of the result
         self._files: dict[str, Any] = {}  # Snakemake's files by their paths
         self._kept: Counter[str] = Counter()  # jobs of a dry run that a run would not start
-        self.checked = False  # whether the expected files are for the check
-        self._shown = 0  # results that were shown without a job
-        self._taken = 0  # results that were copied from other stores
+        self.checked = False  # whether the workflow fails at its end unless all is current
+        self._shown = self._taken = 0  # results that a run showed, and took from other stores
         atexit.register(self._report)
 
     def __call__(self, rule: str) -> Callable[[Any], str]:
@@ -65,10 +55,9 @@ class Plan:
 
         def recipe_file(wildcards: Any) -> str:
             try:
-                file = self._file_of(rule, dict(wildcards.items()))
+                return self._file_of(rule, dict(wildcards.items())).removeprefix(self.prefix)
             except Exception as error:  # else Snakemake would use an outdated file of the result
                 raise SystemExit(f"{rule} can't be planned: {error}") from None
-            return file.removeprefix(self.prefix)
 
         return recipe_file
 
@@ -87,11 +76,9 @@ class Plan:
         if getattr(first, "is_storage", False):
             raise ValueError("results are links, which no storage keeps: use NUCLEATION_STORES")
         before, found, _ = str(first).partition(self._configured)
-        if not found:
-            raise ValueError(
-                f"{first} is not in {self._configured}: use prefix, not replace_prefix"
-            )
-        return before
+        if found:
+            return before
+        raise ValueError(f"{first} is not in {self._configured}: use prefix, not replace_prefix")
 
     @cached_property
     def results(self) -> str:
@@ -108,17 +95,10 @@ class Plan:
         return others(strict=False)
 
     @cached_property
-    def _places(self) -> str:
-        """The directories of the results and of the work, relative to the store."""
-        store = os.path.realpath(self.store.directory)
-        places = (os.path.realpath(place) for place in (self.results, "."))
-        return "\n".join(os.path.relpath(place, store) for place in places)
-
-    @cached_property
     def _place(self) -> str:
         """The directory of the recipes in the store; directories of results may share a store."""
-        mark = hashlib.sha256(self._places.encode()).hexdigest()[:8]
-        return f"{self.store.directory}/{RECIPES}/{mark}"
+        mark = hashlib.sha256(recipes.places_of(self.results).encode()).hexdigest()[:8]
+        return f"{self.store.directory}/{recipes.RECIPES}/{mark}"
 
     @cached_property
     def _beside_a_run(self) -> bool:
@@ -126,7 +106,7 @@ class Plan:
 
     @cached_property
     def runs(self) -> bool:
-        """Whether jobs will run and not only be listed; then they learn which results are forced.
+        """Whether jobs will run; then they learn which results are forced.
 
         If another run is at work, Snakemake stops later, and nothing may be changed before.
         """
@@ -138,17 +118,12 @@ class Plan:
         forced = {*asked.forcerun, *(asked.targets if asked.forcetargets else ())}
         os.environ[FORCED] = "*" if asked.forceall else "\n".join(map(str, forced))
         write(Path(self._place, _PLANNED), "")
-        write(Path(self._place, PLACES), self._places)
+        write(Path(self._place, recipes.PLACES), recipes.places_of(self.results))
         return True
 
     @cached_property
     def _written(self) -> dict[str, set[str]]:
-        """Keys of all recipes that are written, by the names of results."""
-        found: dict[str, set[str]] = {}
-        for path in Path(self._place).rglob("*.json"):
-            name, _, key = str(path.relative_to(self._place).with_suffix("")).rpartition(".")
-            found.setdefault(name, set()).add(key)
-        return found
+        return recipes.written_in(self._place)
 
     @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
@@ -161,9 +136,8 @@ class Plan:
     def write_expected(self, more: list[str], checks: bool = False) -> str:
         """Write which result each file of the workflow should show; return the written path.
 
-        This includes the files of all rules without wildcards, the files `more`, and all their
-        sources, direct or not. A target is left out if the configuration lacks its studies. If it
-        is for the check, the workflow fails at its end unless all is current.
+        These are the files of all rules without wildcards, `more` files, and all their sources,
+        direct or not. A target is left out if the configuration lacks its studies.
         """
         self.checked = checks
         found: dict[str, str] = {}
@@ -179,7 +153,7 @@ class Plan:
                         for one in (recipe, *recipe.parts):
                             found |= one.expected()
         file = f"{self._place}/expected"
-        write(Path(file), as_json(found))
+        write(Path(file), recipes.as_json(found))
         return file
 
     def _recipe(self, path: str) -> Recipe | None:
@@ -200,31 +174,26 @@ class Plan:
             return self._known[mark]
         asked = getattr(self._rules, rule)
         names = SimpleNamespace(**wildcards)
-        files = {str(file): file for file in (f.apply_wildcards(wildcards) for f in asked.output)}
-        self._files |= files
-        inputs = {
-            role: _evaluated(value, names)
-            for role, value in asked.input.items()
-            if role != "recipe"
-        }
-        params = {name: _evaluated(value, names) for name, value in asked.params.items()}
-        waited_for = inputs.pop("after", [])  # batches; `reads` names the files that are read
-        sources = inputs | {
-            role: self._placed(paths) for role, paths in params.pop("reads", {}).items()
-        }
-        parts = [self._recipe(path) for path in self._placed(params.pop("makes", []))]
+        outputs = [file.apply_wildcards(wildcards) for file in asked.output]
+        files = [str(file) for file in outputs]
+        self._files |= zip(files, outputs, strict=True)
+        inputs = _evaluated(asked.input, names)
+        params = _evaluated(asked.params, names)
+        sources = {role: paths for role, paths in inputs.items() if role != "after"}  # only awaited
+        for role, paths in params.pop("reads", {}).items():
+            sources[role] = self._placed(paths)
+        parts = map(self._recipe, self._placed(params.pop("makes", [])))
         recipe = Recipe(
-            name=self._name(next(iter(files))),
-            files=[*files],
+            name=self._name(files[0]),
+            files=files,
             results=self.results,
             call=params.pop("call", ""),
             loads=list(params.pop("loads", [])),
             sources={role: self._source(paths) for role, paths in sources.items()},
-            parts=[part for part in parts if part is not None],
+            parts=[*filter(None, parts)],
             values=params,
         )
-        needed = (*inputs.values(), waited_for)
-        self._inputs[recipe.name] = [path for paths in needed for path in listed(paths)]
+        self._inputs[recipe.name] = [path for own in inputs.values() for path in listed(own)]
         return self._known.setdefault(mark, recipe)
 
     def _placed(self, paths: Paths) -> Paths:
@@ -262,17 +231,12 @@ class Plan:
         self._write(rule, recipe, file)
         return file
 
-    def _write(
-        self,
-        rule: str,
-        recipe: Recipe,
-        file: str,
-    ) -> None:
+    def _write(self, rule: str, recipe: Recipe, file: str) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
         if self.runs:
             self._update_views(recipe)
         shown = recipe.is_shown(self.store)
-        if not self.runs and not (shown and _is_linked(recipe)):
+        if not self.runs and not (shown and recipe.is_linked):
             # a run would start no job; an entry elsewhere is not checked
             self._kept[rule] += all(
                 one.is_in(self.store)
@@ -283,31 +247,27 @@ class Plan:
                 if os.path.islink(path) and not os.path.exists(path):  # Snakemake stops at it
                     Path(path).unlink(missing_ok=True)
                     self._refresh(path)
-        newest = max(map(_time, recipe.files))
-        written = _time(file)
+        newest = max(map(recipes.time_of, recipe.files))
+        written = recipes.time_of(file)
         # what is missing is made anyway: a dry run need not write its recipe again
         kept = written > newest and (self._beside_a_run or (newest < 0.0 and not self.runs))
-        if shown and written != 0.0:
-            write(Path(file), as_json({"planned": "", **vars(recipe)}))
-            os.utime(file, (0, 0))
-        elif not shown and not kept:
-            write(Path(file), as_json({"planned": str(time.time_ns()), **vars(recipe)}))
-            if newest >= _time(file):  # a clock was wrong
-                os.utime(file, (newest + 1.0, newest + 1.0))
+        if not (written == 0.0 if shown else kept):
+            # later than the outputs, even if a clock was wrong
+            recipe.write(file, 0.0 if shown else max(time.time(), newest + 0.01))
         self._refresh(file)
         if self.runs:  # note it for its job, and leave no recipe of another result of this name
             with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as planned:
                 print(recipe.name, recipe.key, file=planned)
-            for key in self._written.get(recipe.name, set()) - {recipe.key}:
+            for key in self._written[recipe.name] - {recipe.key}:
                 Path(f"{self._place}/{recipe.name}.{key}.json").unlink(missing_ok=True)
 
     def _update_views(self, recipe: Recipe) -> None:
         """Show the results that the stores have, and remove files that show other ones."""
         self._taken += len(recipe.obtained(self.store, self._others))
         for one in (recipe, *recipe.parts):
-            if one.is_shown(self.store) and _is_linked(one):
+            if one.is_linked and one.is_shown(self.store):
                 continue
-            keys = {one.key, *self._written.get(one.name, ())}
+            keys = {one.key, *self._written[one.name]}
             for path, name in zip(one.files, one.names, strict=True):
                 withdraw(Path(path), [self.store.entry(key) / name for key in keys])
             if one.is_in(self.store):
@@ -320,11 +280,7 @@ class Plan:
                 self._refresh(path)
 
     def _refresh(self, path: str) -> None:
-        """Correct Snakemake's memory of a file, which it may have read before the change.
-
-        Its own ``iocache.clear()`` keeps the list of directories that it has read, and takes every
-        file in them for missing from then on.
-        """
+        """Correct Snakemake's memory of a file; after ``iocache.clear()`` all seem missing."""
         known = self._workflow.iocache
         known.exists_local[path] = os.path.exists(path)
         for facts in (known.mtime, known.size, known.checksum):
@@ -332,23 +288,12 @@ class Plan:
                 facts.pop(path, None)
 
 
-def _is_linked(recipe: Recipe) -> bool:
-    """Whether the files are links; then Snakemake sees the time of the result."""
-    return not recipe.call or all(map(os.path.islink, recipe.files))
-
-
-def _time(path: str) -> float:
-    """The time of a file or link (s since 1970); -1 if there is none."""
-    try:
-        return os.lstat(path).st_mtime
-    except OSError:
-        return -1.0
-
-
-def _evaluated(value: Any, wildcards: SimpleNamespace) -> Any:
-    """The value of a parameter or an input, which may be a function or a pattern of wildcards."""
-    if callable(value):
-        return value(wildcards)
-    if hasattr(value, "apply_wildcards") and "{" in value:
-        return str(value.apply_wildcards(vars(wildcards)))
-    return value
+def _evaluated(given: Any, wildcards: SimpleNamespace) -> dict[str, Any]:
+    """Parameters or inputs, which may be functions or patterns of wildcards, but for the recipe."""
+    found = {name: value for name, value in given.items() if name != "recipe"}
+    for name, value in found.items():
+        if callable(value):
+            found[name] = value(wildcards)
+        elif hasattr(value, "apply_wildcards") and "{" in value:
+            found[name] = str(value.apply_wildcards(vars(wildcards)))
+    return found

@@ -1,8 +1,8 @@
 """Recipes: everything a job needs to know to make a result, and the files that show it.
 
-A rule names the function that makes its result (``call``), the modules that this function loads by
-name (``loads``), its other arguments, and its sources. The recipe collects these; its digest is the
-key. It is stored as JSON, so that a job on any machine makes the result that was planned.
+A rule names the function that makes its result (``call``), modules that this loads by name
+(``loads``), its other arguments, and its sources. The digest of these is the result's key. A recipe
+is stored as JSON, so that a job on any machine makes the result that was planned.
 
 The files that people open are links into a store, or copies where links are impossible. Any other
 file belongs to the user. It is never overwritten, but moved aside.
@@ -10,12 +10,14 @@ file belongs to the user. It is never overwritten, but moved aside.
 
 import contextlib
 import dataclasses
+import filecmp
 import hashlib
 import itertools
 import json
 import os
 import re
 import shutil
+from collections import defaultdict
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -25,6 +27,8 @@ from nucleation.datasets import code
 from . import LOGGER
 from .store import PATTERN, STEM, Store, digest_of_file
 
+RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
+PLACES = "places"  # file beside recipes with the two directories that they are of
 _IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
 _MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')  # of Recipe.expected
 
@@ -94,11 +98,16 @@ class Recipe:
         """Whether the store has the result, and the rule's files show it."""
         return self.is_in(store) and all(itertools.starmap(shows, self.expected().items()))
 
+    @property
+    def is_linked(self) -> bool:
+        """Whether its files are links; then Snakemake sees the time of the result."""
+        return not self.call or all(map(os.path.islink, self.files))
+
     def obtained(self, store: Store, others: list[Store]) -> list[Path]:
         """Copy what a store lacks from others; return the stores that had it."""
         lacking = [one for one in self.needed if not store.has(one.key, one.names)]
         found = [store.take(one.key, one.names, others) for one in lacking]
-        return [source for source in found if source is not None]
+        return [*filter(None, found)]
 
     def stored(self, file: str) -> str:
         """The path in the store of one of the result's files."""
@@ -130,6 +139,11 @@ class Recipe:
                 os.utime(new, (newest, newest))  # results that were made of the parts are newer
             new.replace(file)
 
+    def write(self, file: str, moment: float) -> None:
+        """Write it to a file of this time (s since 1970); the content is new at another time."""
+        write(Path(file), as_json({"planned": moment, **vars(self)}))
+        os.utime(file, (moment, moment))
+
 
 def read(path: str | Path) -> Recipe:
     """Read a recipe; it and its parts have the keys with which they were planned."""
@@ -137,6 +151,22 @@ def read(path: str | Path) -> Recipe:
     del values["planned"]
     values["parts"] = [Recipe(**part) for part in values["parts"]]
     return Recipe(**values)
+
+
+def written_in(place: str) -> dict[str, set[str]]:
+    """Keys of all recipes in a directory, by the names of results."""
+    found = defaultdict(set)
+    for path in Path(place).rglob("*.json"):
+        name, _, key = str(path.relative_to(place).with_suffix("")).rpartition(".")
+        found[name].add(key)
+    return found
+
+
+def places_of(results: str) -> str:
+    """The directories of the results and of the work, relative to the store, a line each."""
+    store = os.path.realpath(f"{results}/store")
+    both = map(os.path.realpath, (results, "."))
+    return "\n".join(os.path.relpath(place, store) for place in both)
 
 
 def as_json(values: Any) -> str:
@@ -153,6 +183,14 @@ def key_in(path: str | Path) -> str | None:
 def listed(paths: str | Iterable[object]) -> list[str]:
     """One path, or several, as a list of plain texts."""
     return [str(paths)] if isinstance(paths, str) else [str(path) for path in paths]
+
+
+def time_of(path: str) -> float:
+    """The time of a file or link (s since 1970); -1 if there is none."""
+    try:
+        return os.lstat(path).st_mtime
+    except OSError:
+        return -1.0
 
 
 def write(file: Path, text: str) -> None:
@@ -177,9 +215,7 @@ def shows(file: str | Path, wanted: str | Path) -> bool:
     if os.path.islink(file):
         return os.path.realpath(file) == os.path.realpath(wanted)
     try:
-        if not os.path.isfile(file) or os.stat(file).st_size != os.stat(wanted).st_size:
-            return False
-        return digest_of_file(file) == digest_of_file(wanted)
+        return filecmp.cmp(file, wanted, shallow=False)
     except OSError:
         return False
 
@@ -202,7 +238,8 @@ def withdraw(file: Path, known: Iterable[Path]) -> None:
         if ours:
             file.unlink()
             return
-        names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())
-        kept = next(name for name in names if not os.path.lexists(name))
+        kept = file.with_name(f"{file.name}~")
+        while os.path.lexists(kept):
+            kept = kept.with_name(f"{kept.name}~")
         file.rename(kept)
         LOGGER.warning(f"{file} is not of the workflow: it is now {kept}")

@@ -121,18 +121,16 @@ class Store:
 
         All bytes are read if a file may have changed since that was done.
         """
-        if key in self._known:
-            return self._known[key]
         entry = self.entry(key)
-        self._known[key] = os.path.lexists(entry)
-        if not self._known[key]:
-            return False
+        if key in self._known or not os.path.lexists(entry):
+            return self._known.get(key, False)
         try:
             newest = _newest(entry)
             changed = entry.lstat().st_mtime_ns != newest
             read_note(entry, whole=changed, names=names)
             if changed:
                 _mark(entry, newest)
+            self._known[key] = True
         except (OSError, DatasetError) as error:
             self._known[key] = False
             LOGGER.warning(f"Not used: {error}")
@@ -142,12 +140,7 @@ class Store:
         """Keys of all entries, right or wrong."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
 
-    def put(
-        self,
-        key: str,
-        make: Callable[[Path], None],
-        about: Mapping[str, Any],
-    ) -> None:
+    def put(self, key: str, make: Callable[[Path], None], about: Mapping[str, Any]) -> None:
         """Make an entry by a function that writes its files into a directory.
 
         `about` has further values of the note.
@@ -155,17 +148,12 @@ class Store:
         with self._new(key) as place:
             make(place)
             files = {}
-            for path in sorted(place.iterdir()):
+            for path in place.iterdir():
                 files[path.name] = {"size": path.stat().st_size, "sha256": digest_of_file(path)}
             note = {"key": key, "files": files, **about}
             (place / NOTE).write_text(json.dumps(note, indent=1, sort_keys=True) + "\n")
 
-    def take(
-        self,
-        key: str,
-        names: Collection[str],
-        others: "list[Store]",
-    ) -> Path | None:
+    def take(self, key: str, names: Collection[str], others: "list[Store]") -> Path | None:
         """Copy an entry from the first store elsewhere that has it right; return that store.
 
         A store that is out of reach is reported and removed from the list.
@@ -213,17 +201,13 @@ class Store:
                 flush(path)
             _mark(place, _newest(place))
             flush(place)
-            for last in (False, True):
-                try:
-                    place.rename(self.entry(key))
-                except OSError:  # an entry exists
-                    if is_right(self.entry(key), names):
-                        break
-                    if last:
-                        raise
-                    self.set_aside(key)
-                else:
-                    break
+            if os.path.lexists(self.entry(key)) and not is_right(self.entry(key), names):
+                self.set_aside(key)
+            try:
+                place.rename(self.entry(key))
+            except OSError:  # an entry exists
+                if not is_right(self.entry(key), names):
+                    raise
             self._known.pop(key, None)
             flush(self.directory)
         finally:
@@ -237,10 +221,10 @@ class Store:
 
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that no process finds half of it."""
-        if self.entry(key).is_dir() and not os.access(self.entry(key), os.W_OK):
+        entry = self.entry(key)
+        if entry.is_dir() and not os.access(entry, os.W_OK):
             raise PermissionError(errno.EACCES, "it is another user's")
-        gone = self.directory / f".{key}-{uuid.uuid4().hex[:8]}.tmp"
-        self.entry(key).rename(gone)
+        gone = entry.rename(self.directory / f".{key}-{uuid.uuid4().hex[:8]}.tmp")
         if gone.is_symlink() or not gone.is_dir():
             gone.unlink()
         else:
