@@ -105,7 +105,7 @@ def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulate
     fault = fault.replaced(block_length=6.0 * critical)
     found = expected_drop(fault)
     assert not found.doubt and found.slips_slowly
-    assert found.stability_length < found.law.length < found.runaway_length
+    assert found.stability_length < found.law.length < found.runaway.length
     assert 0.98 < simulated * critical / found.length < 1.09
 
 
@@ -175,7 +175,7 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
     for ratio, weak in ((1.97, True), (2.03, False)):
         friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
         found = expected_drop(with_parts(FAULT, law=friction))
-        assert np.isfinite(found.runaway_length) == weak
+        assert np.isfinite(found.runaway.length) == weak
 
 
 @pytest.mark.slow

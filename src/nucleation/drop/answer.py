@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from ..model.friction.constants import AGE, law_of
 from ..model.quantities import ParameterError
 from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
+from ..theory.creep.runaway import EDGE_ALONE, Runaway, runaway_answers, runaway_of
 from ..theory.critical import at_each
 from ..theory.spectrum import Systems
 from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength
@@ -26,16 +28,15 @@ FIELDS = len(Answer._fields)
 def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answer]:
     """L_run and L under a declared perturbation."""
     missing = [name for name in ("velocity", "friction") if getattr(fault, name) is None]
-    reason = ""
-    if missing:
-        reason = f"needs {' and '.join(missing)}: the drop depends on the friction law"
-    elif fault.loading != "edge":
-        reason = "it is known for a patch that is pushed at its edge"
-    if reason:
-        none = _none(UNKNOWN, reason)
-        found = _answer(at_each(fault, lambda *_: none, rows=FIELDS))
-        return {"runaway_length": found, "drop_length": found}
-    from .expected_drop import WEAK, expected_drop
+    if missing or fault.loading != "edge":
+        needed = f"needs {' and '.join(missing)}: the drop depends on the friction law"
+        none = _none(UNKNOWN, needed if missing else EDGE_ALONE)
+        runaway = _runaway(Runaway(*runaway_answers(fault)))
+        return {
+            "runaway_length": runaway,
+            "drop_length": _answer(at_each(fault, lambda *_: none, rows=FIELDS)),
+        }
+    from .expected_drop import expected_drop
 
     age = np.nan if fault.initial_state is None else fault.initial_state
 
@@ -46,20 +47,19 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
         distance: float,
         age: float,
     ) -> tuple[Any, ...]:
-        constants = (float(one.friction[0]), float(one.a[0]), float(one.zeta[0]))
         phi0 = AGE * distance / velocity if math.isnan(age) else age
         given = fault.friction_law, fault.evolution
+        patches = Patches(one, evolution=fault.evolution)
         try:
-            law = law_of(*given, velocity, distance, *constants)
-            patches = Patches(one, law, velocity, evolution=fault.evolution)
+            law = law_of(*given, velocity, distance, *patches.constants)
+            patches = dataclasses.replace(patches, law=law, velocity=velocity)
             known = expected_drop(patches, declared, critical, phi0)
-        except NoLength as none:
-            runaway = drop = _none(none.status, str(none))
-        except ParameterError as refused:  # no law has these constants
-            runaway = drop = _none(UNKNOWN, str(refused))
+        except (NoLength, ParameterError) as none:  # a parameter: no law has these constants
+            drop = _none(getattr(none, "status", UNKNOWN), str(none))
+            runaway = runaway_of(patches, critical)
         else:
-            runaway, drop = _both(known, constants[2] < WEAK * constants[1])
-        return *runaway, *drop
+            runaway, drop = known.runaway, _drop(known)
+        return *_runaway(runaway), *drop
 
     arrays = fault.velocity, fault.slip_distance, age
     rows = at_each(fault, answer, *arrays, rows=2 * FIELDS)
@@ -82,32 +82,31 @@ def _none(status: str, reason: str) -> Answer:
     )
 
 
-def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
-    """L_run and L of one fault, whose friction may weaken so little that it slips slowly."""
-    longest, status = known.runaway_length, known.runaway_status
-    error = longest * known.runaway_error
-    runaway = Answer(
-        longest,
-        longest - error,
-        longest + error,
-        status,
-        known.runaway_reason,
+def _runaway(found: Runaway) -> Answer:
+    error = found.length * found.error
+    return Answer(
+        found.length, found.length - error, found.length + error, found.status, found.reason
     )
-    if status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
-        return runaway, _none(BEYOND, known.runaway_reason)
+
+
+def _drop(known: ExpectedDrop) -> Answer:
+    """L of one fault, whose friction may weaken so little that it slips slowly."""
+    runaway = known.runaway
+    if runaway.status == BEYOND:  # slow slip lasts longer than the law of the drop assumes
+        return _none(BEYOND, runaway.reason)
     if not math.isfinite(known.stability_length):
-        return runaway, _none(UNKNOWN, "no patch in steady creep turns unstable before the drop")
-    if slowly and not math.isfinite(longest):
-        reason = f"a patch may slip slowly, and L_run is not known: {known.runaway_reason}"
-        return runaway, _none(UNKNOWN, reason)
+        return _none(UNKNOWN, "no patch in steady creep turns unstable before the drop")
+    if known.weak and not math.isfinite(runaway.length):
+        reason = f"a patch may slip slowly, and L_run is not known: {runaway.reason}"
+        return _none(UNKNOWN, reason)
     if not math.isfinite(known.length):
-        return runaway, _none(BEYOND, known.doubt)
+        return _none(BEYOND, known.doubt)
     doubts = [known.doubt] if known.doubt else []
     if known.length < known.stability_length:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    drop = Answer(
+    return Answer(
         known.length,
         known.low,
         known.high,
@@ -115,4 +114,3 @@ def _both(known: ExpectedDrop, slowly: bool) -> tuple[Answer, Answer]:
         "",
         "; ".join(doubts),
     )
-    return runaway, drop

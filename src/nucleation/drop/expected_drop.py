@@ -1,6 +1,5 @@
 """The expected drop of a user's fault, by theory alone."""
 
-import dataclasses
 import math
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -10,8 +9,8 @@ import numpy as np
 from ..model.settings import Perturbation
 from ..theory.creep.lengths import stability_length_of
 from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import runaway_point
-from ..theory.status import UNKNOWN, VALUE, NoLength
+from ..theory.creep.runaway import WEAK, Runaway, runaway_of
+from ..theory.status import VALUE, NoLength
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -19,13 +18,11 @@ from .mode_history import ModeHistory, mode_history
 LATEST_GROWTH = 0.85  # over the longest patch followed, up to which L_s leaves lengths for a trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
 SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
-WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 LATER = 0.10
 """Relative delay of the drop behind L_run where the front is fast. Simulated drops in thin blocks
 are from 1 % below to 10 % above L_run; the error of L_run itself counts, too."""
 
 SLIP_BURSTS = 0.3  # zeta/a below which, by the slip law, bursts hardly lower the force
-CONSTANT = 0.05  # relative change of L_s by friction's scales up to which a and b count as constant
 NEAR_END = 0.6  # patch length over the block's up to which a thin block's far end has no effect
 THICK = 0.5  # height over the patch's length above which a block is thick
 THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
@@ -41,31 +38,29 @@ class ExpectedDrop(NamedTuple):
     law: Drop  # the law of the drop, which holds where the patch does not slip slowly
     closed_form: ClosedForm
     doubt: str  # why the answer is uncertain, empty if it is not
-    runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
-    runaway_error: float = math.nan  # relative
-    runaway_status: str = VALUE  # "value", "stable", "beyond" or "unknown"
-    runaway_reason: str = ""  # why there is no L_run, empty where there is
+    runaway: Runaway
+    weak: bool  # whether friction weakens so little that a patch may slip slowly up to L_run
 
     @property
     def length(self) -> float:
         """The length (m) at the drop: the law's median, or L_run if slow slip lasts up to it."""
-        return float(np.fmax(self.law.length, self.runaway_length))
+        return float(np.fmax(self.law.length, self.runaway.length))
 
     @property
     def low(self) -> float:
         """The least expected length (m) at the drop."""
-        return float(np.fmax(self.law.low, self.runaway_length * (1.0 - self.runaway_error)))
+        return float(np.fmax(self.law.low, self.runaway.length * (1.0 - self.runaway.error)))
 
     @property
     def high(self) -> float:
         """The largest expected length (m) at the drop."""
-        later = max(LATER, self.runaway_error)
-        return float(np.fmax(self.law.high, self.runaway_length * (1.0 + later)))
+        later = max(LATER, self.runaway.error)
+        return float(np.fmax(self.law.high, self.runaway.length * (1.0 + later)))
 
     @property
     def slips_slowly(self) -> bool:
         """Whether the patch slips in a limit cycle before the drop, which comes at L_run."""
-        return bool(self.runaway_length > self.law.length)
+        return bool(self.runaway.length > self.law.length)
 
 
 @np.errstate(under="ignore")  # what is far below the loading counts as nothing
@@ -87,16 +82,15 @@ def expected_drop(
     history = mode_history(patches, critical, initial_state, initial_stress)
     found = growth(history, declared)
     stable = stability_length_of(patches, critical)
-    runaway, runaway_error, status, reason = _runaway_length(patches, critical, stable)
+    runaway = runaway_of(patches, critical)
+    _, a, zeta = patches.constants
     known = ExpectedDrop(
         stability_length=stable,
         law=found.drop(declared.strength),
         closed_form=found.closed_form(history, declared.strength),
         doubt="",
-        runaway_length=runaway,
-        runaway_error=runaway_error,
-        runaway_status=status,
-        runaway_reason=reason,
+        runaway=runaway,
+        weak=zeta < WEAK * a,
     )
     if known.slips_slowly:
         doubts = [*_doubts_of_runaway(patches)]
@@ -109,36 +103,14 @@ def expected_drop(
                 critical,
             )
         ]
-    _, a, zeta = patches.constants
-    if status != VALUE and zeta / a < WEAK:
+    if runaway.status != VALUE and known.weak:
         doubts.append(
-            f"the patch may slip slowly beyond this length, since L_run is not known: {reason}"
+            f"the patch may slip slowly beyond this length, since L_run is not known: "
+            f"{runaway.reason}"
         )
     if block is not None:
         doubts += _doubts_of_block(known, block)
     return known._replace(doubt="; ".join(doubts))
-
-
-def _runaway_length(
-    patches: Patches, critical: float, stable: float
-) -> tuple[float, float, str, str]:
-    """L_run (m) with error, status and reason; NaN where weakening is strong or it is not known.
-
-    The integration with the friction law takes longer: it is for laws with other L_s (`stable`, m)
-    than constant a and b.
-    """
-    _, a, zeta = patches.constants
-    ratio = zeta / a
-    if ratio >= WEAK:
-        reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
-        return math.nan, math.nan, UNKNOWN, reason
-    constant = stability_length_of(patches, critical, constant=True)
-    if abs(stable / constant - 1.0) < CONSTANT:
-        patches = dataclasses.replace(patches, law=None)
-    try:
-        return *runaway_point(patches, critical), VALUE, ""
-    except NoLength as none:
-        return math.nan, math.nan, none.status, str(none)
 
 
 def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
@@ -199,7 +171,7 @@ def _doubts_of_law(
 
 def _doubts_of_block(known: ExpectedDrop, block: tuple[float, float]) -> Iterator[str]:
     """Whether the patch feels the far end of its block when it drops."""
-    highest = np.fmax(known.law.high, known.runaway_length)
+    highest = np.fmax(known.law.high, known.runaway.length)
     length, height = block
     if highest > NEAR_END * length:
         yield (

@@ -312,9 +312,10 @@ class Fault:
     def runaway_length(self) -> Any:
         """Runaway length L_run, beyond which a creeping patch can't slip slowly.
 
-        Between L_s and L_run a patch slips slowly. Where friction weakens little, zeta/a below
-        about 2, the force drops at L_run or later. L_run (m) is that of constant a and b, within
-        2 % in thin layers and up to 7 % between half-spaces; NaN where there is none.
+        Between L_s and L_run a patch slips slowly. Where friction weakens little, zeta/a below 2,
+        the force drops at L_run or later. L_run (m) is known within 2 % in thin layers and up to
+        7 % between half-spaces; NaN where there is none, and for zeta/a of 2 or more. Without a
+        velocity or f, a and b are constant.
         """
         from ..theory.creep.runaway import runaway_answers
 

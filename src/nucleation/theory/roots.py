@@ -1,6 +1,5 @@
 """Where functions change their sign: importing scipy.optimize takes longer than most answers."""
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -53,22 +52,3 @@ def roots(
         index, last = index[on], new[on]
         left, f_left, right, f_right = (values[on] for values in (left, f_left, right, f_right))
     return found
-
-
-def bisected(
-    beyond: Callable[[float], bool],
-    low: float,
-    high: float,
-    precision: float,
-) -> float:
-    """The length (m) from which on a condition holds, to a relative precision.
-
-    It does not hold at `low` and holds at `high`.
-    """
-    while high > low * (1.0 + precision):
-        middle = math.sqrt(low * high)
-        if beyond(middle):
-            high = middle
-        else:
-            low = middle
-    return math.sqrt(low * high)

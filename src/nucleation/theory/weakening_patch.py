@@ -42,7 +42,6 @@ import numpy as np
 from ..types import Array, ComplexArray
 from .critical import largest_crossings
 from .evaluation import evaluate, require_broadcast
-from .roots import bisected
 from .spectrum import Systems
 from .values import QUANTITIES, FaultLike, Values, checked, numbers_of
 
@@ -231,7 +230,13 @@ def smallest_width(patch: WeakeningPatch, critical: float) -> float:
         low, high = high, high * FACTOR
         if low > WIDEST * critical:
             return math.nan
-    return bisected(grows, low, high, PRECISION)
+    while high > low * (1.0 + PRECISION):
+        middle = math.sqrt(low * high)
+        if grows(middle):
+            high = middle
+        else:
+            low = middle
+    return math.sqrt(low * high)
 
 
 def weakening_patch_values(

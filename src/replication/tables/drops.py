@@ -230,8 +230,11 @@ def expected(parameters: Run) -> Row:
     except NoLength as error:
         none = dict.fromkeys(EXPECTED, float("nan"))
         return none | {"runaway_status": error.status, "doubt": str(error)}
-    names = ("stability_length", "runaway_length", "runaway_status", "doubt")
-    return {name: getattr(known, name) for name in names} | {
+    return {
+        "stability_length": known.stability_length,
+        "runaway_length": known.runaway.length,
+        "runaway_status": known.runaway.status,
+        "doubt": known.doubt,
         "law_length": known.law.length,
         "expected_length": known.length,
         "expected_low": known.low,

@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike
 
 from ...model.friction import Friction
 from ...types import Array, ComplexArray
-from ..roots import bisected
 from ..status import BEYOND, NoLength
 from .linearised import (
     Creep,
@@ -48,7 +47,7 @@ SHORTEST = 0.3  # where the search for L_s starts, over L_c
 TRIED = 14  # number of patches that are tried
 NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches to which a parabola is fitted
 CLOSE = 2e-3  # relative, within which the parabola's L_s must have decay and growth
-NARROW = 1e-4  # relative width of a bracket at which bisection ends
+PARTS = (8, 8, 16)  # of brackets: the relative width becomes 1e-4
 REAL = 1e-9  # imaginary part below which a parabola's root is real
 
 
@@ -199,9 +198,9 @@ def _stepped(
 ) -> Array:
     """log(phi) after a time at a slip speed over D (1/s), extrapolated from one and two steps."""
     evolve = law.evolution_law.implicit_log_state
-    half, _ = evolve(log_state, 0.5 * step, rate)
+    both = np.array([log_state, log_state])
+    (half, one), _ = evolve(both, np.array([0.5 * step, step]), np.array([rate, rate]))
     two_halves, _ = evolve(half, 0.5 * step, rate)
-    one, _ = evolve(log_state, step, rate)
     return 2.0 * two_halves - one
 
 
@@ -224,9 +223,9 @@ def first_growing(
     """L_s of a patch with its advancing front.
 
     Growth begins between two of the lengths tried, with a pair of modes that oscillates
-    (:mod:`.lengths`). L_s is the root of a parabola through the pair's
-    growth. Where the pair oscillates in a narrow window only, the parabola's root is not where
-    growth begins, and L_s is bisected. Lengths are in m, the initial state in s.
+    (:mod:`.lengths`). L_s is the root of a parabola through the pair's growth. Where the pair
+    oscillates in a narrow window only, growth does not begin at that root, and more lengths are
+    tried. Lengths are in m, the initial state in s.
     """
 
     def advanced(lengths: ArrayLike) -> Advance:
@@ -244,12 +243,12 @@ def first_growing(
         before, after = fastest(advanced(around))
         if before < 0.0 < after:
             return onset
-    return bisected(
-        lambda length: bool(fastest(advanced([length]))[0] > 0.0),
-        low,
-        high,
-        NARROW,
-    )
+    for parts in PARTS:  # ten bisections; the state takes as long for many lengths as for one
+        tried = np.geomspace(low, high, parts + 1)
+        growing = fastest(advanced(tried[1:-1])) > 0.0
+        i = int(np.argmax(np.append(growing, True)))
+        low, high = tried[i : i + 2]
+    return float(np.sqrt(low * high))
 
 
 def _bracket(

@@ -12,20 +12,27 @@ of any height. In a thin layer that is ``1.8 (1/pi) sqrt(b/zeta) L_c``. The fact
 strain energy released by a patch equals the fracture energy of its front.
 """
 
+import contextlib
+import dataclasses
 import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...model.friction.constants import law_of
+from ...model.quantities import ParameterError
 from ...types import Array
 from ..critical import at_each
 from ..spectrum import Systems
 from ..status import BEYOND, UNKNOWN, VALUE, NoLength
 from ..values import FaultLike
-from .lengths import stability_point
+from .lengths import stability_length_of, stability_point
 from .patches import Patches
 from .slow_slip import cohesive_wavenumber, lifetimes, modes_that_resolve
 
+EDGE_ALONE = "it is known for a patch that is pushed at its edge"
+WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
+CONSTANT = 0.05  # relative change of L_s by friction's scales up to which a and b count as constant
 WEAKENINGS = (0.1, 10.0)  # zeta/a that were tried
 DURATION = 1500.0  # over D/V, or over (a/zeta) D/V where that is shorter: slow slip must last it
 DISTURBANCES = np.geomspace(0.005, 0.02, 4)  # of log(phi) at the start, in the patch's middle
@@ -168,15 +175,56 @@ def runaway_point(
     return math.exp(log_length), max(error, LEAST_ERROR)
 
 
+class Runaway(NamedTuple):
+    """L_run of one fault; NaN with a status and a reason where there is none."""
+
+    length: float  # m
+    error: float  # relative
+    status: str
+    reason: str
+
+
+def runaway_of(patches: Patches, critical: float) -> Runaway:
+    """L_run of one fault with L_c (m) whose friction weakens little.
+
+    Integration with the friction law takes longer: it is for laws with another L_s than that of
+    constant a and b.
+    """
+    _, a, zeta = patches.constants
+    try:
+        if patches.loading != "edge":
+            raise NoLength(EDGE_ALONE, UNKNOWN)
+        if zeta >= WEAK * a:
+            reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {zeta / a:.3g}"
+            raise NoLength(reason, UNKNOWN)
+        if patches.law is not None:
+            own = stability_length_of(patches, critical)
+            constant = stability_length_of(patches, critical, constant=True)
+            if abs(own / constant - 1.0) < CONSTANT:
+                patches = dataclasses.replace(patches, law=None)
+        return Runaway(*runaway_point(patches, critical), VALUE, "")
+    except NoLength as none:
+        return Runaway(math.nan, math.nan, none.status, str(none))
+
+
 def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """L_run (m), its relative error, its status and the reason for it, of each fault.
 
-    The patch is pushed at its edge, and a and b are constant.
+    With a velocity and f it is that of the friction law, else of constant a and b.
     """
+    known = fault.velocity is not None and fault.friction is not None
 
-    def answer(one: Systems, critical: float) -> tuple[Any, ...]:
-        return *runaway_point(Patches(one, evolution=fault.evolution), critical), VALUE, ""
+    def answer(one: Systems, critical: float, velocity: float, distance: float) -> Runaway:
+        patches = Patches(one, loading=fault.loading, evolution=fault.evolution)
+        if known:
+            with contextlib.suppress(ParameterError):  # no law has these constants
+                law = law_of(
+                    fault.friction_law, fault.evolution, velocity, distance, *patches.constants
+                )
+                patches = dataclasses.replace(patches, law=law, velocity=velocity)
+        return runaway_of(patches, critical)
 
-    rows = at_each(fault, answer, rows=4)
+    velocity = fault.velocity if known else np.nan
+    rows = at_each(fault, answer, velocity, fault.slip_distance, rows=4)
     length, error = rows[:2].astype(float)
     return length, error, rows[2], rows[3]
