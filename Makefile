@@ -89,10 +89,8 @@ REST := import sys, pandas, xarray; table = xarray.open_dataset("results/lengths
 
 reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
-		convergence figure_drop \
-		figure_2_simulated pairs figure_map figure_weakening gather_patch_theory \
-		figure_weakening_patches patch_outcomes other_faults \
-		figure_literature --cores "$$CORES"
+		convergence figure_drop pairs figure_map figure_weakening gather_patch_theory \
+		gather_weakening_patches patch_outcomes other_faults gather_literature --cores "$$CORES"
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/
 	sed 's|](figures/|](|' results/replication.md > results/reference/article.md

@@ -21,7 +21,7 @@ def table(ratio=0.8, slope=-1.0):
         "length": 0.5 * ratio, "stability_ratio": 0.5, "poisson_ratio": 1.0 / 3.0,
     }  # fmt: skip
     columns = {name: [value] * 7 for name, value in same.items()} | {
-        "role": ["pairs_identical"] * 2 + ["figure_2_simulated"] * 5,
+        "role": ["pairs_identical"] * 2 + ["pairs_contrast"] * 5,
         "height": [0.01, *[1.0] * 6],
         "critical_length": [0.1, *[0.5] * 6],
         "length_ratio": [0.3, *[ratio] * 6],

@@ -161,7 +161,7 @@ EXPLAINED = {
     "patch_theory-aging-H0.01-phi1-zeta_over_a0.5": "Weak weakening",
     "patch_theory-slip-H0.03-phi1-zeta_over_a10": "Steady creep",
     "pairs_weak-aging-H2-phi1-seed0-zeta_over_a1": "Blocks as high as long",
-    "figure_2_simulated-aging-H1-phi1-shear_modulus5167000000-seed0-"
+    "pairs_contrast-aging-H1-phi1-shear_modulus5167000000-seed0-"
     "second_shear_modulus3100000000-zeta_over_a1": "The stiffer body above",
 }
 """Faults whose L_s is more than 3 % off, and the part of the page that says why."""

@@ -47,7 +47,7 @@ def test_half_spaces_as_eta():
 
 
 def test_identical_half_spaces_with_other_weakening():
-    own = pairs().query("study in ['pairs_weak', 'figure_2_simulated'] and f_beta == 0.0")
+    own = pairs().query("study in ['pairs_weak', 'pairs_contrast'] and f_beta == 0.0")
     ratio = own.set_index([own["zeta_over_a"].round(2), "height"])["length_ratio"]
     three, ten, low, high = (ratio[key] for key in ((3, 1), (10, 0.3), (1, 1), (1, 2)))
     says(
@@ -87,7 +87,7 @@ def test_identical_blocks():
 
 def contrasts(weakening):
     """The pairs of Figure 2 with one zeta/a, by f beta."""
-    own = pairs().query("study == 'figure_2_simulated'")
+    own = pairs().query("study == 'pairs_contrast'")
     own = own[np.isclose(own["zeta_over_a"], weakening)]
     return own.assign(f_beta=own["f_beta"].round(2)).set_index("f_beta").sort_index()
 

@@ -136,7 +136,7 @@ def test_other_laws_are_drawn(theory, lengths, thick):
     assert sum(len(c[0].get_xdata()) for c in axes.containers) == 11  # all that have a length
     columns = ("length", "length_low", "length_high")
     patches = others.rename({name: f"stability_{name}" for name in columns})
-    left, right = figure_3.draw_extended(theory, others, patches, others).axes
+    left, right = figure_3.draw_extended(theory, others, patches).axes
     assert "halfway law" in [text.get_text() for text in right.get_legend().get_texts()]
     assert len(left.containers) > 3
     assert set(figure_patch.shown(patches)["evolution"].values) == {"halfway"}

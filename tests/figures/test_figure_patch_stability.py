@@ -98,24 +98,3 @@ def test_figures_are_legible(name, request):
     figure = request.getfixturevalue(name)
     drawn_layout.require_legible(figure)
     assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
-
-
-def test_more_realisations_move_the_mean_and_stronger_noise_the_band(theory, lengths, table):
-    """Runs of another study at the strength of `converged` are more realisations of its faults."""
-    given = lengths.assign(
-        seed=("run", np.ones(lengths.sizes["run"])),
-        id=("run", np.arange(lengths.sizes["run"]).astype(str)),
-    )
-    judged = given.isel(run=np.flatnonzero(given["study"].values == "converged"))
-    others = ("run", ["noisy"] * judged.sizes["run"])
-    more = judged.assign(study=others, role=others, seed=judged["seed"] + 1)
-    more = more.assign(length=1.2 * more["length"])
-    strong = more.assign(strength=1e3 * more["strength"], length=more["length"] / 2.4)
-    noisy = xr.concat([more, strong], dim="run")
-    drawn = figure_3.draw_extended(theory, given, table, noisy).axes[0]
-    (area,) = (own for own in drawn.collections if "10^{-2}" in str(own.get_label()))
-    band = area.get_paths()[0].vertices[:, 1]
-    aging = judged["evolution"].values == "aging"
-    usual = aging & np.isclose(judged["initial_state"].values, 1.0)
-    assert band.max() == pytest.approx(1.1 * judged["length"].values[usual].max())
-    assert band.min() == pytest.approx(0.5 * judged["length"].values[usual].min())

@@ -10,7 +10,6 @@ from lengths.test_in_use import crack_coefficients
 
 from nucleation.extraction import measures as zones
 from nucleation.run.run import PAPER_RUN
-from replication.figures import theory
 from replication.tables import literature
 
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
@@ -74,13 +73,6 @@ def test_a_zone_that_expands_before_steady_state_is_nearer_to_the_length_of_its_
     ratio = away["simulated_length"] / away["finite_speed_length"]
     assert len(away) == len(literature.SLIP_RATES)
     assert (abs(np.log(ratio)) < abs(np.log1p(away["difference"]))).all()
-
-
-def test_the_figure_draws_every_simulated_length():
-    table = xr.Dataset({name: ("run", FRAME[name]) for name in FRAME})
-    left, right = theory.figure_literature(table).axes
-    assert [line.get_label() for line in left.lines[:4]] == [*theory.KINDS.values()]
-    assert len(right.lines) > 8
 
 
 SETTINGS = {

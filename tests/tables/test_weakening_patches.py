@@ -14,7 +14,6 @@ from nucleation.api import Fault
 from nucleation.lengths.weakening_patch import patch_answer
 from nucleation.model.quantities import ParameterError
 from nucleation.simulation.run import simulate
-from replication.figures import figure_weakening
 from replication.tables.weakening_patches import (
     PERIOD,
     bounds_of,
@@ -81,17 +80,6 @@ def test_surroundings_of_another_a():
     fault = FAULT | {"zeta": 0.0034}
     smallest = weakening_patch_length(outside_zeta=-0.0068, outside_a=0.017, **fault)
     assert float(table["smallest_width"][0]) == pytest.approx(float(smallest), rel=1e-4)
-
-
-def test_figure_has_each_run_by_its_outcome(table):
-    (axes,) = figure_weakening.draw_patches(table).axes
-    drawn = {line.get_marker(): line for line in axes.lines if len(line.get_xdata()) == 1}
-    assert len(drawn) == len(FASTEST)
-    for name in FASTEST:
-        marker, colour = figure_weakening.LOOKS[name][:2]
-        own = table["width_ratio"][table["outcome"] == name]
-        assert drawn[marker].get_color() == colour
-        assert drawn[marker].get_ydata() == pytest.approx(own.values)
 
 
 def test_outcomes():

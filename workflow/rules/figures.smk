@@ -120,7 +120,6 @@ rule figure_3_extended:
         theory=f"{RESULTS}/theory.nc",
         lengths=f"{RESULTS}/lengths.nc",
         table=f"{RESULTS}/patch_stability.nc",
-        noisy=lambda wildcards: table_of("noisy"),
         recipe=recipe("figure_3_extended"),
     output:
         drawn("figure_3_extended"),
@@ -165,22 +164,6 @@ rule figure_weakening:
         JOB
 
 
-rule figure_weakening_patches:
-    """Weakening patches among strengthening surroundings"""
-    input:
-        table=f"{RESULTS}/weakening_patches.nc",
-        recipe=recipe("figure_weakening_patches"),
-    output:
-        drawn("figure_weakening_patches"),
-    log:
-        f"{RESULTS}/logs/figures/figure_weakening_patches.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_weakening:draw_patches",
-    shell:
-        JOB
-
-
 rule figure_map:
     """Lengths over height and weakening: a map"""
     input:
@@ -193,39 +176,6 @@ rule figure_map:
     localrule: True
     params:
         call="replication.figures.figure_weakening:draw_map",
-    shell:
-        JOB
-
-
-rule figure_2_simulated:
-    """Figure 2 with simulations, in both senses of the contrast"""
-    input:
-        table=f"{RESULTS}/pairs.nc",
-        theory=f"{RESULTS}/theory.nc",
-        recipe=recipe("figure_2_simulated"),
-    output:
-        drawn("figure_2_simulated"),
-    log:
-        f"{RESULTS}/logs/figures/figure_2_simulated.log",
-    localrule: True
-    params:
-        call="replication.figures.figure_2_simulated:draw",
-    shell:
-        JOB
-
-
-rule figure_literature:
-    """Lengths of the literature, simulated in their own settings"""
-    input:
-        table=f"{RESULTS}/literature.nc",
-        recipe=recipe("figure_literature"),
-    output:
-        drawn("figure_literature"),
-    log:
-        f"{RESULTS}/logs/figures/figure_literature.log",
-    localrule: True
-    params:
-        call="replication.figures.theory:figure_literature",
     shell:
         JOB
 

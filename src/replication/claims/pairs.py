@@ -53,8 +53,8 @@ def _faults(evidence: Tables) -> tuple[pd.DataFrame, pd.DataFrame]:
 def _settled(evidence: Tables) -> pd.DataFrame:
     """The pairs of Figure 2, without each zeta/a whose lengths depend on the blocks' height."""
     faults, identical = _faults(evidence)
-    rows = faults[faults["role"] == "figure_2_simulated"]
-    _some(rows, "The table of pairs has no runs with the role figure_2_simulated")
+    rows = faults[faults["role"] == "pairs_contrast"]
+    _some(rows, "The table of pairs has no runs with the role pairs_contrast")
     lengths = identical.groupby("weakening")["length_ratio"]
     varies = lengths.max() - lengths.min() > _HEIGHT_TOLERANCE * lengths.min()
     depend = varies.index[varies]

@@ -86,10 +86,6 @@ ROLES = {
         several=True,
         runs=(_INTERFACE,),
     ),
-    # a stronger perturbation, for the band of `figure_3_extended`
-    "noisy": _Role(
-        one_by_one=False,
-    ),
     # refined runs with patches over time
     "patch_convergence": _Role(
         several=True,
@@ -108,7 +104,7 @@ ROLES = {
     "other_faults": _Role(
         one_by_one=False,
     ),
-    # weakening patches in a fault that strengthens, for `figure_weakening_patches`
+    # weakening patches in a fault that strengthens
     WEAKENING_PATCHES: _Role(
         runs=(_REMOTE, _FRICTION_VARIES),
     ),
@@ -144,19 +140,19 @@ ROLES = {
         several=True,
         runs=(_PAIR,),
     ),
-    # the same, half-spaces in contrast, for `figure_2_simulated`
-    "figure_2_simulated": _Role(
+    # the same, half-spaces in contrast
+    "pairs_contrast": _Role(
         several=True,
         runs=(_PAIR,),
     ),
-    # the literature's lengths in their own settings, for `figure_literature`
+    # the literature's lengths in their own settings
     LITERATURE: _Role(
         runs=(_REMOTE,),
     ),
 }
 """All roles, by name."""
 
-PAIRS = ("pairs", "pairs_identical", "figure_2_simulated")
+PAIRS = ("pairs", "pairs_identical", "pairs_contrast")
 """Roles of studies in the table of pairs."""
 
 REFINEMENTS = ("convergence", "convergence_quiet")

@@ -15,11 +15,8 @@ ROLES: dict[str, tuple[str, ...]] = {
     "figure_3_extended": ("paper",),
     "figure_drop": ("drop",),
     "figure_weakening": ("weakening",),
-    "figure_weakening_patches": ("weakening_patches",),
     "figure_map": ("map",),
     "figure_patch_stability": ("paper",),
-    "figure_2_simulated": ("pairs_identical", "figure_2_simulated"),
-    "figure_literature": ("literature",),
 }
 """Roles of studies by figure; figures of a user's studies are not in it."""
 

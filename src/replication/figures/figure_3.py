@@ -1,10 +1,8 @@
 """Figure 3: the critical length against the block's height, theory and simulations.
 
-:func:`draw_extended` has more lengths: where the patch becomes unstable, and the drop under load
-noise. :func:`figure_s2` shows one of the runs in space and time.
+:func:`draw_extended` has the length at which the patch becomes unstable, too. :func:`figure_s2`
+shows one of the runs in space and time.
 """
-
-from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -15,7 +13,7 @@ from numpy.typing import NDArray
 
 from nucleation.pictures import run, style
 
-from ..tables.lengths import join, over_realisations
+from ..tables.lengths import over_realisations
 from ..tables.lengths import row as row_of
 from . import laws
 
@@ -34,7 +32,6 @@ LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
 _SHOWN_LENGTHS = 1.4  # width of the inset in critical lengths
 
 _JUDGED = "converged"
-_BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
 
 
 @style.styled()
@@ -202,32 +199,15 @@ def draw_extended(
     theory: xr.Dataset,
     lengths: xr.Dataset,
     table: xr.Dataset,
-    noisy: xr.Dataset | Sequence[xr.Dataset] = (),
 ) -> Figure:
     """Draw lengths against height, and the same over the theory's.
 
-    `table` has L_s of the same runs. `noisy` has lengths under a stronger perturbation, from which
-    a band is drawn to the role `converged`, and further realisations of that role's faults.
+    `table` has L_s of the same runs.
     """
-    stronger = laws.where(lengths, False)
-    if isinstance(noisy, xr.Dataset):
-        judged = laws.where(lengths, role=_JUDGED)
-        more = np.isin(noisy["strength"].values, judged["strength"].values)
-        stronger, own = laws.where(noisy, ~more), laws.where(noisy, more)
-        for name in ("study", "role"):
-            own[name] = (
-                "run",
-                np.resize(
-                    judged[name].values,
-                    own.sizes["run"],
-                ),
-            )
-        lengths = join([lengths, own])
-    lengths, stronger = _means(lengths), _means(stronger)
+    lengths = _means(lengths)
     figure, (left, right) = style.panels(8.2, columns=2)
-    _draw_lengths(left, theory, lengths, table, stronger)
-    drawn = [_over_theory(own) for own in (theory, lengths, table, stronger)]
-    _draw_lengths(right, *drawn)
+    _draw_lengths(left, theory, lengths, table)
+    _draw_lengths(right, *map(_over_theory, (theory, lengths, table)))
     highest = _ABOVE * float(lengths["height"].max())
     top = 1.6 * float(
         np.interp(
@@ -269,10 +249,8 @@ def _over_theory(table: xr.Dataset) -> xr.Dataset:
     return table.assign({name: table[name] / table["critical_length"] for name in names})
 
 
-def _draw_lengths(
-    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset, stronger: xr.Dataset
-) -> None:
-    """Theory, half of it, all sets of lengths, and the band under stronger perturbations."""
+def _draw_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> None:
+    """Theory, half of it, and all sets of lengths."""
     height, critical = theory["height"], theory["critical_length"]
     axes.plot(height, critical, color=style.THEORY, label="theory $L_c$")
     axes.plot(
@@ -311,17 +289,4 @@ def _draw_lengths(
             marks: style.Options = {"marker": marker, "color": colour}
             laws.draw(axes, "height", runs, column, label=label, **marks | look)
             label = ""  # one entry of the legend for all kinds
-    if stronger.sizes["run"]:
-        *_, quiet = next(laws.kinds(laws.where(lengths, role=_JUDGED)))
-        heights = (stronger["height"], quiet["height"])
-        shared, first, second = np.intersect1d(*heights, return_indices=True)
-        ends = stronger["length"][first], quiet["length"][second]
-        axes.fill_between(
-            shared,
-            *ends,
-            color=style.AGING,
-            alpha=0.2,
-            lw=0.0,
-            label=_BAND,
-        )
     axes.set_xlabel("Height $H$ (m)")

@@ -1,7 +1,4 @@
-"""Lengths over the weakening of friction: over zeta/a, and over height and zeta/a.
-
-:func:`draw_patches`: which weakening patches creep, slip slowly or have events.
-"""
+"""Lengths over the weakening of friction: over zeta/a, and over height and zeta/a."""
 
 import numpy as np
 import xarray as xr
@@ -85,67 +82,6 @@ def draw(table: xr.Dataset) -> Figure:
     )
     panels[0, 0].set_ylabel("Length over theory $L/L_c$")
     style.legend(figure, axes, loc="outside upper center", ncols=2)
-    return figure
-
-
-LOOKS = {
-    "creep": ("o", style.BLUE),
-    "slow slip": ("s", style.GREEN),
-    "event": ("^", style.VERMILLION),
-    "undecided": ("D", style.GUIDE),
-}
-"""Marker and colour of each outcome of a run."""
-
-TICKS = (0.2, 0.5, 1.0, 2.3, 5.0)  # of zeta/a
-APART = 0.08  # log of zeta/a over that of r, by which marks of one zeta/a are displaced
-
-
-@style.styled()
-def draw_patches(table: xr.Dataset) -> Figure:
-    """Draw outcomes of patches over zeta/a and W/W_c, one panel for each V, the largest first.
-
-    Filled marks are of runs where the surroundings have another a.
-    """
-    velocities = np.unique(table["velocity"])[::-1]
-    figure, panels = style.panels(
-        8.0,
-        columns=velocities.size,
-        sharey=True,
-        squeeze=False,
-    )
-    for axes, letter, velocity in zip(
-        panels.flat,
-        "abcdefgh",
-        velocities,
-        strict=False,
-    ):
-        rows = laws.where(table, velocity=velocity)
-        axes.axhline(1.0, lw=0.7)
-        for name, (marker, colour) in LOOKS.items():
-            axes.plot(
-                [],
-                [],
-                marker,
-                color=colour,
-                mfc="none",
-                label=name,
-            )
-            for varies, face in (("zeta", "none"), ("a", colour)):
-                own = laws.where(rows, outcome=name, varies=varies)
-                place = own["zeta_over_a"] * own["strengthening"] ** APART
-                axes.plot(
-                    place,
-                    own["width_ratio"],
-                    marker,
-                    color=colour,
-                    mfc=face,
-                )
-        axes.plot([], [], "o", label="other $a$")
-        axes.set(xscale="log", xlabel=r"Weakening of the patch $\zeta/a$")
-        axes.set_title(rf"({letter}) $v_d$ = {float(rows['dynamic_rate'][0]):.3g} $V$")
-        style.plain_numbers(axes.xaxis, TICKS)
-    panels[0, 0].set_ylabel("Width of the patch $W/W_c$")
-    style.legend(figure, axes, loc="outside upper center", ncols=len(LOOKS) + 1)
     return figure
 
 

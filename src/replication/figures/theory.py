@@ -1,4 +1,4 @@
-"""Formulas: Figures 2 and S1, Table S1, and the literature's lengths beside simulations."""
+"""Formulas: Figures 2 and S1, and Table S1."""
 
 import csv
 import io
@@ -9,13 +9,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from nucleation.lengths.formulas import CRACK_LIMIT, LOCALISED_LIMIT
 from nucleation.model.friction import Friction
 from nucleation.model.quantities import declarations
 from nucleation.pictures import style
 from nucleation.types import Array
-
-from . import laws
 
 DASHES = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)), (0, (9, 1.5, 1, 1.5, 1, 1.5)))
 HANDLE = 4.0  # length of the legend's lines over the font size: each pattern is shown entirely
@@ -136,79 +133,3 @@ def table_s1(friction: Friction) -> dict[str, str]:
             cells = symbol.replace("*", r"\*"), value_text(value), unit, entry.description
             lines.append(f"| {' | '.join(cells)} |")
     return {".csv": text.getvalue(), ".md": "\n".join(lines) + "\n"}
-
-
-KINDS = {
-    "rubin_ampuero_localised": "fixed length",
-    "rubin_ampuero_crack": "expanding",
-    "thin_layer": "thin layer",
-    "state_evolution": r"slip law, over $L_b$",
-}
-"""Label of each simulated length of the literature."""
-
-_SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
-
-
-@style.styled()
-def figure_literature(table: xr.Dataset) -> Figure:
-    """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate."""
-    figure, (left, right) = style.panels(
-        7.6,
-        columns=2,
-        sharey=True,
-    )
-    table = laws.where(table, np.isfinite(table["simulated_length"]))
-    for i, (name, label) in enumerate(KINDS.items()):
-        marker, colour = style.look(i)
-        rows = laws.where(table, name=name)
-        at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
-        look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
-        left.plot(
-            at["a_over_b"],
-            at["difference"] + 1.0,
-            ls="none",
-            label=label,
-            **look,
-        )
-        rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
-        for same in laws.groups(rows, "ratio"):
-            first = next(laws.groups(same, "id"))
-            x, y = first["read_at"].values, first["difference"].values + 1.0
-            right.plot(x, y, **look)
-            finite = first["finite_speed_length"] / first["formula_length"]
-            right.plot(
-                x,
-                finite,
-                "--",
-                color=colour,
-                lw=0.8,
-            )
-            if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
-                ratio = float(same["ratio"][0])
-                place = "bottom" if ratio < 0.5 else "top"
-                style.note(
-                    right,
-                    f"{ratio:.2g}",
-                    (x[-1], y[-1]),
-                    (5, 0),
-                    color=colour,
-                    va=place,
-                )
-    left.axvspan(
-        LOCALISED_LIMIT,
-        CRACK_LIMIT,
-        color="0.9",
-        lw=0,
-        label="neither formula holds",
-    )
-    left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
-    left.set_title(f"(a) read at {_SHOWN_AT:g} m/s")
-    right.set(xscale="log", xlabel="Largest slip rate (m/s)")
-    right.set_title("(b) as slip accelerates; labels: $a/b$")
-    right.set_xlim(right=5e4)  # with room for the labels
-    for axes in (left, right):
-        axes.axhline(1.0, lw=0.7)
-    left.set(yscale="log", ylim=(0.1, 2.0))
-    style.plain_numbers(left.yaxis)
-    left.legend(loc="center left")
-    return figure
