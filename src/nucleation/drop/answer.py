@@ -13,13 +13,13 @@ from ..model.friction.constants import AGE, law_of
 from ..model.quantities import ParameterError
 from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import EDGE_ALONE, Runaway, runaway_answers, runaway_of
 from ..theory.critical import at_each
 from ..theory.spectrum import Systems
-from ..theory.status import BEYOND, UNKNOWN, VALUE, NoLength
+from ..theory.status import BEYOND, EDGE_ALONE, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike
 
 if TYPE_CHECKING:
+    from ..theory.creep.runaway import Runaway
     from .expected_drop import ExpectedDrop
 
 FIELDS = len(Answer._fields)
@@ -31,11 +31,9 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
     if missing or fault.loading != "edge":
         needed = f"needs {' and '.join(missing)}: the drop depends on the friction law"
         none = _none(UNKNOWN, needed if missing else EDGE_ALONE)
-        runaway = _runaway(Runaway(*runaway_answers(fault)))
-        return {
-            "runaway_length": runaway,
-            "drop_length": _answer(at_each(fault, lambda *_: none, rows=FIELDS)),
-        }
+        found = _answer(at_each(fault, lambda *_: none, rows=FIELDS))
+        return {"runaway_length": found, "drop_length": found}
+    from ..theory.creep.runaway import runaway_of
     from .expected_drop import expected_drop
 
     age = np.nan if fault.initial_state is None else fault.initial_state

@@ -15,6 +15,8 @@ BEYOND = "beyond"
 UNKNOWN = "unknown"
 """The theory or the formula does not apply to this fault."""
 
+EDGE_ALONE = "it is known for a patch that is pushed at its edge"
+
 
 class NoLength(ValueError):
     """This fault has no such length: L_c, L_s, L_run or the length at the drop.

@@ -24,13 +24,12 @@ from ...model.quantities import ParameterError
 from ...types import Array
 from ..critical import at_each
 from ..spectrum import Systems
-from ..status import BEYOND, UNKNOWN, VALUE, NoLength
+from ..status import BEYOND, EDGE_ALONE, UNKNOWN, VALUE, NoLength
 from ..values import FaultLike
 from .lengths import stability_length_of, stability_point
 from .patches import Patches
 from .slow_slip import cohesive_wavenumber, lifetimes, modes_that_resolve
 
-EDGE_ALONE = "it is known for a patch that is pushed at its edge"
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which a and b count as constant
 WEAKENINGS = (0.1, 10.0)  # zeta/a that were tried
@@ -210,7 +209,8 @@ def runaway_of(patches: Patches, critical: float) -> Runaway:
 def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """L_run (m), its relative error, its status and the reason for it, of each fault.
 
-    With a velocity and f it is that of the friction law, else of constant a and b.
+    With a velocity and f it is that of the friction law, else of constant a and b: that one
+    :func:`nucleation.drop.answer.answers_of_drop` leaves out, since it takes a second.
     """
     known = fault.velocity is not None and fault.friction is not None
 
