@@ -8,7 +8,7 @@ from asked import critical_length, lengths, stability_length
 from numpy.testing import assert_allclose
 from scipy.stats import norm
 
-from nucleation.api import draw_samples, quantiles, read_samples
+from nucleation.api import draw_samples, quantiles
 from nucleation.lengths.draws import QUANTILES, errors_of_quantiles, with_never
 from nucleation.model.quantities import ParameterError
 
@@ -114,42 +114,3 @@ def test_invalid_draws_are_left_out_and_counted():
 def test_what_is_wrong_is_named(changed, message):
     with pytest.raises(ParameterError, match=message):
         draw_samples(KNOWN | changed)
-
-
-PLAIN = "slip_distance (um),a\n5,0.01\n4.5,0.02\n"
-
-
-@pytest.mark.parametrize("text", [
-    PLAIN.replace(",", ";"),
-    PLAIN.replace(",", "\t"),
-    "# of a chain\n" + PLAIN.replace("\n4.5", "\n  # warm\n\n4.5"),
-    ",slip_distance (um),a\n0,5,0.01\n1,4.5,0.02\n",
-    '"","slip_distance (um)","a"\n"1",5,0.01\n"2",4.5,0.02\n',
-    PLAIN.replace("\n", "\r\n"),
-    PLAIN.replace("(um)", "[µm]"),
-])  # fmt: skip
-def test_a_file_of_samples(tmp_path, text):
-    path = tmp_path / "posterior.csv"
-    path.write_text(text, encoding="utf-8-sig")
-    found = read_samples(path)
-    assert found["slip_distance"].tolist() == [5e-6, 4.5e-6]
-    assert found["a"].tolist() == [0.01, 0.02]
-
-
-@pytest.mark.parametrize(("text", "message"), [
-    ("a\n", "is empty"),
-    ("a,zeto\n1,2\n", "line 1: column 'zeto' is unknown; did you mean zeta"),
-    ("Dc (um)\n5\n", "did you mean slip_distance"),
-    ("a,a\n1,2\n", "line 1: column a is there twice"),
-    ("a (MPa)\n1\n", "line 1.*unit of stress"),
-    ("# x\na,b\n0.1\n", "line 3: 1 cells, but the header has 2"),
-    ("a,b\n0,01,0,02\n", "line 2: 4 cells, but the header has 2"),
-    ("a;b\n0,01;0.02\n", "line 2, column 'a': '0,01' is no number; write a decimal point"),
-    ("a,b\n0.1,\n", "line 2, column 'b': '' is no number"),
-    ("a\n5um\n", "line 2, column 'a': '5um' is no number.*no unit"),
-])  # fmt: skip
-def test_a_file_that_is_wrong(tmp_path, text, message):
-    path = tmp_path / "posterior.csv"
-    path.write_text(text)
-    with pytest.raises(ParameterError, match=message):
-        read_samples(path)

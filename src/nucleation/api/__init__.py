@@ -45,7 +45,6 @@ _LATER = {
     "extract": "extraction.extraction",
     "quantiles": "lengths.draws",
     "read": "datasets.netcdf",
-    "read_samples": "fault.files",
     "simulate": "simulation.progress",
     "write": "datasets.netcdf",
 }
@@ -69,7 +68,6 @@ __all__ = [
     "extract",
     "quantiles",
     "read",
-    "read_samples",
     "simulate",
     "write",
 ]

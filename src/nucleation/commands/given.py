@@ -151,14 +151,13 @@ def _given(
 
 def given_fault(
     options: Mapping[str, Any],
-    samples: Mapping[str, Any] = {},
     draws: int = 0,
     sought: Mapping[str, float] = {},
 ) -> tuple[Fault, frozenset[str], Draws | None]:
     """The fault that options define (None: not given), names of what is given, and its draws.
 
-    There are draws, and arrays in the fault, if there are ranges or `samples` by name. A parameter
-    that is `sought` need not be given.
+    There are draws, and arrays in the fault, if there are ranges. A parameter that is `sought` need
+    not be given.
     """
     known = declarations_of_flat()
     ignored: Collection[str] = ()
@@ -167,10 +166,6 @@ def given_fault(
 
         ignored = parameters().keys() - known.keys()
     given = _given(options, known, ignored)
-    for name in samples:
-        if options.get(name) is not None:
-            raise ParameterError(f"{name} is given twice: as an option and in the samples")
-    given |= samples
     names = frozenset(given)
     base = PAPER if options["paper"] else None
     if base is None:
@@ -186,7 +181,7 @@ def given_fault(
     from ..lengths.ranges import Range
 
     drawn = None
-    if samples or any(isinstance(x, Range) for x in given.values()):
+    if any(isinstance(x, Range) for x in given.values()):
         if not draws:
             _refuse_ranges(given)
         from ..lengths.draws import draw_samples

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -87,24 +86,19 @@ _CREEPING = {
     parse_range,
 )
 @options_of(_OF_PATCH, _NOTES)
-@click.option(
-    "--samples",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
-)
 @option(
     "draws",
     DRAWS,
-    "of uncertain parameters, and most rows of --samples; default 200",
+    "of uncertain parameters; default 200",
     default="200",
 )
 @json_option
-def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> int:
+def command(as_json: bool, draws: int, **options: Any) -> int:
     """Nucleation lengths of a fault: the theory's, the one at the drop, and others in use.
 
     With --velocity and --friction it has L, at which the force drops under a perturbation. With a
-    range "5um (3 to 10)", the median and the quantiles of 5 and 95 %, or with --samples it prints
-    the quantiles of each length; with L if --strength or --perturbation is given.
+    range "5um (3 to 10)", the median and the quantiles of 5 and 95 %, it prints the quantiles of
+    each length; with L if --strength or --perturbation is given.
 
     Friction is f0 + a log(v/V) + b log(phi V/D) with NATURAL logarithms; zeta = b - a > 0 weakens.
 
@@ -115,19 +109,14 @@ def command(as_json: bool, samples: Path | None, draws: int, **options: Any) -> 
     """
     perturbed = {n: options[n] for n in _OF_PERTURBATION if options[n] is not None}
     of_patch = {name: options[name] for name in _OF_PATCH}
-    columns = {}
-    if samples:
-        from ..fault.files import read_samples
-
-        columns = read_samples(samples)
     with printed_warnings():
-        fault, names, drawn = given_fault(options, columns, draws)
+        fault, names, drawn = given_fault(options, draws)
         if drawn:
             from .quantiles import print_quantiles
 
             for name, value in of_patch.items():
                 if value is not None:
-                    raise ParameterError(f"{name} is not allowed beside ranges and samples")
+                    raise ParameterError(f"{name} is not allowed beside ranges")
             rate = drawn.values.get("weakening_rate", options["weakening_rate"])
             perturbed = perturbed or {"perturbation": "none"}
             return print_quantiles(

@@ -1,22 +1,14 @@
-"""Files of parameters: YAML without ambiguous input, and samples such as a posterior's."""
+"""Files of parameters: YAML without ambiguous input."""
 
-import csv
 import os
 import re
-from pathlib import Path
 from typing import Any
 
-import numpy as np
 import yaml
 
 from ..datasets.files import refuse_pipe
-from ..lengths.ranges import SAMPLED
-from ..model.hints import hint
 from ..model.quantities import ParameterError
-from ..model.units import rescaled
-from ..types import Array
 
-_HEADER = re.compile(r"\s*(\w+)\s*(?:\((.*)\)|\[(.*)\])?\s*")
 _OCTAL = re.compile(r"[-+]?0[0-9_]+")
 
 
@@ -78,122 +70,3 @@ def _number(loader: _Loader, node: yaml.ScalarNode) -> Any:
 
 _Loader.add_constructor("tag:yaml.org,2002:int", _number)
 _Loader.add_constructor("tag:yaml.org,2002:float", _number)
-
-
-def read_samples(path: Path | str) -> dict[str, Array]:
-    """Joint samples of parameters, one in each row.
-
-    Parameters
-    ----------
-    path : Path or str
-        UTF-8 text with a header of parameters and units, ``slip_distance (um),a,b``; the default
-        are SI units. Columns are separated by commas, semicolons or tabs. Empty lines and lines
-        that begin with ``#`` are skipped.
-
-    Returns
-    -------
-    dict
-        Samples in SI units by parameter, all of shape (number of rows,).
-
-    Raises
-    ------
-    ParameterError
-        If there is no row, a column is unknown or there twice, or a unit or a cell is wrong; the
-        message has file, line and column.
-
-    Examples
-    --------
-    >>> from tempfile import NamedTemporaryFile
-    >>> with NamedTemporaryFile("w+", suffix=".csv") as file:
-    ...     _ = file.write("slip_distance (um),a\\n5,0.010\\n6,0.011\\n")
-    ...     _ = file.seek(0)
-    ...     samples = read_samples(file.name)
-    >>> samples["a"]
-    array([0.01 , 0.011])
-    """
-    try:
-        refuse_pipe(path)
-        text = Path(path).read_text("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ParameterError(f"{path} can't be read as UTF-8 text: {error}") from None
-    lines = {i: line for i, line in enumerate(text.splitlines(), 1) if line.strip()}
-    lines = {i: line for i, line in lines.items() if not line.lstrip().startswith("#")}
-    if len(lines) < 2:
-        raise ParameterError(f"{path} is empty: no row of samples below a header of parameters")
-    header = next(iter(lines.values()))
-    separator = next((sign for sign in ";\t," if sign in header), ",")
-    cells = [
-        [cell.strip() for cell in row] for row in csv.reader(lines.values(), delimiter=separator)
-    ]
-    places = [f"{path}, line {number}" for number in lines]
-    labels = cells[0]
-    rows = [
-        _numbers(
-            place,
-            labels,
-            row,
-        )
-        for place, row in zip(
-            places[1:],
-            cells[1:],
-            strict=True,
-        )
-    ]
-    found: dict[str, Array] = {}
-    for label, values in zip(
-        labels,
-        np.array(rows).T,
-        strict=True,
-    ):
-        if label.lower() in ("", "index"):
-            continue  # numbers of rows
-        name, unit = _column(places[0], label)
-        if name in found:
-            raise ParameterError(f"{places[0]}: column {name} is there twice")
-        try:
-            found[name] = rescaled(
-                name,
-                values,
-                unit,
-                SAMPLED[name],
-            )
-        except ParameterError as error:
-            raise ParameterError(f"{places[0]}: {error}") from None
-    return found
-
-
-def _column(place: str, label: str) -> tuple[str, str]:
-    """A column's parameter and unit."""
-    parts = _HEADER.fullmatch(label)
-    if parts is None or parts[1] not in SAMPLED:
-        own_name = re.split(r"[(\[]", label)[0].strip()
-        suggestion = hint(own_name, SAMPLED) or f"known: {', '.join(SAMPLED)}"
-        raise ParameterError(
-            f"{place}: column {label!r} is unknown; {suggestion}; the first line that is no "
-            "comment names the parameters, such as 'slip_distance (um),a,b'"
-        )
-    unit = (parts[2] or parts[3] or SAMPLED[parts[1]].unit).strip()
-    return parts[1], "1" if unit == "-" else unit
-
-
-def _numbers(
-    place: str,
-    labels: list[str],
-    cells: list[str],
-) -> list[float]:
-    """The numbers in the cells of a row."""
-    if len(cells) != len(labels):
-        counts = f"{len(cells)} cells, but the header has {len(labels)}"
-        raise ParameterError(f"{place}: {counts}")
-    found = []
-    for label, text in zip(labels, cells, strict=True):
-        try:
-            found.append(float(text))
-        except ValueError:
-            found.append(np.nan)
-        if np.isnan(found[-1]):
-            raise ParameterError(
-                f"{place}, column {label!r}: {text!r} is no number; write a decimal point, no unit "
-                "and no separators of thousands"
-            )
-    return found
