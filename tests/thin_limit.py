@@ -27,8 +27,6 @@ def thin_limit(zeta_over_a):
 
     Checked to 1e-6 from ``zeta/a = 0.2`` on.
     """
-    if not zeta_over_a > 0.0:
-        raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
     points = np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
     to_values = chebyshev.chebvander(points, DEGREE)
     twice = chebyshev.chebder(np.eye(DEGREE + 1), 2)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from nucleation.api import Fault, draw_samples, quantiles
+from nucleation.theory.creep import front
 
 ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
 WORDS = [*ROCK, "--poisson-ratio", "0.25 (0.2 to 0.3)", "--b", "0.015"]
@@ -41,8 +42,10 @@ def test_the_library_s_numbers(nucleation):
     )
 
 
-def test_the_length_at_the_drop_of_draws(nucleation):
-    range_ = ["--slip-distance", "5um (4 to 6)", "--draws", "10"]
+def test_the_length_at_the_drop_of_draws(nucleation, monkeypatch):
+    monkeypatch.setattr(front, "FINE", 20)  # roughly, in a second
+    monkeypatch.setattr(front, "AT_REST", 20)
+    range_ = ["--slip-distance", "5um (4 to 6)", "--draws", "20"]
     words = [*ROCK[:-2], *range_, "--poisson-ratio", ".25", "--a", ".005", "--b", ".02"]
     own = [*words, "--velocity", "1um/s", "--friction", ".6", "--height", "2m"]
     assert "length at the drop" not in nucleation(*own).out

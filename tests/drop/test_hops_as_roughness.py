@@ -16,14 +16,9 @@ pytestmark = pytest.mark.slow
 THEORY = 0.4509  # m
 COARSE = 200  # elements, on each of which a fine mesh has three
 UNEVEN = 0.58  # relative strength of the period, that makes the patch swing as the hops do
+MESH = {"n_x": COARSE, "n_y": 6, "grading": 20.0}
 FAULT = PAPER_RUN.replaced(
-    height=0.02,
-    block_length=1.35,
-    n_x=COARSE,
-    n_y=6,
-    grading=20.0,
-    end_time=30.0,
-    time_after_event=0.0,
+    height=0.02, block_length=1.35, end_time=30.0, time_after_event=0.0, **MESH
 )
 
 

@@ -62,15 +62,12 @@ def largest_growth(width, period, number, ratio, strengthening, outside_a, fault
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("ratio", "strengthening", "outside_a", "changed"),
-    [
-        (0.5, 1.0, A, BASE),
-        (2.288, 0.43, A, BASE),
-        (0.5, 1.0, 2.0 * A, BASE),
-        (0.5, 1.0, A, {**OTHER, "height": 0.1, "second_height": 0.2}),
-    ],
-)
+@pytest.mark.parametrize(("ratio", "strengthening", "outside_a", "changed"), [
+    (0.5, 1.0, A, BASE),
+    (2.288, 0.43, A, BASE),
+    (0.5, 1.0, 2.0 * A, BASE),
+    (0.5, 1.0, A, {**OTHER, "height": 0.1, "second_height": 0.2}),
+])  # fmt: skip
 def test_fourier_modes_of_a_period_agree(ratio, strengthening, outside_a, changed):
     """All modes of a long period in thin layers, whose interaction falls off exponentially.
 
@@ -132,19 +129,16 @@ def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("module", "name", "value"),
-    [
-        (weakening_patch, "POLYNOMIALS", 24),
-        (weakening_patch, "FREQUENCIES", 200),
-        (weakening_patch, "SLOWEST", 1e-7),
-        (weakening_patch, "TURN", 0.3),
-        (weakening_patch, "FACTOR", 1.1),
-        (weakening_patch, "PRECISION", 1e-7),
-        (weakening_patch, "OCTAVE_POINTS", 14),
-        (weakening_patch, "OCTAVES", (-28, 13)),
-    ],
-)
+@pytest.mark.parametrize(("module", "name", "value"), [
+    (weakening_patch, "POLYNOMIALS", 24),
+    (weakening_patch, "FREQUENCIES", 200),
+    (weakening_patch, "SLOWEST", 1e-7),
+    (weakening_patch, "TURN", 0.3),
+    (weakening_patch, "FACTOR", 1.1),
+    (weakening_patch, "PRECISION", 1e-7),
+    (weakening_patch, "OCTAVE_POINTS", 14),
+    (weakening_patch, "OCTAVES", (-28, 13)),
+])  # fmt: skip
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
     weakening_patch.patch_basis.cache_clear()
     before = over_critical(0.5, 0.7, **OTHER, height=0.8)

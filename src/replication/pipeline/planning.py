@@ -253,7 +253,7 @@ class Plan:
         kept = written > newest and (self._beside_a_run or (newest < 0.0 and not self.runs))
         if not (written == 0.0 if shown else kept):
             # later than the outputs, even if a clock was wrong
-            recipe.write(file, 0.0 if shown else max(time.time(), newest + 0.01))
+            recipe.write_as_of(file, 0.0 if shown else max(time.time(), newest + 0.01))
         self._refresh(file)
         if self.runs:  # note it for its job, and leave no recipe of another result of this name
             with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as planned:

@@ -139,7 +139,7 @@ class Recipe:
                 os.utime(new, (newest, newest))  # results that were made of the parts are newer
             new.replace(file)
 
-    def write(self, file: str, moment: float) -> None:
+    def write_as_of(self, file: str, moment: float) -> None:
         """Write it to a file of this time (s since 1970); the content is new at another time."""
         write(Path(file), as_json({"planned": moment, **vars(self)}))
         os.utime(file, (moment, moment))

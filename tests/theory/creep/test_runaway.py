@@ -146,16 +146,13 @@ def test_modes_follow_the_length_over_that_of_the_fronts():
         slow_slip.modes_that_resolve(cohesive, 1e3)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "bodies", "status", "reason"),
-    [
-        (-0.2, {}, "stable", "homogeneous sliding"),
-        (0.03, {}, "unknown", "zeta/a = 0.03"),
-        (2.1, {}, "unknown", "zeta/a = 2.1"),
-        (0.5, {"loading": "remote"}, "unknown", "pushed at its edge"),
-        (0.11, HALF_SPACES, "unknown", "modes"),
-    ],
-)
+@pytest.mark.parametrize(("ratio", "bodies", "status", "reason"), [
+    (-0.2, {}, "stable", "homogeneous sliding"),
+    (0.03, {}, "unknown", "zeta/a = 0.03"),
+    (2.1, {}, "unknown", "zeta/a = 2.1"),
+    (0.5, {"loading": "remote"}, "unknown", "pushed at its edge"),
+    (0.11, HALF_SPACES, "unknown", "modes"),
+])  # fmt: skip
 def test_a_fault_that_was_not_tried_has_its_reason(ratio, bodies, status, reason):
     length, error, own, why = runaway_answers(Fault(**of_weakening(ratio, **bodies)))
     assert np.isnan(length) and np.isnan(error)
