@@ -88,7 +88,9 @@ def test_units_are_converted_and_results_carry_theirs():
 def test_texts_have_units_as_on_the_command_line():
     texts = {"shear_modulus": "30GPa", "normal_stress": ["50 MPa", 50e6], "slip_distance": "5um"}
     assert_allclose(asked.critical_length(**FAULT | texts), asked.critical_length(**FAULT))
-    assert api.Friction(slip_distance="0.5um") == api.Friction(slip_distance=5e-7)
+    assert api.Friction(law="product", slip_distance="0.5um") == api.Friction(
+        law="product", slip_distance=5e-7
+    )
     run = api.Run(api.PAPER.replace(height="5 cm"), block_length="90 cm", n_x="100")
     assert (run.fault.height, run.block.length, run.block.n_x) == (0.05, 0.9, 100)
     with pytest.raises(ParameterError, match=r"block_length = '5 s' .*unit of time, but m"):

@@ -52,13 +52,13 @@ def weakening(growth, omega):
 @pytest.mark.parametrize("omega", [1.5, 20.0, 1e3, 1e8])
 def test_steepness_is_the_mean_weakening_along_the_slip(omega, square):
     expected = max(weakening(square_evolution.growth, omega), 1.0)
-    assert steepness(Friction(), omega) == pytest.approx(expected, rel=1e-3)
+    assert steepness(Friction(law="product"), omega) == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.filterwarnings("error")
 def test_round_off_of_steady_sliding_is_no_age():
     for evolution in ("aging", "slip"):
-        assert steepness(Friction(evolution=evolution), 1.0000000000000002) == 1.0
+        assert steepness(Friction(law="product", evolution=evolution), 1.0000000000000002) == 1.0
 
 
 @pytest.mark.parametrize(
@@ -80,8 +80,8 @@ def test_a_patch_may_weaken_in_a_fault_that_strengthens(varies, change, warned):
 @pytest.mark.parametrize("omega", [0.1, 1.0, 1.5, 20.0, 1e8])
 def test_steepness_of_the_laws_of_the_house(omega):
     """Aging weakens at b/D over any drop; the slip law's energy is b D times the drop."""
-    assert steepness(Friction(evolution="aging"), omega) == 1.0
-    slip = steepness(Friction(evolution="slip"), omega)
+    assert steepness(Friction(law="product", evolution="aging"), omega) == 1.0
+    slip = steepness(Friction(law="product", evolution="slip"), omega)
     assert slip == pytest.approx(max(0.5 * math.log(omega), 1.0), rel=1e-12)
 
 

@@ -21,7 +21,7 @@ FORCE = 1e6 * (1 + 0.1 * np.cos(5 * GRID.x)) * GRID.nodal_lengths
 
 @pytest.fixture(params=["aging", "slip"])
 def friction(request):
-    return Friction(evolution=request.param)
+    return Friction(law="product", evolution=request.param)
 
 
 @pytest.fixture

@@ -119,7 +119,7 @@ def test_the_patch_is_developed_from_half_of_the_onset_time_on():
 @pytest.mark.parametrize(("rate", "error"), [(2.4, 0.077), (1.7, 0.138)])
 def test_a_state_rate_is_well_approximated_within_a_tenth(rate, error):
     """For states so old that dphi/dt is -phi w/D, v for w is off by 1 - v/w."""
-    friction = Friction()
+    friction = Friction(law="product")
     v0 = friction.regularisation_slip_rate
     assert 1.0 - rate / np.hypot(rate, 1.0) == pytest.approx(error, abs=1e-3)
     good = _state_rate_well_approximated(np.array([rate * v0]), np.array([1e7]), friction)

@@ -30,7 +30,7 @@ def theory() -> xr.Dataset:
     fb = xr.DataArray(f_beta, dims="f_beta")
     root = (fb * (1 + ratio) + np.sqrt((fb * (1 + ratio)) ** 2 + 4 * ratio)) / 2
     rate = np.geomspace(1e-9, 1.0, 200)
-    friction = Friction()
+    friction = Friction(law="product")
     logarithmic = logarithmic_friction(friction, rate, friction.steady_state(rate), VELOCITY)
     return xr.Dataset(
         {

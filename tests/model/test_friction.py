@@ -11,7 +11,7 @@ from nucleation.model.friction import Friction
 from nucleation.model.friction.evolutions import wright_omega
 from replication.tables.curves import logarithmic_friction
 
-LAW = Friction()
+LAW = Friction(law="product")
 RATES = np.array([1e-13, 1e-9, 1e-7, 1e-5, 1e-3, 1.0])
 STATES = np.array([1e-6, 3.3e-4, 0.05, 1.0, 500.0])
 
@@ -31,7 +31,7 @@ def test_state_rate_is_the_papers():
     v, phi = np.meshgrid(RATES, STATES)
     omega = phi * np.sqrt(v**2 + 1e-18) / 5e-7
     for evolution, expected in (("aging", 1 - omega), ("slip", -omega * np.log(omega))):
-        found = Friction(evolution=evolution).state_rate(v, phi)
+        found = Friction(law="product", evolution=evolution).state_rate(v, phi)
         np.testing.assert_allclose(found, expected)
     assert LAW.steady_state(0.0) == pytest.approx(500.0)  # D/v0
 

@@ -23,7 +23,7 @@ def law(request) -> Friction:
 
 @pytest.fixture(params=list(EVOLUTIONS))
 def evolution(request):
-    return Friction(evolution=request.param).evolution_law
+    return Friction(law="product", evolution=request.param).evolution_law
 
 
 def difference(function, x, relative=1e-4):
@@ -99,19 +99,23 @@ def test_constants_set_the_law(law, factors):
 @pytest.mark.parametrize("wanted", [(0.41, 0.0068, 0.016), (0.6, 0.01, 0.002), (0.7, 0.015, 0.015)])
 @pytest.mark.parametrize(("velocity", "v0"), [(1e-9, 1e-12), (V, 1e-12), (1e-2, 1e-12), (V, 5e-7)])
 def test_constants_at_any_velocity(wanted, velocity, v0):
-    plain = Friction(regularisation_slip_rate=v0, slip_rate_scale=1e-11, state_scale=1e-3)
+    plain = Friction(
+        law="product", regularisation_slip_rate=v0, slip_rate_scale=1e-11, state_scale=1e-3
+    )
     law = full_law(plain, velocity, *wanted)
     assert measured(law, velocity) == pytest.approx(wanted, rel=2e-6, abs=1e-9)
 
 
 def test_weakening_is_given_alone_or_over_the_direct_effect():
-    law = with_constants(Friction(), V, {"zeta": 0.004})
-    assert measured(law, V)[1:] == pytest.approx((constants_of(Friction(), V)["a"], 0.004))
-    both = with_constants(Friction(), V, {"zeta": 0.004, "a": 0.008})
+    law = with_constants(Friction(law="product"), V, {"zeta": 0.004})
+    assert measured(law, V)[1:] == pytest.approx(
+        (constants_of(Friction(law="product"), V)["a"], 0.004)
+    )
+    both = with_constants(Friction(law="product"), V, {"zeta": 0.004, "a": 0.008})
     assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
     with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with zeta"):
-        with_constants(Friction(), V, {"zeta": 0.004, "zeta_over_a": 1.0})
-    same = with_constants(Friction(), V, {"b": 0.012, "a": 0.008})
+        with_constants(Friction(law="product"), V, {"zeta": 0.004, "zeta_over_a": 1.0})
+    same = with_constants(Friction(law="product"), V, {"b": 0.012, "a": 0.008})
     assert constants_of(same, V) == pytest.approx(constants_of(both, V), rel=1e-12)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 import nucleation.model.friction.laws as laws
 from nucleation.datasets import code
-from nucleation.model.friction import LAWS, USUAL_LAW, Friction, law_class, module, plugins
+from nucleation.model.friction import LAWS, Friction, law_class, module, plugins
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 
@@ -15,7 +15,6 @@ def test_each_class_bears_the_name_of_its_file():
     for name in LAWS:
         assert law_class(name)().law == name
         assert Friction(law=name) == law_class(name)()
-    assert Friction() == Friction(law=USUAL_LAW)
 
 
 def test_code_of_a_run_is_that_of_its_own_laws():
@@ -29,7 +28,7 @@ def test_code_of_a_run_is_that_of_its_own_laws():
 
 
 def test_another_law_keeps_what_all_share():
-    friction = Friction(slip_distance=1e-6, evolution="slip", aging_coefficient=0.1)
+    friction = Friction(law="product", slip_distance=1e-6, evolution="slip", aging_coefficient=0.1)
     own = {"law": "dieterich_ruina", "log_state_coefficient": 0.02}
     assert friction.changed(own) == Friction(slip_distance=1e-6, evolution="slip", **own)
     assert friction.changed({"law": "product"}) == friction
@@ -41,6 +40,9 @@ def test_parameters_of_another_law_are_refused():
         Friction(law="dieterich_ruina", aging_coefficient=0.1, state_scale=1.0)
     with pytest.raises(ParameterError, match=r"friction_law = 'none'.*one of dieterich_ruina, pr"):
         Friction(law="none")
+    for values in ({}, {"slip_distance": 1e-6}):  # no constants of the paper unasked
+        with pytest.raises(ParameterError, match=r"missing: give law, .*paper's is product"):
+            Friction(**values)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ PAPER = Fault(
     far_side="free",
     normal_stress=1.0e6,
     velocity=1.0e-5,
-    friction_law=Friction(),
+    friction_law=Friction(law="product"),
     initial_state=1.0,
 )
 """The fault of Aldam et al. (2017): a block of PMMA on a rigid base, with its friction law.

@@ -104,7 +104,7 @@ def test_a_law_without_scales_is_one_of_constants():
 @pytest.mark.parametrize(("ratio", "percent"), [(1.0, 13), (2.2883, 5)])
 def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
     """By as much as docs/creeping_patch.md has for ten times v*."""
-    law = Friction(slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
+    law = Friction(law="product", slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
     law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
     run = PAPER_RUN.replaced(height=0.03, **law_values(law))
     own, constant = (stability_length_of(run.patches, length_of(run), x) for x in (False, True))
@@ -118,7 +118,7 @@ def test_no_patch():
     with pytest.raises(ParameterError, match=r"loading = 'side' .* one of edge, remote"):
         stability_length(**FAULT, height=0.1, zeta=0.01, loading="side")
     with pytest.raises(ParameterError, match="friction_law is not allowed with loading = remote"):
-        stability_length(**FAULT, zeta=0.01, friction_law=Friction(), loading="remote")
+        stability_length(**FAULT, zeta=0.01, friction_law=Friction(law="product"), loading="remote")
 
 
 @pytest.mark.parametrize("ratio", [0.3, 1.0, 2.288, 6.0])

@@ -106,13 +106,14 @@ class Friction(Checked):
     """Rate-and-state friction by one of the laws (SI units).
 
     ``Friction(law="dieterich_ruina", ...)`` makes an object of that law's class, as
-    :class:`pathlib.Path` does for the operating system; without `law`, of the paper's, whose
-    constants are the defaults.
+    :class:`pathlib.Path` does for the operating system. ``Friction(law="product")`` is the paper's;
+    parameters that are not given have the values of the paper in every law.
 
     Raises
     ------
     ParameterError
-        If there is no such law, the law has no such parameter, or a value is out of its range.
+        If `law` is missing or there is no such law, the law has no such parameter, or a value is
+        out of its range.
 
     Examples
     --------
@@ -153,19 +154,23 @@ class Friction(Checked):
     asinh_of_rate: ClassVar[bool] = False
     """Whether f is proportional to ``asinh(v / linear_below(psi))`` at fixed state."""
 
-    def __new__(cls, *_: Any, **values: Any) -> Self:
+    def __new__(cls, law: str = "", *_: Any, **values: Any) -> Self:
         if cls is not Friction:
             return super().__new__(cls)
-        name = values.get("law", USUAL_LAW)
-        check("friction_law", name, declarations(Friction)["law"])
-        own = declarations(law_class(name))
+        if not law:
+            known = ", ".join(LAWS)
+            raise ParameterError(
+                f"friction law is missing: give law, one of {known}; the paper's is {USUAL_LAW}"
+            )
+        check("friction_law", law, declarations(Friction)["law"])
+        own = declarations(law_class(law))
         foreign = [f"{key} = {value!r}" for key, value in values.items() if key not in own]
         if foreign:
             raise ParameterError(
-                f"{', '.join(foreign)} is not allowed: the friction law {name} has no such "
+                f"{', '.join(foreign)} is not allowed: the friction law {law} has no such "
                 f"parameter; it has {', '.join(own)}"
             )
-        return cast(Self, super().__new__(law_class(name)))
+        return cast(Self, super().__new__(law_class(law)))
 
     def __post_init__(self) -> None:
         try:

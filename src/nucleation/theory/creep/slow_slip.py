@@ -17,7 +17,7 @@ import math
 import numpy as np
 from scipy.integrate import RK45
 
-from ...model.friction import Friction
+from ...model.friction import module
 from ...types import Array
 from ..status import UNKNOWN, NoLength
 from .patches import Patches
@@ -70,8 +70,8 @@ class _SlowSlip:
         self.b = self.a + zeta
         self.law = patches.law
         self.velocity = patches.velocity
-        evolution = self.law or Friction(evolution=patches.evolution)
-        self.evolve = evolution.evolution_law.growth
+        evolution = patches.evolution if self.law is None else self.law.evolution
+        self.evolve = module("evolutions", evolution).growth
         stiffness = []
         for creep in creeps:
             matrix = creep.response.coupled(friction)[:, 1:] @ creep.response.modes.inverse
