@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -61,7 +61,7 @@ class Answer(NamedTuple):
         return bool(np.isfinite(self.value))
 
 
-class Lengths(Mapping[str, Answer]):
+class Lengths(dict[str, Answer]):
     """The lengths of a fault: :class:`Answer` by key, as a table where it is printed.
 
     Examples
@@ -71,18 +71,6 @@ class Lengths(Mapping[str, Answer]):
     >>> round(float(found["critical_length"].value), 3), found["drop_length"].status
     (0.238, 'value')
     """
-
-    def __init__(self, answers: Mapping[str, Answer]) -> None:
-        self._answers = dict(answers)
-
-    def __getitem__(self, key: str) -> Answer:
-        return self._answers[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._answers)
-
-    def __len__(self) -> int:
-        return len(self._answers)
 
     def dataset(self) -> xr.Dataset:
         """The table as a Dataset over ``length`` and the dimensions of the fault.
@@ -107,7 +95,9 @@ class Lengths(Mapping[str, Answer]):
         titles = [TITLES[key] for key in self]
         return xr.Dataset(found).assign_coords(title=("length", titles))
 
-    def _rows(self) -> list[tuple[str, ...]]:
+    def __repr__(self) -> str:
+        if any(np.size(answer.value) != 1 for answer in self.values()):
+            return repr(self.dataset())
         rows = []
         for key, answer in self.items():
             shown = [TITLES[key], "", "", ""]
@@ -118,13 +108,7 @@ class Lengths(Mapping[str, Answer]):
                 shown[3] = str(answer.doubt)
             else:
                 shown[3] = f"{answer.status}: {answer.reason}"
-            rows.append(tuple(shown))
-        return rows
-
-    def __repr__(self) -> str:
-        if any(np.size(answer.value) != 1 for answer in self.values()):
-            return repr(self.dataset())
-        rows = self._rows()
+            rows.append(shown)
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)][:-1]
         lines = []
         for *cells, last in rows:
