@@ -107,7 +107,9 @@ if PLANS:
 RESULTS = settings.results
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 DEFAULT = "paper" if settings.studies_for("paper") else "studies"
-EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
+EVOLUTIONS = sorted(
+    {name for e in ("aging", "slip") for name in plugins(Friction(law="product", evolution=e))}
+)
 """Code of the paper's law with either evolution, for rules that compute with both."""
 
 PYTHON = 'exec "$NUCLEATION_PYTHON" -P'  # no module of the working directory runs
