@@ -152,6 +152,8 @@ class Body:
 
     def parts(self, field: Field) -> list[Field]:
         """Views of a field: each layer's, the lower one's mirrored."""
+        if len(self.layers) == 1:
+            return [field]
         return list(
             map(
                 Field,

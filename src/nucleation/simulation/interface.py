@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
-from functools import cache
+from functools import cache, cached_property
 from inspect import getmembers, getsource, isfunction
 from sys import modules
 from typing import NamedTuple
@@ -128,6 +128,12 @@ class Interface:
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x in addition to the body's
 
+    @cached_property
+    def _even(self) -> bool:
+        """Whether the law is the same at all nodes."""
+        law = self.friction
+        return not any(map(np.ndim, (*law.constants, law.slip_distance)))
+
     def solve(
         self,
         operator: Operator,
@@ -152,8 +158,6 @@ class Interface:
         most = MOST_ITERATIONS_FROM_REST if past.at_rest else MOST_ITERATIONS
         w, p = response.w, response.tangential
         normal = response.normal + self.extra_normal
-        # whether the law is the same at all nodes
-        even = not any(map(np.ndim, (*law.constants, law.slip_distance)))
         anew = rates.size  # number of nodes, from the left, at which friction is evaluated again
         for iteration in range(most + 1):
             found = compiled_law(
@@ -221,7 +225,7 @@ class Interface:
                 UNCHANGED * self.tolerance,
                 least,
             )
-            anew = reach if even else rates.size
+            anew = reach if self._even else rates.size
             p, normal = operator.apply(change_of_w)
             p += response.tangential
             normal += response.normal

@@ -231,6 +231,8 @@ class _Energy:
     def __init__(self, dynamics: Dynamics) -> None:
         self._body = dynamics.body
         self._drive = dynamics.drive
+        levels = [layer.levels for layer in dynamics.body.layers]
+        self._far = np.cumsum(levels) - 1  # levels of the far sides
         self._works = np.zeros(2)  # of edge and loads, and of friction on the body
         self._start = np.empty(0)  # elastic and kinetic energy
         self._last = np.empty(0)  # forces (N/m) and ways (m), those of friction last
@@ -241,7 +243,7 @@ class _Energy:
         grid, modes = self._body.grid, self._body.modes
         load, field = self._drive.load(state.time), state.displacement
         moved = self._drive.at(state.time).displacement
-        far = np.cumsum([layer.levels for layer in self._body.layers]) - 1
+        far = self._far
         slip = moved + modes.on_all_nodes(report.interface.w, 0.0)[grid.own]
         forces = (
             [-report.driving_force],

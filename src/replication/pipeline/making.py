@@ -56,6 +56,7 @@ def make(recipe: Recipe, rule: str, store: Store, threads: int, forced: bool) ->
     try:
         verify(recipe)
         gc.freeze()  # at its end Python would search all loaded objects, which takes 0.3 s
+        gc.enable()
         maker = _Maker(rule, store, forced, others(strict=False))
         each = partial(maker.each, recipe.parts, threads)
         if not recipe.parts:
