@@ -1,5 +1,6 @@
 """``nucleation show``: every kind of dataset, its summary and its plot."""
 
+import matplotlib as mpl
 import pytest
 from declared import VARIABLES
 from matplotlib.image import imread
@@ -57,6 +58,9 @@ def test_plot(nucleation, files, tmp_path, name):
     plot = tmp_path / "plot.png"
     ended = nucleation("show", files[name], "--plot", plot)
     assert ended.code == 0 and f"plot: {plot}" in ended.out, ended.err
+    with mpl.rc_context({"figure.facecolor": "black", "axes.grid": True}):  # of a user
+        assert nucleation("show", files[name], "--plot", tmp_path / "own.png").code == 0
+    assert (tmp_path / "own.png").read_bytes() == plot.read_bytes()
     image = imread(plot)
     assert min(image.shape[:2]) > 500 and image[..., :3].std() > 0.02
     pdf = ("show", files[name], "--plot", tmp_path / "plot.pdf", "--force")

@@ -62,11 +62,8 @@ def test_an_entry_without_all_expected_files_is_found(store):
 def test_no_note_forges_a_line(store, capsys):
     note = store.entry(KEY) / NOTE
     note.chmod(0o644)
-    words = {
-        **json.loads(note.read_text()),
-        "name": "\x1b[2K\r\nAll is current\ud800" + 10**6 * "a",
-    }
-    note.write_text(json.dumps(words)[:-1] + "}")
+    name = "\x1b[2K\r\nAll is current\ud800" + 10**6 * "a"
+    note.write_text(json.dumps(json.loads(note.read_text()) | {"name": name}))
     printed = check.prune(store.directory.parent, {}, remove=False)
     assert len(printed.splitlines()) == 2 and printed.encode() and len(printed) < 1000
 

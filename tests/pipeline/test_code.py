@@ -136,8 +136,9 @@ def test_a_simulation_runs_without_the_code_that_does_not_count_for_it():
     )
 
 
-def test_bytecode_is_never_outdated(tmp_path):
+def test_bytecode_is_never_outdated(tmp_path, monkeypatch):
     """An edit of the same size, with its time kept: Python by itself would run the old one."""
+    monkeypatch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
     (tmp_path / "part.py").write_text("print(1)\n")
     command = [sys.executable, "-c", "import part"]
     for first in (True, False):

@@ -149,9 +149,12 @@ def test_target_without_its_studies_says_which(workflow, target, table, missing)
 
 
 def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
-    """A run whose steps may not get short has to fail, at once and by name."""
-    run = {"height": 0.01, "n_x": 16, "n_y": 4, "shortest_step": 9.0e-8}
-    done = workflow.configured({"studies": {"fails": {"runs": [run]}}})("lengths")
+    """A run whose steps may not get short has to fail, by name; former lengths don't stay."""
+    run = {"height": 0.01, "n_x": 16, "n_y": 4}
+    values = {"stepping": {"end_time": 0.1}, "studies": {"fails": {"runs": [run]}}}
+    assert workflow.configured(values)("lengths").returncode == 0
+    run["shortest_step"] = 9.0e-8
+    done = workflow.configured(values)("lengths")
     assert done.returncode != 0
     (record,) = (workflow.directory / "results" / "unfinished").iterdir()
     name = "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step9e-8"
@@ -182,6 +185,11 @@ def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     rules = "".join(path.read_text() for path in ROOT.glob("workflow/rules/*.smk"))
     rules += (ROOT / "Snakefile").read_text()
     assert set(re.findall(r"^rule (\w+):$", rules, re.M)) == texts.keys()
+    local = set(
+        re.findall(r"^rule (\w+):\n(?:[^\n]*\n(?!rule ))*    localrule: True$", rules, re.M)
+    )
+    assert "figure_1" in local, "what takes seconds is a job on a cluster"
+    assert not local & {"simulate", "extract", "follow_patches", "theory", "dispersion", "claims"}
 
 
 def test_article_of_the_replication_has_the_figures_beyond(workflow):
