@@ -51,10 +51,12 @@ def links(tmp_path_factory):
     return folder
 
 
-@pytest.fixture
-def environment(tmp_path):
-    venv.create(tmp_path / "venv", with_pip=True)
-    return tmp_path / "venv"
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """One for all tests, each of which leaves it as it was: pip takes two seconds to be there."""
+    directory = tmp_path_factory.mktemp("venv")
+    venv.create(directory, with_pip=True)
+    return directory
 
 
 def installed(environment, links, requirements, **settings):
@@ -66,8 +68,11 @@ def installed(environment, links, requirements, **settings):
     command = [environment / "bin" / "python", "-P", ROOT / "workflow" / "install.py"]
     done = subprocess.run([*command, links / requirements], env=given | settings, timeout=120)
     (site,) = environment.glob("lib/python*/site-packages")
-    note = site / "pebble-1.0.dist-info" / "INSTALLER"
-    return done.returncode, note.read_text().strip() if note.exists() else ""
+    about = site / "pebble-1.0.dist-info"
+    installer = (about / "INSTALLER").read_text().strip() if about.exists() else ""
+    shutil.rmtree(about, ignore_errors=True)  # installed no longer
+    (site / "pebble.py").unlink(missing_ok=True)
+    return done.returncode, installer
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ ROOT = Path(__file__).parents[1]
 
 pytestmark = pytest.mark.system
 
-PROGRAM = """#!{python}
+PROGRAM = """#!{python} -IS
 import json, os, sys
 with open("called", "a") as file:
     print(json.dumps(sys.argv[1:]), file=file)
@@ -33,7 +34,7 @@ def make(tmp_path):
     programs = tmp_path / "venv" / "bin"
     programs.mkdir(parents=True)
     for name in ("python", "snakemake"):
-        (programs / name).write_text(PROGRAM.format(python="/usr/bin/env python3"))
+        (programs / name).write_text(PROGRAM.format(python=Path(sys.executable).resolve()))
         (programs / name).chmod(0o755)
     for name in ("environment", "environment-dev"):
         (tmp_path / "venv" / f"{name}.stamp").touch()

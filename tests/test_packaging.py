@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from nucleation import installed
+from workflow import install
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"
@@ -254,17 +255,20 @@ def test_pages_are_cited_by_an_address_that_is_there(light, tmp_path):
 @pytest.mark.slow
 @pytest.mark.system
 def test_it_works_with_the_oldest_versions(wheel, tmp_path):
-    """Those that pyproject.toml allows, of all that simulates and draws; pip downloads them."""
+    """Those that pyproject.toml allows, of all that simulates and draws; they are downloaded."""
     wanted = [*PROJECT["dependencies"], *EXTRAS["solver"], *EXTRAS["figures"]]
     assert all(">=" in requirement for requirement in wanted)
     constraints = tmp_path / "oldest.txt"
     constraints.write_text("\n".join(wanted).replace(">=", "=="))
-    venv.create(tmp_path / "environment", with_pip=True)
+    venv.create(tmp_path / "environment", with_pip=False, symlinks=True)
     python = tmp_path / "environment" / "bin" / "python"
+    variables = install.variables_of_uv(install.settings_of_pip())
+    program = [sys.executable, "-m", "pip", "--python", python, "install"]
+    if variables is not None:
+        program = [install.uv(), "pip", "install", "--no-config", "--python", python]
+    given = os.environ | (variables or {})
     try:
-        run(
-            python, "-m", "pip", "--quiet", "install", "-c", constraints, f"{wheel}[solver,figures]"
-        )
+        run(*program, "--quiet", "-c", constraints, f"{wheel}[solver,figures]", env=given)
     except AssertionError:
         if os.environ.get("CI") == "true":
             raise

@@ -1,13 +1,11 @@
 """The calculator of the documentation's site in a real browser, against the library."""
 
 import os
-import runpy
 import shutil
 from urllib.parse import urlencode
 
 import numpy as np
 import pytest
-from docs.samples import ROOT
 
 from nucleation.api import Fault
 
@@ -16,8 +14,8 @@ MISSING = "chromium is missing: workflow/install-debian.sh browser"
 
 
 @pytest.fixture(scope="module")
-def opened(tmp_path_factory):
-    """The page in a headless Chromium, and what went wrong in it."""
+def opened(site):
+    """The page of the built site in a headless Chromium, and what went wrong in it."""
     program = shutil.which("chromium")
     if program is None and os.environ.get("CI") == "true":
         pytest.fail(MISSING)
@@ -25,14 +23,12 @@ def opened(tmp_path_factory):
         pytest.skip(MISSING)
     from playwright.sync_api import sync_playwright
 
-    path = tmp_path_factory.mktemp("site") / "calculator.html"
-    path.write_text(runpy.run_path(ROOT / "docs/calculator/tables.py")["page"](), "utf-8")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         page, complaints = browser.new_page(), []
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on("request", lambda request: complaints.append(request.url))
-        page.goto(path.as_uri())
+        page.goto((site / "calculator.html").as_uri())
         assert complaints.pop(0) == page.url.partition("#")[0]  # nothing else is loaded
         yield page, complaints
         browser.close()

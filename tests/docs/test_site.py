@@ -4,8 +4,6 @@ import json
 import re
 import runpy
 import shutil
-import subprocess
-import sys
 
 import pytest
 from docs.samples import ROOT
@@ -14,21 +12,6 @@ pytestmark = pytest.mark.system
 
 DOCS = ROOT / "docs"
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.ipynb"))
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    """The built site, by the command of `make docs`."""
-    makefile = (ROOT / "Makefile").read_text()
-    recipe = re.search(r"^docs:.*\n\t\$\(BIN\)/sphinx-build (-W .*)$", makefile, re.M)[1]
-    built = tmp_path_factory.mktemp("site")
-    options = recipe.replace("docs/_build/html", str(built)).split()
-    done = subprocess.run(
-        [sys.executable, "-m", "sphinx", *options], cwd=ROOT, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1500,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout
-    return built
 
 
 def test_every_page_is_in_the_site(site):
