@@ -37,7 +37,7 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("project")
 SYSTEM = ("workflow/cluster", "faults", "workflow")
 """Directories of tests that start the whole workflow."""
-LONG = (*SYSTEM, "test_random_faults.py", "docs", "test_packaging.py", "verification")
+LONG = ("test_random_faults.py", *SYSTEM, "docs", "test_packaging.py", "theory", "verification")
 """What is begun first, by the time that its longest file takes; all others take less."""
 
 
@@ -51,7 +51,7 @@ def square(monkeypatch):
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: _rank(item.path))  # within a rank the order stays
     for item in items:
-        if _rank(item.path) < len(SYSTEM):
+        if _rank(item.path) in map(LONG.index, SYSTEM):
             item.add_marker("system")
 
 
