@@ -1,17 +1,43 @@
-"""The documentation builds without a warning, tutorials executed, and holds what it should."""
+"""The documentation builds without a warning, tutorials executed, and holds what it should.
+
+Its calculator is opened in a real browser, against the library.
+"""
 
 import json
+import os
 import re
 import runpy
 import shutil
+import subprocess
+import sys
+from urllib.parse import urlencode
 
+import numpy as np
 import pytest
 from docs.samples import ROOT
+
+from nucleation.api import Fault
 
 pytestmark = pytest.mark.system
 
 DOCS = ROOT / "docs"
+MISSING = "chromium is missing: workflow/install-debian.sh browser"
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.ipynb"))
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The built site, by the command of `make docs`."""
+    makefile = (ROOT / "Makefile").read_text()
+    recipe = re.search(r"^docs:.*\n\t\$\(BIN\)/sphinx-build (-W .*)$", makefile, re.M)[1]
+    built = tmp_path_factory.mktemp("site")
+    options = recipe.replace("docs/_build/html", str(built)).split()
+    done = subprocess.run(
+        [sys.executable, "-m", "sphinx", *options], cwd=ROOT, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1500,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout
+    return built
 
 
 def test_every_page_is_in_the_site(site):
@@ -81,3 +107,116 @@ def test_reading_the_settings_removes_no_page(tmp_path):
     settings = shutil.copy(DOCS / "conf.py", tmp_path / "docs")
     runpy.run_path(settings)
     assert page.exists()
+
+
+@pytest.fixture(scope="module")
+def opened(site):
+    """The page of the built site in a headless Chromium, and what went wrong in it."""
+    program = shutil.which("chromium")
+    if program is None and os.environ.get("CI") == "true":
+        pytest.fail(MISSING)
+    if program is None:
+        pytest.skip(MISSING)
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        page, complaints = browser.new_page(), []
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("request", lambda request: complaints.append(request.url))
+        page.goto((site / "calculator.html").as_uri())
+        assert complaints.pop(0) == page.url.partition("#")[0]  # nothing else is loaded
+        yield page, complaints
+        browser.close()
+
+
+def computed(opened, fault):
+    """What the page computes of a fault in its address."""
+    words = {k: v for k, v in fault.items() if not k.startswith("second_") and v != np.inf}
+    words["second_body"] = "same"
+    if "second_shear_modulus" in fault:
+        rigid = fault["second_shear_modulus"] == np.inf
+        words["second_body"] = "rigid" if rigid else "other"
+        if not rigid:
+            words |= {k: v for k, v in fault.items() if k.startswith("second_") and v != np.inf}
+    page, complaints = opened
+    start = page.url.partition("#")[0]
+    page.goto("about:blank")
+    page.goto(f"{start}#{urlencode(words)}")
+    found = page.evaluate("answer()")
+    assert found["wrong"] == []
+    complaints.clear()
+    return found
+
+
+def random_faults(number, bodies, seed):
+    """Layers and half-spaces that weaken."""
+    random = np.random.default_rng(seed)
+    for _ in range(number):
+        a = random.uniform(0.002, 0.006)
+        fault = {
+            "shear_modulus": 10.0 ** random.uniform(9, 11), "a": a,
+            "b": a * (1.0 + 0.4 * 100.0 ** random.uniform(0.05, 0.95)),
+            "poisson_ratio": random.uniform(0.0, 0.49),
+            "normal_stress": 10.0 ** random.uniform(6, 8), "friction": random.uniform(0.05, 0.9),
+            "slip_distance": 10.0 ** random.uniform(-6, -4),
+            "height": random.choice([np.inf, 10.0 ** random.uniform(-2, 2)]),
+        }  # fmt: skip
+        if bodies == "rigid":
+            fault["second_shear_modulus"] = np.inf
+        if bodies == "other":
+            fault["second_shear_modulus"] = fault["shear_modulus"] * 10.0 ** random.uniform(-1, 1)
+            fault["second_poisson_ratio"] = random.uniform(0.0, 0.49)
+            fault["second_height"] = random.choice([np.inf, 10.0 ** random.uniform(-2, 2)])
+        yield {k: float(v) for k, v in fault.items()}
+
+
+@pytest.mark.parametrize("bodies", ["same", "rigid", "other"])
+def test_lengths_are_those_of_the_library(opened, bodies):
+    known = 0
+    for given in random_faults(30, bodies, 3):
+        found, fault = computed(opened, given), Fault(**given)
+        assert found["critical"] == pytest.approx(float(fault.critical_length()), rel=1e-8), given
+        if found["stability"] is not None:
+            known += 1
+            expected = float(fault.stability_length())
+            assert found["stability"] == pytest.approx(expected, rel=0.02), given
+    assert known > (25 if bodies != "other" else 3)
+
+
+def test_lengths_are_shown_with_their_unit_and_kept_in_the_address(opened):
+    computed(opened, {})
+    page, complaints = opened
+    assert page.inner_text("#critical") == "2.513 m" and page.inner_text("#stability") == "1.947 m"
+    page.fill("[name=normal_stress]", "100 MPa")
+    assert page.inner_text("#critical") == "1.257 m"
+    address = page.url
+    assert "normal_stress=100+MPa" in address
+    page.goto("about:blank")
+    page.goto(address)
+    assert page.inner_text("#critical") == "1.257 m"
+    page.select_option("[name=second_body]", "other")
+    assert page.is_visible("[name=second_height]")
+    assert "not in these tables" not in page.inner_text("#stability")  # half-spaces
+    page.fill("[name=second_height]", "1 m")
+    assert "nucleation length computes it" in page.inner_text("#stability")
+    complaints.clear()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("shear_modulus", "", "Shear modulus μ must lie in [1, 1e15] Pa"),
+        ("shear_modulus", "2,5 GPa", "write a decimal point in place of the comma"),
+        ("shear_modulus", "30 mm", "Shear modulus μ must lie in [1, 1e15] Pa"),
+        ("poisson_ratio", "0.6", "Poisson's ratio ν must lie in [-0.99, 0.49]"),
+        ("b", "0.009", "b must exceed a"),
+    ],
+)
+def test_bad_values_have_no_result(opened, name, text, said):
+    computed(opened, {})
+    page, complaints = opened
+    page.fill(f"[name={name}]", text)
+    assert said in page.inner_text("#wrong")
+    assert page.inner_text("#critical") == page.inner_text("#stability") == ""
+    complaints.clear()
