@@ -14,18 +14,12 @@ import square_evolution
 pytest_plugins = ("coarse_run",)
 
 # make test hands its own settings (VENV=...) to every make below it
-for name in [
-    "MAKEFLAGS",
-    "MFLAGS",
-    "MAKELEVEL",
-    "VENV",
-    "PYTHON",
-    "CORES",
-    "TARGETS",
-    "CONFIG",
-    "PRUNE",
-]:
+OF_MAKE = ["MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON"]
+for name in [*OF_MAKE, "CORES", "TARGETS", "CONFIG", "PRUNE"]:
     os.environ.pop(name, None)
+
+# Snakemake's plugin asks Slurm at every start: a controller that is gone would take ten seconds.
+os.environ["SLURM_CONF"] = os.devnull
 
 # Workers are processes: threads of the linear algebra would take the cores from one another.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -83,6 +83,7 @@ def slurm() -> Iterator[Slurm]:
     started = slurm.start()
     if started.returncode != 0:
         (pytest.fail if in_ci else pytest.skip)(started.stdout)
+    os.environ.pop("SLURM_CONF", None)  # none, for all other tests
     yield slurm
     if not ran_before:
         slurm.stop()
