@@ -16,6 +16,9 @@ EXTRAS = {
 }
 """Modules of each extra."""
 
+ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""They keep a simulation on one core: on several it is slower, and sums have another order."""
+
 _OWN = "How long must a slipping patch of a frictional fault grow"
 
 

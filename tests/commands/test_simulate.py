@@ -1,6 +1,7 @@
 """``nucleation simulate``: small runs, from options, files and a configuration."""
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -97,6 +98,7 @@ import os, signal
 from nucleation import __main__
 from nucleation.simulation import progress
 def stop(self, instant):
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "1"  # on one core, as in a job
     if instant.control.steps == {STEPS}:
         os.kill(os.getpid(), signal.SIGINT)
 progress.Progress.__call__ = stop
@@ -110,7 +112,8 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     output = tmp_path / "run.nc"
     words = ["simulate", str(output), *SMALL]
     command = [program[0], "-c", STOPPED, *words]
-    stopped = subprocess.run(command, capture_output=True, text=True, check=False)
+    usual = {name: value for name, value in os.environ.items() if "NUM_THREADS" not in name}
+    stopped = subprocess.run(command, capture_output=True, text=True, check=False, env=usual)
     assert stopped.returncode == 130, stopped.stderr
     assert "stopped by SIGINT" in stopped.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["run.checkpoint.npz"]

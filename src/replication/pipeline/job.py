@@ -14,6 +14,8 @@ import sys
 import time
 from pathlib import Path
 
+from nucleation.installed import ONE_CORE
+
 from . import LOGGER, PROGRESS
 from .recipes import read
 from .store import Store, others
@@ -21,14 +23,11 @@ from .store import Store, others
 FORCED = "NUCLEATION_FORCED"
 """Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
 
-_ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""They keep a result on one core: on several, sums have another order."""
-
 
 def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     """Make the result of a recipe and show it; SystemExit if that fails, with the reason logged."""
     began = time.monotonic()
-    os.environ |= dict.fromkeys(_ONE_CORE, "1")
+    os.environ |= dict.fromkeys(ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     terminal = logging.StreamHandler(sys.stderr)
     terminal.setLevel(PROGRESS)
