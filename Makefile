@@ -136,7 +136,7 @@ $(STAMP): environment.txt
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
 	$(BIN)/python -c 'from workflow.install import compile_imports; \
-		compile_imports("nucleation", "replication", "snakemake.cli")'
+		compile_imports("nucleation", "replication", "snakemake.cli", "matplotlib.pyplot")'
 	@touch $(ENVIRONMENT)/environment.stamp
 
 $(DEV_STAMP): environment-dev.txt $(STAMP)

@@ -101,6 +101,7 @@ def compile_imports(*packages: str) -> None:
         for module in pkgutil.walk_packages(getattr(found, "__path__", ()), name + "."):
             if not module.name.endswith("__main__"):
                 importlib.import_module(module.name)
+    importlib.import_module("numba").njit(lambda x: x)(1.0)  # a first call loads the rest of numba
 
 
 def main(requirements: str) -> int:
