@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..lengths.answer import Answer
-from ..model.friction.constants import AGE, law_of
+from ..model.friction.constants import AGE
 from ..model.quantities import ParameterError
 from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
@@ -46,11 +45,9 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
         age: float,
     ) -> tuple[Any, ...]:
         phi0 = AGE * distance / velocity if math.isnan(age) else age
-        given = fault.friction_law, fault.evolution
         patches = Patches(one, evolution=fault.evolution)
         try:
-            law = law_of(*given, velocity, distance, *patches.constants)
-            patches = dataclasses.replace(patches, law=law, velocity=velocity)
+            patches = patches.with_law(fault, velocity, distance)
             known = expected_drop(patches, declared, critical, phi0)
         except (NoLength, ParameterError) as none:  # a parameter: no law has these constants
             drop = _none(getattr(none, "status", UNKNOWN), str(none))

@@ -6,8 +6,10 @@ import dataclasses
 from functools import cached_property
 
 from ...model.friction import Friction
+from ...model.friction.constants import law_of
 from ..spectrum import Systems
 from ..status import NoLength
+from ..values import FaultLike
 from .linearised import (
     Creep,
     FrozenPatch,
@@ -46,6 +48,12 @@ class Patches:
     def number(self) -> int:
         """Number of modes that the fault needs."""
         return self.refinement * modes_for(self.one)
+
+    def with_law(self, fault: FaultLike, velocity: float, distance: float) -> Patches:
+        """Those with the fault's law at V (m/s) and D (m); ParameterError if it has none."""
+        given = fault.friction_law, fault.evolution
+        law = law_of(*given, velocity, distance, *self.constants)
+        return dataclasses.replace(self, law=law, velocity=velocity)
 
     @property
     def memory(self) -> float:

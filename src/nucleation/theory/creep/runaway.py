@@ -19,7 +19,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...model.friction.constants import law_of
 from ...model.quantities import ParameterError
 from ...types import Array
 from ..critical import at_each
@@ -218,10 +217,7 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
         patches = Patches(one, loading=fault.loading, evolution=fault.evolution)
         if known:
             with contextlib.suppress(ParameterError):  # no law has these constants
-                law = law_of(
-                    fault.friction_law, fault.evolution, velocity, distance, *patches.constants
-                )
-                patches = dataclasses.replace(patches, law=law, velocity=velocity)
+                patches = patches.with_law(fault, velocity, distance)
         return runaway_of(patches, critical)
 
     velocity = fault.velocity if known else np.nan
