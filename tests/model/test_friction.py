@@ -5,10 +5,8 @@ What holds for every law is in test_laws.py.
 
 import numpy as np
 import pytest
-from scipy.special import wrightomega
 
 from nucleation.model.friction import Friction
-from nucleation.model.friction.evolutions import wright_omega
 from replication.tables.curves import logarithmic_friction
 
 LAW = Friction(law="product")
@@ -34,18 +32,6 @@ def test_state_rate_is_the_papers():
         found = Friction(law="product", evolution=evolution).state_rate(v, phi)
         np.testing.assert_allclose(found, expected)
     assert LAW.steady_state(0.0) == pytest.approx(500.0)  # D/v0
-
-
-@pytest.mark.parametrize("ends", [(-690, -30), (-30, -1), (-1, 2), (2, 100), (1e2, 1e6)])
-def test_wright_omega_is_scipys(ends):
-    z = np.linspace(*ends, 1001)
-    np.testing.assert_allclose(wright_omega(z), wrightomega(z), rtol=1e-14)
-
-
-def test_wright_omega_of_what_has_none():
-    """Far below, w = exp(z) vanishes; what is not finite ends the iteration and stays so."""
-    assert 0.0 < wright_omega(-1e6) < 1e-300
-    assert np.isnan(wright_omega(np.array([np.nan, 1.0]))[0])
 
 
 def test_expansion_gives_the_papers_numbers():

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.special import wrightomega
 
 from nucleation.model.friction import EVOLUTIONS, LAWS, Friction
+from nucleation.simulation import passes
 from nucleation.simulation.interface import compiled_friction
 
 RATES = np.array([-1e-5, 0.0, 1e-40, 1e-9, 1e-6, 1e-3, 1.0])
@@ -19,6 +21,18 @@ def at_end_of_step(law, rates):
     """State, friction coefficient and its total slope, compiled."""
     v0, distance = law.regularisation_slip_rate, law.slip_distance
     return compiled(law)(rates, STATES, STEP, v0, distance, law.constants)
+
+
+@pytest.mark.parametrize("ends", [(-690, -30), (-30, -1), (-1, 2), (2, 100), (1e2, 1e6)])
+def test_wright_omega_is_scipys(ends):
+    z = np.linspace(*ends, 1001)
+    np.testing.assert_allclose(passes.wright_omega(z), wrightomega(z), rtol=1e-14)
+
+
+def test_wright_omega_of_what_has_none():
+    """Far below, w = exp(z) vanishes; what is not finite ends the iteration and stays so."""
+    assert 0.0 < passes.wright_omega(-1e6) < 1e-300
+    assert np.isnan(passes.wright_omega(np.array([np.nan, 1.0]))[0])
 
 
 @pytest.mark.parametrize("evolution", sorted(EVOLUTIONS))

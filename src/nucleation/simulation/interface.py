@@ -28,7 +28,7 @@ from scipy.linalg import lapack
 
 from ..fem.compiling import compiled
 from ..fem.operator import Operator, Response
-from ..model.friction import Friction, evolutions
+from ..model.friction import Friction
 from ..types import Array
 from . import passes
 from .drive import Imposed
@@ -88,11 +88,7 @@ def compiled_friction(
     (:mod:`nucleation.model.friction`). numba compiles the same functions into one pass over the
     nodes of the interface for each of their lines.
     """
-    own = [
-        modules[formula.__module__],
-        modules[implicit_log_state.__module__],
-        evolutions,
-    ]
+    own = [modules[formula.__module__], modules[implicit_log_state.__module__]]
     for module in own:
         for _, function in getmembers(module, isfunction):
             if function.__module__ == module.__name__:
@@ -116,7 +112,7 @@ def compiled_friction(
     # numba finds compiled code by its name; processes share it, so the name has to be unique
     names = [module.__name__.rpartition(".")[2] for module in own]
     _at_end.__qualname__ = "_".join(names)
-    content = "".join(map(getsource, own))
+    content = "".join(map(getsource, [*own, passes]))
     return compiled(_at_end, content=content)
 
 

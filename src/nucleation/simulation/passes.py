@@ -5,6 +5,8 @@ call, and a step had some two hundred of them. Arrays are over the nodes 0..n_x 
 """
 
 import numpy as np
+from numba.extending import overload
+from scipy.special import wrightomega
 
 from ..fem.compiling import compiled
 
@@ -216,3 +218,32 @@ def largest(values):
     for i in range(values.size):
         found = max(found, abs(values[i]))
     return found
+
+
+def wright_omega(z):
+    """The positive solution of ``w + log(w) = z`` for real z >= -700, exp(z) below -36 or so.
+
+    Fritsch, Shafer & Crowley's fourth-order iteration (Comm. ACM 16, 123, 1973) on whole arrays.
+    It starts from a rational function of exp(z), continued by a straight line for z > 0. numba
+    compiles this in place of scipy's function.
+    """
+    z = np.maximum(z, -700.0)
+    below = np.minimum(z, 0.0)
+    e = np.exp(below)
+    numerator = e * (1.0 + e * (4 / 3))
+    denominator = 1.0 + e * (7 / 3 + e * (5 / 6))
+    w = numerator / denominator + 0.8 * np.maximum(z, 0.0)
+    while True:
+        r = z - w - np.log(w)
+        near = 1.0 + w
+        t = near * (near + r * (2 / 3))
+        correction = (t - 0.5 * r) / (t - r)
+        w = w * (1.0 + r / near * correction)
+        large = np.abs(r) > 1e-3  # false for NaN; after this step 1e-3 becomes 1e-3^4
+        if not np.any(large):
+            return w
+
+
+@overload(wrightomega)
+def _compiled_wrightomega(z):
+    return wright_omega

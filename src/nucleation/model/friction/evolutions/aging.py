@@ -2,8 +2,9 @@
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import wrightomega
 
-from . import Array, wright_omega
+from . import Array
 
 
 def growth(omega: ArrayLike) -> Array:
@@ -23,6 +24,6 @@ def implicit_log_state(
 ) -> tuple[Array, Array]:
     """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
     shifted = history - step * rate
-    excess = wright_omega(np.log(step) - shifted)  # = step exp(-psi)
+    excess = wrightomega(np.log(step) - shifted)  # = step exp(-psi)
     slope = -step / (1.0 + excess)
     return shifted + excess, slope
