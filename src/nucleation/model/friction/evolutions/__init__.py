@@ -12,4 +12,4 @@ Each file has three functions of ``omega = phi w / D`` and ``rate = w / D`` (1/s
 They use this module and nothing else of the project.
 """
 
-from ....types import Array
+from ....types import Array as Array
