@@ -16,13 +16,7 @@ from scipy.optimize import brentq
 from thin_limit import thin_limit
 
 from benchmarks.assembled import assemble
-from nucleation.api import (
-    Fault,
-    Material,
-    ParameterError,
-    extract,
-    simulate,
-)
+from nucleation.api import Fault, Material, ParameterError, extract, simulate
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN

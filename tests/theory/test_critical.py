@@ -175,8 +175,3 @@ def test_narrow_unstable_band_is_found(excess, scale):
 def test_no_instability(upper, lower, changes, said):
     with pytest.raises(NoLength, match=re.escape(said)):
         critical_wavenumber(upper, lower, dataclasses.replace(MAIN_TEXT, **changes))
-
-
-def test_bad_arguments():
-    with pytest.raises(ValueError, match="at least one"):
-        critical_wavenumber(RIGID, RIGID, MAIN_TEXT)

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from asked import critical_length, critical_mode, lengths_in_use, specimen_fit, stability_length
+from asked import critical_length, critical_mode, lengths_in_use, stability_length
 
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.values import QUANTITIES
@@ -36,14 +36,10 @@ def test_bad_value_is_refused_by_its_key(function, value, message):
     assert str(refused.value).startswith("normal_stress") and message in str(refused.value)
 
 
-@pytest.mark.parametrize("function", [*FUNCTIONS, specimen_fit])
+@pytest.mark.parametrize("function", FUNCTIONS)
 def test_unknown_keyword_is_named(function):
-    given = FAULT | {"normal_strain": 1.0}
-    if function is specimen_fit:
-        given |= {"length": 1.0, "unknown": "normal_stress"}
-        del given["normal_stress"]
     with pytest.raises(ParameterError, match="normal_strain"):
-        function(**given)
+        function(**FAULT, normal_strain=1.0)
 
 
 def test_a_mask_without_masked_values_does_not_matter():

@@ -60,15 +60,8 @@ def test_stiffness_matrix_is_that_of_plane_stress():
 
 def test_simulation_is_that_of_the_other_ratio():
     """To the last bit, of two materials; in plane stress nothing else changes."""
-    base = PAPER_RUN.replaced(
-        height=0.05,
-        block_length=0.6,
-        n_x=40,
-        n_y=4,
-        end_time=0.3,
-        second_body="deformable",
-        second_shear_modulus=6e9,
-    )
+    pair = {"second_body": "deformable", "second_shear_modulus": 6e9}
+    base = PAPER_RUN.replaced(height=0.05, block_length=0.6, n_x=40, n_y=4, end_time=0.3, **pair)
     ratios = {"poisson_ratio": NU, "second_poisson_ratio": NU2}
     stress = base.replaced(**(ratios | {"plane": "stress"}))
     strain = base.replaced(**({name: nu / (1.0 + nu) for name, nu in ratios.items()}))
@@ -76,12 +69,7 @@ def test_simulation_is_that_of_the_other_ratio():
     for name in ours:
         np.testing.assert_array_equal(ours[name], expected[name], err_msg=name)
     assert '"plane": "stress"' in ours.attrs["parameters"]
-    assert fault(stress) != fault(strain)
-
-
-def test_faults_keep_their_digests_in_plane_strain():
-    assert fault(PAPER_RUN) == fault(PAPER_RUN.replaced(plane="strain"))
-    assert fault(PAPER_RUN) != fault(PAPER_RUN.replaced(plane="stress"))
+    assert fault(base) != fault(base.replaced(plane="stress"))
 
 
 def test_other_planes_are_refused():

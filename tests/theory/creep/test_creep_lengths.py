@@ -26,10 +26,6 @@ FAULT = {
 }  # fmt: skip
 
 
-def length_of(run):
-    return run.critical_length
-
-
 def test_the_map():
     """Constant a and b: a per cent short of the simulations, whose fronts are no sharp ends."""
     table = pd.read_csv(REFERENCE / "map.csv").groupby(["height", "zeta_over_a"])
@@ -107,7 +103,9 @@ def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
     law = Friction(law="product", slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
     law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
     run = PAPER_RUN.replaced(height=0.03, **law_values(law))
-    own, constant = (stability_length_of(run.patches, length_of(run), x) for x in (False, True))
+    own, constant = (
+        stability_length_of(run.patches, run.critical_length, x) for x in (False, True)
+    )
     assert 1.0 - own / constant == pytest.approx(0.01 * percent, abs=5e-3)
 
 
