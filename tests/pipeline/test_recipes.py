@@ -6,6 +6,7 @@ import pytest
 from snakemake.io import IOCache
 
 from nucleation.datasets import code
+from replication.pipeline import making
 from replication.pipeline.making import verify
 from replication.pipeline.planning import Plan
 from replication.pipeline.recipes import Recipe, as_json, read
@@ -57,3 +58,21 @@ def test_snakemake_sees_what_planning_writes_in_a_directory_that_it_has_listed(
     (tmp_path / file).unlink()
     Plan._refresh(SimpleNamespace(_workflow=workflow), file)
     assert not cache.exists_local[file] and cache.exists_local[other]
+
+
+def test_the_time_left_is_that_of_runs_to_compute(monkeypatch, capsys):
+    """Runs that the store had were counted as if they had been computed."""
+    clock = [0.0]
+
+    def result(maker, part):
+        clock[0] += 0.0 if part.is_in(None) else 10.0
+
+    monkeypatch.setattr(making.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(making._Maker, "result", result)
+    parts = [
+        SimpleNamespace(name="run", show=lambda: None, is_in=lambda _, number=number: number < 3)
+        for number in range(6)
+    ]
+    making._Maker("rule", None, False, []).each(parts, 1)
+    said = [f"{done} of 6 runs done, about {left} s left" for done, left in ((4, 20), (5, 10))]
+    assert capsys.readouterr().err.splitlines() == said

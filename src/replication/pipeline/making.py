@@ -105,8 +105,23 @@ class _Maker:
         It is called in the process that makes the result. If parts have failed, SystemExit names
         them once all were tried.
         """
-        number_done = multiprocessing.Value("i", 0)  # of all processes
+        missing = [self.forced or not part.is_in(self.store) for part in parts]
+        to_compute = sum(missing)
+        number_computed = multiprocessing.Value("i", 0)  # of all processes, failed ones too
         began = time.monotonic()
+
+        def progress(number: int) -> None:
+            """Log the runs done, and the time left if one was computed just now."""
+            if not missing[number]:
+                return
+            with number_computed:
+                number_computed.value += 1
+                computed = number_computed.value
+            rest = to_compute - computed
+            if rest:
+                left = (time.monotonic() - began) / computed * rest
+                text = f"{len(parts) - rest} of {len(parts)} runs done, about {left:.0f} s left"
+                LOGGER.log(PROGRESS, text)
 
         def one(number: int) -> tuple[str, Any]:
             """Why a part has failed, and the value of the function if it has not."""
@@ -114,15 +129,10 @@ class _Maker:
                 result = self.result(parts[number])
             except _PartFailed as error:
                 LOGGER.info(error)
+                progress(number)
                 return str(error), None
             parts[number].show()
-            with number_done:
-                number_done.value += 1
-                done = number_done.value
-            if done < len(parts):
-                left = (time.monotonic() - began) / done * (len(parts) - done)
-                text = f"{done} of {len(parts)} runs done, about {left:.0f} s left"
-                LOGGER.log(PROGRESS, text)
+            progress(number)
             return "", function(number, result)
 
         names = [part.name for part in parts]
