@@ -115,3 +115,5 @@ def test_each_target_installs_what_it_needs(make, tmp_path, target, installed):
     (tmp_path / "venv/bin/sphinx-build").symlink_to("python")
     assert [call[-1] for call in make(target) if call[:-1] == INSTALL] == installed
     assert [call for call in make("paper") if call[:-1] == INSTALL] == []
+    subprocess.run([tmp_path / "venv/bin/nucleation", "length"], cwd=tmp_path, check=True)
+    assert (tmp_path / "called").read_text().endswith('["-P", "-m", "nucleation", "length"]\n')

@@ -48,7 +48,7 @@ class Subprocess:
     def Popen(self, command: Any, **options: Any) -> Any:
         words = shlex.split(command) if isinstance(command, str) else []
         if "-m" in words and words[words.index("-m") + 1].startswith("replication.pipeline"):
-            return Job(self._address, words[words.index("-m") + 1 :], options.get("env"))
+            return Job(self._address, words, options.get("env"))
         return subprocess.Popen(command, **options)
 
 
@@ -102,10 +102,12 @@ def _run(asked: Mapping[str, Any]) -> int:
     os.chdir(asked["directory"])
     os.environ.clear()
     os.environ.update(asked["environment"])
-    module = asked["words"][0]
-    sys.argv = asked["words"]
+    words = asked["words"]
+    sys.argv = words[words.index("-m") + 1 :]
+    module = sys.argv[0]
     own = os.environ.get("PYTHONPATH", "")
-    sys.path[:1] = [*filter(None, own.split(os.pathsep))]  # as with python -P
+    first = [] if "-P" in words else [asked["directory"]]
+    sys.path[:1] = [*first, *filter(None, own.split(os.pathsep))]
     code: Any = 0
     try:
         runpy.run_module(module, run_name="__main__", alter_sys=True)
