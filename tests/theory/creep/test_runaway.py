@@ -2,10 +2,12 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
 from asked import critical_length, stability_length
+from docs.prose import page
 from parts import law_values
 from scipy.integrate import solve_ivp
 
@@ -21,8 +23,6 @@ THIN = {
     "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "normal_stress": 1e6, "a": 0.0068,
     "slip_distance": 5e-7, "second_shear_modulus": math.inf, "height": 1e-5, "friction": 0.0,
 }  # fmt: skip
-
-
 HALF_SPACES = {"second_shear_modulus": None, "height": math.inf, "friction": 0.41}
 PAIR = {"second_shear_modulus": None, "height": 0.02, "friction": 0.41}
 MOST_STEPS = 25_000  # of 40 patches at once: one to two seconds
@@ -90,6 +90,8 @@ def test_half_spaces_by_another_code(ratio, length, within):
     """Another code with 64 modes; with 16 modes, 50 L_b long, it would be 2.57 at 0.2."""
     found, error = over_critical(ratio, **HALF_SPACES)
     assert abs(found - length) < within + error * found
+    stated = re.findall(r"([\d.]+) ± ([\d.]+)", page("drop.md"))[{0.2: 0, 0.5: 2}[ratio]]
+    assert (found, error * found) == pytest.approx(tuple(map(float, stated)), rel=0.05, abs=0.01)
 
 
 CHANGES = {
