@@ -154,5 +154,10 @@ def test_a_strengthening_control_run_with_its_length(nucleation, tmp_path):
     ended = nucleation("simulate", output, *words)
     assert ended.code == 0 and "no critical length" in ended.out and "no event" in ended.out
     assert "nothing will nucleate" in ended.err
+    step = ["--heterogeneity", "zeta", "--change", "-2", "--width", "0.3", "--force", "--dry-run"]
+    assert (
+        "sliding outside the step or bump is stable"
+        in nucleation("simulate", output, *words, *step).out
+    )
     shown = nucleation("show", output)
     assert shown.code == 0 and "theory: no critical length: sliding is stable" in shown.out
