@@ -6,14 +6,11 @@ import numpy as np
 import pint
 import pytest
 import xarray as xr
+from asked import GRANITE, ROCK
 
 from nucleation.api import PAPER, Fault, Friction
 from nucleation.model.quantities import ParameterError
 
-ROCK = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
-    "slip_distance": 5e-6,
-}  # fmt: skip
 BLOCKS = {"height": 0.5, "second_shear_modulus": 60e9, "second_height": 0.3, "friction": 0.6}
 FAULTS = {
     "half-spaces": ROCK,
@@ -73,12 +70,6 @@ def test_scalars_are_plain_numbers():
     text = repr(Fault(**ROCK | {"normal_stress": "50MPa"}))
     assert "shear_modulus=30000000000.0" in text and "normal_stress=50000000.0" in text
     assert "array" not in text
-
-
-GRANITE = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 6e6, "a": 0.008, "b": 0.012,
-    "slip_distance": 1e-6, "height": 0.1,
-}  # fmt: skip
 
 
 def test_velocity_and_friction_are_asked_for():

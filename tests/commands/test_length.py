@@ -17,10 +17,7 @@ WORDS = [
     "length", "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa",
     "--a", "0.010", "--b", "0.015", "--slip-distance", "5um",
 ]  # fmt: skip
-FAULT = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
-    "slip_distance": 5e-6,
-}  # fmt: skip
+FAULT = asked.ROCK
 
 
 def value_of(told, key):

@@ -3,17 +3,13 @@
 import math
 
 import pytest
-from asked import weakening_patch_length
+from asked import ROCK, weakening_patch_length
 
 from nucleation.api import Fault
 from nucleation.lengths import weakening_patch as patch_outcomes
 from nucleation.lengths.answer import process_zone
 from nucleation.lengths.weakening_patch import NO_WIDTH, OTHER_A, OTHER_B, patch_answer, simulated
 
-ROCK = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.01, "b": 0.015,
-    "slip_distance": 5e-6,
-}  # fmt: skip
 STATE_LENGTH = 40e9 * 5e-6 / (0.015 * 50e6)
 
 

@@ -6,15 +6,12 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from asked import critical_length, critical_mode, lengths_in_use, stability_length
+from asked import ROCK, critical_length, critical_mode, lengths_in_use, stability_length
 
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.values import QUANTITIES
 
-FAULT = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
-    "slip_distance": 5e-6, "velocity": 1e-9,
-}  # fmt: skip
+FAULT = ROCK | {"velocity": 1e-9}
 FUNCTIONS = (critical_length, critical_mode, stability_length, lengths_in_use)
 BAD = {
     "masked": (np.ma.array([50e6, 1e6], mask=[False, True]), "some of its values are masked"),

@@ -11,16 +11,13 @@ import numpy as np
 import pint
 import pytest
 import xarray as xr
+from asked import GRANITE as ROCK
 
 import nucleation
 from nucleation.api import PAPER, Fault
 from nucleation.model.hints import ImplausibleWarning
 from nucleation.model.quantities import ParameterError
 
-ROCK = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 6e6, "a": 0.008, "b": 0.012,
-    "slip_distance": 1e-6, "height": 0.1,
-}  # fmt: skip
 PLAIN = Fault(**ROCK).critical_length()
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from asked import critical_length, spectrum, stability_length, transfer_functions
+from asked import ROCK, critical_length, spectrum, stability_length, transfer_functions
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
@@ -13,10 +13,6 @@ from nucleation.api import Fault
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.pair import Layers
 
-ROCK = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
-    "slip_distance": 5e-6,
-}  # fmt: skip
 RIGID = {"second_shear_modulus": math.inf, "friction": 0.6}
 KEPT = {"free": (0, 1), "velocity": (1, 2), "clamped": (2, 3), "roller": (0, 3)}
 """The components of (U, W, T, N) that are not zero on the far side."""
