@@ -6,9 +6,9 @@ call, and a step had some two hundred of them. Arrays are over the nodes 0..n_x 
 
 import numpy as np
 from numba.extending import overload
-from scipy.special import wrightomega
 
 from ..fem.compiling import compiled
+from ..model.friction import evolutions
 
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
@@ -244,6 +244,6 @@ def wright_omega(z):
             return w
 
 
-@overload(wrightomega)
-def _compiled_wrightomega(z):
+@overload(evolutions.wright_omega)
+def _compiled_wright_omega(z):
     return wright_omega

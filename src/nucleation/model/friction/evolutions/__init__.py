@@ -12,4 +12,14 @@ Each file has three functions of ``omega = phi w / D`` and ``rate = w / D`` (1/s
 They use this module and nothing else of the project.
 """
 
-from ....types import Array as Array
+from ....types import Array
+
+
+def wright_omega(z: Array) -> Array:
+    """The positive solution of ``w + log(w) = z`` for real z.
+
+    A simulation compiles :func:`nucleation.simulation.passes.wright_omega` in its place.
+    """
+    from scipy.special import wrightomega  # not loaded by what reads the parameters alone
+
+    return wrightomega(z)

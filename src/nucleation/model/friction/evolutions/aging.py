@@ -2,9 +2,8 @@
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import wrightomega
 
-from . import Array
+from . import Array, wright_omega
 
 
 def growth(omega: ArrayLike) -> Array:
@@ -14,7 +13,7 @@ def growth(omega: ArrayLike) -> Array:
 
 def slope(omega: ArrayLike) -> Array:
     """``g'(omega) = -1``."""
-    return -np.ones_like(np.asarray(omega, dtype=float))
+    return np.full_like(omega, -1.0, dtype=float)
 
 
 def implicit_log_state(
@@ -24,6 +23,6 @@ def implicit_log_state(
 ) -> tuple[Array, Array]:
     """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
     shifted = history - step * rate
-    excess = wrightomega(np.log(step) - shifted)  # = step exp(-psi)
+    excess = wright_omega(np.log(step) - shifted)  # = step exp(-psi)
     slope = -step / (1.0 + excess)
     return shifted + excess, slope

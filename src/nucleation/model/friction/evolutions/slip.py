@@ -14,7 +14,6 @@ def growth(omega: ArrayLike) -> Array:
 
 def slope(omega: ArrayLike) -> Array:
     """``g'(omega) = -1 - log(omega)``."""
-    omega = np.asarray(omega, dtype=float)
     return -1.0 - np.log(omega)
 
 
