@@ -112,6 +112,9 @@ EVOLUTIONS = sorted(
 )
 """Code of the paper's law with either evolution, for rules that compute with both."""
 
+EARLY = 3
+"""Priority of rules that need no simulation, or that verdicts wait for; simulations have less."""
+
 PYTHON = 'exec "$NUCLEATION_PYTHON" -P'  # no module of the working directory runs
 JOB = f"{PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
 """The command of every rule that makes a result."""

@@ -18,6 +18,7 @@ rule figure_1:
         drawn("figure_1", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_1.log",
+    priority: EARLY
     localrule: True
     params:
         call="replication.figures.figure_1:draw",
@@ -34,6 +35,7 @@ rule figure_2:
         drawn("figure_2", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_2.log",
+    priority: EARLY
     localrule: True
     params:
         call="replication.figures.theory:figure_2",
@@ -70,6 +72,7 @@ rule figure_s1:
         drawn("figure_s1", OF_PAPER),
     log:
         f"{RESULTS}/logs/figures/figure_s1.log",
+    priority: EARLY
     localrule: True
     params:
         call="replication.figures.theory:figure_s1",

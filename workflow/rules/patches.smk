@@ -9,7 +9,7 @@ rule follow_patches:
         f"{RESULTS}/patches/{{study}}.json",
     log:
         f"{RESULTS}/logs/patches/{{study}}.log",
-    priority: 1
+    priority: EARLY
     threads: 2
     params:
         makes=lambda wildcards: patches(wildcards.study),

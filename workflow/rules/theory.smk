@@ -7,7 +7,7 @@ rule theory:
         f"{RESULTS}/theory.nc",
     log:
         f"{RESULTS}/logs/theory.log",
-    priority: 1
+    priority: EARLY
     params:
         call="replication.tables.curves:theory_dataset",
         loads=plugins(settings.base.law),
@@ -26,7 +26,7 @@ rule dispersion:
         multiext(f"{RESULTS}/dispersion", ".nc", ".csv"),
     log:
         f"{RESULTS}/logs/dispersion.log",
-    priority: 3  # the verdicts wait for it
+    priority: EARLY + 1  # it compiles for the simulations meanwhile
     params:
         call="replication.tables.modes:dispersion_files",
         loads=plugins(settings.base.law),
@@ -60,6 +60,7 @@ rule table_s1:
         multiext(f"{RESULTS}/tables/table_s1", ".md", ".csv"),
     log:
         f"{RESULTS}/logs/tables/table_s1.log",
+    priority: EARLY
     localrule: True
     params:
         call="replication.figures.theory:table_s1",

@@ -68,7 +68,7 @@ class EdgeValues:
         else:
             modal = self._put_in_series(*series, moves)
         one, nothing = np.ones(body.modes.n_x), np.zeros((2, body.modes.n_x))
-        rows = np.moveaxis(body.modes.scale * modal, 1, 0)
+        rows = np.ascontiguousarray(np.moveaxis(body.modes.scale * modal, 1, 0))
         by_edge = [
             body.modes.forces(
                 row,
