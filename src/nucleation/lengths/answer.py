@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -85,7 +85,12 @@ class Lengths(dict[str, Answer]):
 
         found = {}
         for field in Answer._fields:
-            columns = _with_dimensions({key: getattr(x, field) for key, x in self.items()})
+            columns = {key: getattr(answer, field) for key, answer in self.items()}
+            plain = {key: array for key, array in columns.items() if not labelled(array)}
+            shape = np.broadcast_shapes(*map(np.shape, plain.values()))
+            dims = [f"axis_{n}" for n in range(len(shape))]
+            for key, array in plain.items():
+                columns[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
             alike = xr.broadcast(*columns.values())
             index = xr.IndexVariable("length", list(self))
             parts = [x.drop_attrs() for x in alike]
@@ -115,19 +120,6 @@ class Lengths(dict[str, Answer]):
             padded = map(str.ljust, cells, widths)
             lines.append("  ".join([*padded, last]).rstrip())
         return "\n".join(lines)
-
-
-def _with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
-    """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
-    import xarray as xr
-
-    plain = {key: array for key, array in found.items() if not labelled(array)}
-    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
-    dims = [f"axis_{n}" for n in range(len(shape))]
-    named = dict(found)
-    for key, array in plain.items():
-        named[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
-    return named
 
 
 def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:

@@ -156,7 +156,13 @@ class Dynamics:
         time = state.time + step.length
         operator = self.operator(step.s)
         imposed, external = self.driven(time)
-        load = self._load_with_past(state, step, external)
+        inertia = []  # the past part
+        for c, past_motion in zip(step.body.past, state.motions, strict=False):
+            inertia += [
+                (c, past_motion.displacement),
+                (c * step.body.beta, past_motion.velocity),
+            ]
+        load = self.body.inertia_load(step.s, inertia, external)
         guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         scaled, expected, log_state, scale = guess
         rates = self.body.modes.on_all_nodes(expected[1:], imposed.velocity)
@@ -208,22 +214,6 @@ class Dynamics:
         if imposed.acceleration != 0.0:
             load = load.plus(self.body.translation_load(imposed.acceleration))
         return imposed, load
-
-    def _load_with_past(
-        self,
-        state: State,
-        step: Step,
-        load: Field,
-    ) -> Field:
-        """A load at the end of the step, with the past part of inertia."""
-        terms = []
-        for c, motion in zip(
-            step.body.past,
-            state.motions,
-            strict=False,
-        ):
-            terms += [(c, motion.displacement), (c * step.body.beta, motion.velocity)]
-        return self.body.inertia_load(step.s, terms, load)
 
     def _driving_force(
         self,
