@@ -132,7 +132,7 @@ def test_what_exists_is_not_made_again(batched):
     done = more("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
     after = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
-    assert before.items() <= after.items() and len(after) == 4
+    assert before.items() <= after.items() and len(after) == 4 and begun(workflow) == 1
     assert list(lengths_of(more)["height"]) == heights
     checked = more("check", "--cores", "1", "--quiet", "all")
     assert checked.returncode == 0, checked.stdout
@@ -231,7 +231,9 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     assert_same_datasets(quiet, single)
     assert len(made) == begun(quiet) == 3 and quiet.planned("lengths") == {}
 
-    lost, *others = sorted(made.values())
+    batches = (quiet.directory / "results/batches").glob("*.json")
+    pair = max((path.read_text() for path in batches), key=len)  # the longer list, of two runs
+    lost, *others = sorted(made.values(), key=lambda path: path.parent.name not in pair)
     kept = {path: path.read_bytes() for path in others}
     shutil.rmtree(lost.parent)
     shutil.rmtree(quiet.directory / "results/logs")
