@@ -13,7 +13,7 @@ from nucleation.extraction.measures import BY_DEFINITION
 from ..configuration.roles import JUDGED, LONGER, PAPERS
 from ..tables.rows import Row
 from .evidence import Evidence, of_runs, on_both
-from .theory import steady_extremes
+from .friction import steady_extremes
 from .verdicts import Computation, Estimate, Missing, between
 
 _SHOWN = 0.005  # m: height of Fig. S2

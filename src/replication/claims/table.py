@@ -17,8 +17,8 @@ from nucleation.run.run import Run
 
 from ..tables.lengths import lengths_table, over_realisations
 from ..tables.rows import Row, rows_of
+from . import friction, simulations, theory
 from . import pairs as of_two_bodies
-from . import simulations, theory
 from .evidence import Evidence, caution, mesh, span
 from .verdicts import Computation, Missing, Result, Verdict, judge, read, worst
 
@@ -29,6 +29,7 @@ Ordered = Sequence[tuple[str, Sequence[tuple[str, Mapping[str, Any]]]]]
 """The same in pairs, in the paper's order."""
 
 NUMBERS: dict[str, Computation] = {
+    **friction.NUMBERS,
     **theory.NUMBERS,
     **simulations.NUMBERS,
     **of_two_bodies.NUMBERS,

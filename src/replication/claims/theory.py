@@ -1,4 +1,4 @@
-"""Claims that need no run: the friction law, homogeneous sliding, half-spaces and blocks.
+"""Claims that need no run: homogeneous sliding, half-spaces and blocks.
 
 Our numbers are those of the library's theory. Tests compare the paper's formulas, and the library,
 with evaluations that use neither (tests/claims/test_formulas.py).
@@ -13,16 +13,14 @@ import numpy as np
 import xarray as xr
 
 from nucleation.fault.fault import Fault
-from nucleation.model.friction.evolutions import aging, slip
 from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
 from nucleation.theory.pair import Layers
 from nucleation.theory.spectrum import marginal_stiffness
 from nucleation.types import Array, ComplexArray
 
-from ..tables.curves import logarithmic_friction
 from . import printed
 from .evidence import Evidence
-from .verdicts import Computation, Estimate, Missing, Result, between, formula
+from .verdicts import Computation, Estimate, Result, between, formula
 
 PAIRS = ((2.0, 0.25, 0.3), (0.5, 0.3, 0.2), (5.0, 0.1, 0.4), (0.9, 0.33, 0.25))
 """psi, nu(1) and nu(2) of pairs of half-spaces."""
@@ -39,7 +37,6 @@ LAYER_NUMBERS = np.array([0.1, 0.3, 1.0, 3.0, 10.0])
 HALF_SPACE = 40.0
 """kH of a body that counts as a half-space."""
 
-_SLIP_RATES = np.geomspace(1e-11, 10.0, 4801)  # m/s
 _OF_BOTH = ("shear_modulus", "normal_stress", "friction", "a", "zeta", "slip_distance", "velocity")
 
 
@@ -70,63 +67,7 @@ def _coupling(evidence: Evidence, q: float) -> float:
     return float(g2 / g1)
 
 
-# -- the friction law (Text S2.1, Fig. S1) ------------------------------------------------------
-
-
-def _logarithmic(evidence: Evidence) -> Array:
-    """Logarithmic over full law around V and D/V."""
-    law, velocity = evidence.friction, evidence.velocity
-    factors = np.geomspace(0.1, 10.0, 41)
-    v, phi = np.meshgrid(
-        velocity * factors,
-        law.steady_state(velocity) * factors,
-    )
-    return logarithmic_friction(
-        law,
-        v,
-        phi,
-        velocity,
-    ) / law.coefficient(v, phi)
-
-
-def steady_extremes(evidence: Evidence) -> tuple[float, float]:
-    """Slip rates (m/s) of the maximum and the minimum of steady-state friction around V."""
-    velocity = evidence.velocity
-    friction = evidence.friction.steady_coefficient(_SLIP_RATES)
-    turns = np.diff(np.sign(np.diff(friction)))
-    rates = _SLIP_RATES[1:-1]
-    maxima = rates[(turns < 0) & (rates < velocity)]
-    minima = rates[(turns > 0) & (rates > velocity)]
-    if not maxima.size or not minima.size:
-        raise Missing("Steady-state friction has no velocity-weakening branch around V")
-    return float(maxima[-1]), float(minima[0])
-
-
-def _decades_of_agreement(evidence: Evidence) -> float:
-    """Decades of slip rate around V, within the branch, with a difference of less than 2 %."""
-    law, velocity = evidence.friction, evidence.velocity
-    first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
-    v = _SLIP_RATES[first:after]
-    logarithmic = logarithmic_friction(
-        law,
-        v,
-        law.slip_distance / v,
-        velocity,
-    )
-    off = np.flatnonzero(np.abs(logarithmic / law.steady_coefficient(v) - 1.0) >= 0.02)
-    middle = int(np.abs(np.log(v / velocity)).argmin())
-    lowest = off[off < middle].max(initial=-1) + 1
-    highest = off[off > middle].min(initial=v.size) - 1
-    return math.log10(v[highest] / v[lowest])
-
-
 # -- homogeneous sliding ------------------------------------------------------------------------
-
-
-def _slopes(evidence: Evidence) -> list[Any]:
-    """g'(1) of both evolution laws, by central differences."""
-    step = 1e-5
-    return [(g(1 + step) - g(1 - step)) / (2.0 * step) for g in (aging.growth, slip.growth)]
 
 
 def _softness(evidence: Evidence) -> float:
@@ -168,15 +109,6 @@ def _uncoupled_frequency(evidence: Evidence) -> Result:
         main_text(evidence).critical_mode().angular_frequency,
         formula(expected),
     )
-
-
-def _friction_perturbation(evidence: Evidence) -> Array:
-    """``|ratio - 1|`` of the linearised law and state over the printed formula, ell/V = 1."""
-    _, a, zeta = evidence.at_v
-    rate = np.array([0.3 + 1j, 0.1 + 2j, 1j])
-    state = -rate / (rate + 1.0)  # relative change of phi for a change of slip rate
-    ours = a * rate + (a + zeta) * state
-    return np.abs(ours * (1.0 + rate) / (rate * (a * rate - zeta)) - 1.0)
 
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
@@ -318,27 +250,6 @@ def _block_field(evidence: Evidence) -> list[float]:
 
 
 NUMBERS: dict[str, Computation] = {
-    "f0-table": lambda e: e.at_v.f0,
-    "f0-main": lambda e: e.at_v.f0,
-    "a-table": lambda e: e.at_v.a,
-    "a-main": lambda e: e.at_v.a,
-    "zeta-table": lambda e: e.at_v.zeta,
-    "zeta-main": lambda e: e.at_v.zeta,
-    "weakening-at-v": lambda e: e.at_v.zeta,
-    "slip-rate-over-v0": lambda e: math.log10(e.velocity / e.friction.regularisation_slip_rate),
-    "friction-vanishes": lambda e: (
-        e.friction.coefficient(
-            1e-5 * e.friction.regularisation_slip_rate,
-            1.0,
-        )
-        / e.at_v.f0
-    ),
-    "logarithmic-law": _logarithmic,
-    "steady-agreement": _decades_of_agreement,
-    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.velocity,
-    "weakening-branch": lambda e: e.velocity / steady_extremes(e)[0],
-    "state-rate-at-v": lambda e: e.friction.slip_speed(e.velocity) / e.velocity,
-    "evolution-slope": _slopes,
     "spring-stiffness": lambda e: (
         marginal_stiffness(
             0.0,
@@ -366,7 +277,6 @@ NUMBERS: dict[str, Computation] = {
     "eta-over-literature": _eta_over_largest,
     "eta-larger": lambda e: 0.75 * _eta(e) - 1.0,
     "uncoupled-frequency": _uncoupled_frequency,
-    "friction-perturbation": _friction_perturbation,
     "spectrum-in-time": lambda e: e.dispersion["disagreement"],
     "growth-changes-sign": lambda e: [
         _zero_of_growth(modes) for _, modes in e.dispersion.groupby("height")
