@@ -122,7 +122,11 @@ class Recipe:
         return dict.fromkeys(self.files, text)
 
     def show(self) -> None:
-        """Lay links to the result, or copies; for a batch write the list of its parts' keys."""
+        """Lay links to the result, or copies; for a batch write the list of its parts' keys.
+
+        They have the result's time: Snakemake makes again what is older than its inputs.
+        """
+        newest = max(time_of(one.stored(one.files[0])) for one in self.needed)
         for name, wanted in self.expected().items():
             file = Path(name)
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -135,8 +139,7 @@ class Recipe:
                     shutil.copyfile(wanted, new)
             else:
                 new.write_text(wanted, "utf-8")
-                newest = max(os.stat(part.stored(part.files[0])).st_mtime for part in self.parts)
-                os.utime(new, (newest, newest))  # results that were made of the parts are newer
+            os.utime(new, (newest, newest), follow_symlinks=False)
             new.replace(file)
 
     def write_as_of(self, file: str, moment: float) -> None:
