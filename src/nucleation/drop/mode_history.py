@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..theory.creep.front import Advance, first_growing, oscillating
-from ..theory.creep.linearised import edge_slip, local_coefficients
+from ..theory.creep.linearised import edge_slip
 from ..theory.creep.patches import Patches
 from ..theory.status import STABLE, NoLength
 from ..types import Array, ComplexArray
@@ -171,16 +171,9 @@ def _weights(
     x: Array,
 ) -> tuple[complex, complex, ComplexArray, ComplexArray]:
     """The weights of a :class:`ModeHistory`, time in D/V."""
-    patch, creep, law = found.patches[i], found.creeps[i], patches.law
-    assert law is not None
+    patch, creep, friction = found.patches[i], found.creeps[i], found.frictions[i]
     modes = creep.response.modes
     places = creep.slip_rate.size
-    friction = local_coefficients(
-        law,
-        patches.velocity,
-        creep.slip_rate,
-        found.log_states[i],
-    )
     # a mode with the largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
     left = 2.0 * abs(rate) * patch.amplitude(rate)
     by_slip, by_state = left[:places], left[places:]
@@ -188,7 +181,7 @@ def _weights(
     by_force = -by_rate / (creep.normal_stress * friction.by_rate)
     uniform = patches.constants[0]
     slip_of_edge = modes.values @ edge_slip(creep.response, uniform, uniform)[0]
-    drive = -complex(by_slip @ slip_of_edge) * rate / law.slip_distance
+    drive = -complex(by_slip @ slip_of_edge) * rate / found.distance
     position = found.length[i] * np.cos(modes.theta)
     spacing = np.sin(modes.theta) * found.length[i]
     spacing = spacing * 0.5 * np.pi / places

@@ -63,19 +63,15 @@ _COEFFICIENTS = (1.0 / ((_ORDERS - 1.0) * _ORDERS)).tolist()
 def _scaled_sinh_excess(x: Array) -> Array:
     """``(sinh(x) - x) exp(-x)`` for ``x >= 0`` without cancellation (power series below 1)."""
     decay = np.exp(-x)
-    direct = -0.5 * np.expm1(-2.0 * x) - x * decay
-    if np.all(x >= 1.0):
-        return direct
-    small = np.minimum(x, 1.0)
+    excess = np.asarray(-0.5 * np.expm1(-2.0 * x) - x * decay)
+    below = x < 1.0
+    small = x[below]
     square = small**2
-    series = 1.0
+    series = np.ones_like(small)
     for coefficient in _COEFFICIENTS:
         series = 1.0 + series * square * coefficient
-    return np.where(
-        x < 1.0,
-        small**3 / 6.0 * series * decay,
-        direct,
-    )
+    excess[below] = small**3 / 6.0 * series * decay[below]
+    return excess
 
 
 class Waves(NamedTuple):

@@ -30,7 +30,7 @@ from .linearised import (
     local_coefficients,
 )
 from .patches import Patches, require_contact
-from .response import MORE_MODES, mirror_modes
+from .response import MORE_MODES, joined, mirror_modes
 
 ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
 FINE = 400  # angles at which the state behind the front is followed
@@ -79,10 +79,11 @@ class Advance:
         self.modes = mirror_modes(number)
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
         self.length = length = np.atleast_1d(np.asarray(lengths, dtype=float))
-        self.responses = [
+        before, self.bodies, after = (
             [patches.response(one, number) for one in length * np.exp(step)]
             for step in (-STEP, 0.0, STEP)
-        ]
+        )
+        self.responses = list(map(joined, (before, self.bodies, after)))
         steady_friction = self.law.expansion(self.velocity).f0
         self.friction = np.full((length.size, number), steady_friction)
         self.log_states = np.zeros_like(self.friction)
@@ -92,10 +93,11 @@ class Advance:
             self.update_slip()
             self.update_rates()
         self.creeps = [self.creep(i) for i in range(length.size)]
-        self.patches = []
-        for creep, log_state in zip(self.creeps, self.log_states, strict=True):
-            friction = local_coefficients(self.law, self.velocity, creep.slip_rate, log_state)
-            self.patches.append(creeping_patch(creep, friction))
+        self.frictions = [
+            local_coefficients(self.law, self.velocity, creep.slip_rate, log_state)
+            for creep, log_state in zip(self.creeps, self.log_states, strict=True)
+        ]
+        self.patches = list(map(creeping_patch, self.creeps, self.frictions))
 
     def update_slip(self) -> Array:
         """Slip in balance with the strength, and time; each at three neighbouring lengths.
@@ -103,17 +105,11 @@ class Advance:
         Returns the modes' coefficients of the slip rate over V at a constant strength.
         """
         strength = self.friction - self.initial_stress
-        found = [
-            [edge_slip(*one) for one in zip(row, self.friction, strength, strict=True)]
-            for row in self.responses
-        ]
-        rates, self.slips, loaded = (
-            np.array([[one[part] for one in row] for row in found]) for part in range(3)
-        )
-        before, self.loaded, after = loaded
+        found = [edge_slip(near, self.friction, strength) for near in self.responses]
+        rates, self.slips, (before, self.loaded, after) = zip(*found, strict=True)
         self.by_length = (after - before) / (2.0 * STEP * self.length)
         self.time = self.loaded * self.distance / self.velocity
-        return np.asarray(rates[1])
+        return rates[1]
 
     def update_rates(self) -> None:
         """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x.
@@ -134,16 +130,11 @@ class Advance:
         """log(phi) and friction behind the front, at the modes' angles, (n, N)."""
         law, own = self.law, self.modes
         theta = np.linspace(0.0, 0.5 * np.pi, FINE + 1)
-        speeds = law.slip_speed(self._slip_rate(own.at(theta))) / self.distance
-        log_state = self._state_ahead()
-        along = [log_state]
-        distances = self.length[:, None] * -np.diff(np.cos(theta))
+        speeds = law.slip_speed(self._slip_rate(own.at(theta))).T / self.distance
+        distances = -np.diff(np.cos(theta))[:, None] * self.length
         speed = self.velocity / (self.by_length * self.distance)
-        steps = distances / speed[:, None]
-        for j in range(FINE):
-            middle = 0.5 * (speeds[:, j] + speeds[:, j + 1])
-            log_state = _stepped(law, log_state, steps[:, j], middle)
-            along.append(log_state)
+        middle = 0.5 * (speeds[:-1] + speeds[1:])
+        along = _followed(law, self._state_ahead(), distances / speed, middle)
         rows = [
             np.interp(
                 own.theta,
@@ -162,8 +153,7 @@ class Advance:
 
     def _state_ahead(self) -> Array:
         """log(phi) of the interface that has aged at rest until the front reaches it, (n,)."""
-        speed_at_rest = float(self.law.slip_speed(0.0)) / self.distance
-        speed = np.full(self.length.size, speed_at_rest)
+        speed_at_rest = self.law.slip_speed(0.0) / self.distance
         log_state = np.full(self.length.size, np.log(self.initial_state))
         ends = np.append(
             0.0,
@@ -173,13 +163,12 @@ class Advance:
                 AT_REST,
             ),
         )
-        for part in np.diff(ends):  # in steps that grow as the state does
-            log_state = _stepped(self.law, log_state, part * self.time, speed)
-        return log_state
+        steps = np.diff(ends)[:, None] * self.time  # which grow as the state does
+        return _followed(self.law, log_state, steps, np.full(steps.shape, speed_at_rest))[-1]
 
     def creep(self, i: int) -> Creep:
         """The creep at one of the lengths."""
-        bodies = self.responses[1][i]
+        bodies = self.bodies[i]
         creep = Creep(
             response=bodies,
             slip_rate=np.maximum(self.modes.values @ self.rates[i], self.floor),
@@ -190,18 +179,25 @@ class Advance:
         return creep
 
 
-def _stepped(
+def _followed(
     law: Friction,
     log_state: Array,
-    step: Array,
-    rate: Array,
-) -> Array:
-    """log(phi) after a time at a slip speed over D (1/s), extrapolated from one and two steps."""
+    steps: Array,
+    rates: Array,
+) -> list[Array]:
+    """log(phi) (n,) at the ends of times (s) at slip speeds over D (1/s), both (time, n).
+
+    In each it is extrapolated from one and two steps.
+    """
     evolve = law.evolution_law.implicit_log_state
-    both = np.array([log_state, log_state])
-    (half, one), _ = evolve(both, np.array([0.5 * step, step]), np.array([rate, rate]))
-    two_halves, _ = evolve(half, 0.5 * step, rate)
-    return 2.0 * two_halves - one
+    along = [log_state]
+    halves = 0.5 * steps
+    both = np.stack([halves, steps], axis=1), np.stack([rates, rates], axis=1)
+    for halved, rate, steps_of_both, rate_of_both in zip(halves, rates, *both, strict=True):
+        (half, one), _ = evolve(np.array([along[-1]] * 2), steps_of_both, rate_of_both)
+        two_halves, _ = evolve(half, halved, rate)
+        along.append(2.0 * two_halves - one)
+    return along
 
 
 def oscillating(found: Advance) -> ComplexArray:

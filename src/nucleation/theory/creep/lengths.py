@@ -15,11 +15,11 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from ...model.friction.constants import full_law
 from ...model.quantities import ParameterError
 from ...types import Array
 from ..critical import at_each
@@ -39,6 +39,7 @@ LARGEST_ERROR = 1e-3  # relative, of L_s, beyond which there are twice as many m
 NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 
 
+@lru_cache(maxsize=4)  # L_run and L need it of the same patches
 def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
     """L_s (m) of one fault with L_c (m) or NaN, and its relative error.
 
@@ -115,27 +116,19 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
         raise ParameterError("a friction law needs the fault's velocity and friction")
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
-    def answer(one: Systems, critical: float, velocity: float) -> tuple[Any, ...]:
-        patches = Patches(one, velocity=velocity, loading=fault.loading)
-        if law is not None:  # with the constants of the fault at V
-            distance = velocity / float(one.rate[0])
-            scaled = law.changed({"slip_distance": distance})
-            own = full_law(scaled, velocity, *patches.constants)
-            patches = dataclasses.replace(patches, law=own)
+    def answer(one: Systems, critical: float, *at: float) -> tuple[Any, ...]:
+        patches = Patches(one, loading=fault.loading)
+        if law is not None:
+            patches = patches.with_law(fault, *at)
         return *stability_point(patches, critical), VALUE, ""
 
-    rows = at_each(fault, answer, velocity, rows=4)
+    rows = at_each(fault, answer, velocity, fault.slip_distance, rows=4)
     length, error = rows[:2].astype(float)
     return length, error, rows[2], rows[3]
 
 
-def stability_length_of(patches: Patches, critical: float, constant: bool = False) -> float:
-    """L_s (m) of a fault with L_c (m) `critical`; NaN if there is none.
-
-    `constant` takes a and b at V along the patch, in place of the law's own a(v) and b(v).
-    """
-    if constant:
-        patches = dataclasses.replace(patches, law=None)
+def stability_length_of(patches: Patches, critical: float) -> float:
+    """L_s (m) of a fault with L_c (m) `critical`; NaN if there is none."""
     try:
         return stability_point(patches, critical)[0]
     except NoLength:

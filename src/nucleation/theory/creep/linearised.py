@@ -36,7 +36,7 @@ class Creep(NamedTuple):
     response: PatchResponse  # of the bodies, and L
     slip_rate: Array  # over `fastest`, (N,)
     normal_stress: Array  # compression over sigma0, (N,)
-    loaded: float  # imposed at L: displacement of the edge over D, or shear stress over sigma0
+    loaded: Array | float  # at L: displacement of the edge over D, or shear stress over sigma0
     fastest: float = 1.0  # over V
 
 
@@ -73,33 +73,30 @@ def edge_slip(
     response: PatchResponse,
     friction: Array | float,
     strength: Array | float,
-) -> tuple[Array, Array, float]:
-    """The modes' coefficients of slip rate over V and slip over D, (N + 1,); and U over D.
+) -> tuple[Array, Array, Array]:
+    """The modes' coefficients of slip rate over V and slip over D, (..., N + 1); and U over D.
 
     Where slip changes the normal stress, the front's singularity is no square root, and the edge is
     not regular. An error of alternating sign at neighbouring places remains, which
     the modes' smoothing removes from the result.
     """
     matrix = response.coupled(friction)
-    sines: Array = matrix[:, 1:]
-    by_edge = matrix[:, 0]
+    by_edge = matrix[..., 0]
     by_strength = np.broadcast_to(strength, by_edge.shape)
-    loads = np.stack([by_edge, by_strength], axis=1)
-    rates, held = -np.linalg.solve(sines, loads).T
-    rates = np.append(1.0, rates)
-    held = np.append(0.0, held)
+    loads = np.stack([by_edge, by_strength], axis=-1)
+    sines = -np.linalg.solve(matrix[..., 1:], loads)
+    rates, held = np.moveaxis(np.insert(sines, 0, [1.0, 0.0], axis=-2), -1, 0)
     near = response.modes.values[:NEAR]
     squares = response.modes.theta[:NEAR] ** 2
-    ratio = (near @ held) / (near @ rates)
-    loaded = -float(
-        np.polyfit(
-            squares,
-            ratio,
-            NEAR - 1,
-        )[-1]
-    )
+    ratio = (near @ held[..., None]) / (near @ rates[..., None])
+    loaded = -np.polyfit(
+        squares,
+        ratio.reshape(-1, NEAR).T,
+        NEAR - 1,
+    )[-1]
+    loaded = loaded.reshape(by_edge.shape[:-1])
     smoothing = response.modes.smoothing
-    return smoothing * rates, smoothing * (loaded * rates + held), loaded
+    return smoothing * rates, smoothing * (loaded[..., None] * rates + held), loaded
 
 
 @dataclasses.dataclass(frozen=True)
@@ -115,11 +112,10 @@ class FrozenPatch:
     @property
     def matrix(self) -> Array:
         """Jacobian of (dw, dpsi), shape (2 n, 2 n)."""
-        g_v, b = self.evolution_by_rate, self.by_log_state
-        upper_right = np.diag(b)
-        lower_left = g_v[:, None] * self.by_w
-        lower_right = np.diag(g_v * b + self.evolution_by_log_state)
-        return np.block([[self.by_w, upper_right], [lower_left, lower_right]])
+        upper = np.hstack([self.by_w, np.diag(self.by_log_state)])
+        lower = self.evolution_by_rate[:, None] * upper
+        lower[:, len(upper) :] += np.diag(self.evolution_by_log_state)
+        return np.vstack([upper, lower])
 
     @cached_property
     def eigenvalues(self) -> ComplexArray:

@@ -21,7 +21,7 @@ from .linearised import (
 from .response import PatchResponse, SlimLayers, modes_for, response
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Patches:
     """The creeping patches of one fault, of any length.
 
@@ -41,7 +41,6 @@ class Patches:
         default_factory=dict,
         init=False,
         repr=False,
-        compare=False,
     )
 
     @cached_property

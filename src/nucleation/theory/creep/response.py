@@ -22,7 +22,8 @@ There is no box and no mesh.
 """
 
 import dataclasses
-from functools import cached_property, lru_cache
+from collections.abc import Sequence
+from functools import cache, cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -32,6 +33,7 @@ from ...types import Array
 from ..pair import LayerPair
 from ..spectrum import Systems
 
+SHORT = np.array([np.inf])  # wavenumber (1/m) at which layers are half-spaces
 CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
 WIDTH = 6.0  # of the panels of kappa: J_2n(kappa) oscillates with 2 pi
 POINTS = 10  # Gauss points of a panel
@@ -53,9 +55,9 @@ SLIMMEST = REACHES[-1]
 EXTRAPOLATED = 1e-3  # error of L_s of the slimmest layers, against the limit in tests
 ROUNDING = 1.0 + 1e-9  # of a ratio that is compared with REACHES
 
-SlimLayers: TypeAlias = dict[tuple[int, float, bool], tuple[Array, Array]]
-"""Shear and normal response of a patch of length 1 between layers of one slimness, by the number
-of modes, the length over the height, and the symmetry."""
+SlimLayers: TypeAlias = dict[tuple[int, float, bool], tuple[Array, Array, Array, Array]]
+"""Shear and normal response of a patch of length 1 between layers of one slimness, and G1 and G2 at
+its wavenumber pi, by the number of modes, the length over the height, and the symmetry."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,13 +73,6 @@ class Modes:
         """From values at theta to the sines' coefficients, (N, N)."""
         return np.asarray(np.linalg.inv(self.values[:, 1:]), dtype=float)
 
-    def at(self, theta: Array) -> Array:
-        """phi_0 and the sines of a pushed edge at other angles, (angle, N + 1)."""
-        n = np.arange(self.theta.size + 1)
-        values = np.sin(2.0 * np.outer(theta, n))
-        values[:, 0] = 2.0 * theta / np.pi
-        return values
-
 
 @dataclasses.dataclass(frozen=True)
 class MirrorModes(Modes):
@@ -88,6 +83,12 @@ class MirrorModes(Modes):
     gradients: Array  # L u', (N, N + 1)
     half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
 
+    def at(self, theta: Array) -> Array:
+        """phi_0 and the sines of a pushed edge at other angles, (angle, N + 1)."""
+        values = np.sin(np.outer(theta, self.orders))
+        values[:, 0] = 2.0 * theta / np.pi
+        return values
+
 
 @lru_cache(maxsize=16)
 def mirror_modes(number: int, even: bool = False) -> MirrorModes:
@@ -96,7 +97,7 @@ def mirror_modes(number: int, even: bool = False) -> MirrorModes:
     theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number
     sine_of_theta = np.sin(theta)[:, None]
     orders = np.abs(2 * n - 1) if even else 2 * n
-    angles = np.outer(theta, orders) if even else 2.0 * np.outer(theta, n)
+    angles = np.outer(theta, orders)
     values = np.sin(angles)
     values[:, 0] = 0.0 if even else 2.0 * theta / np.pi
     weights = np.where(
@@ -115,33 +116,35 @@ def mirror_modes(number: int, even: bool = False) -> MirrorModes:
     )
 
 
+@cache
+def _points(reach: float) -> tuple[Array, Array]:
+    """kappa and the weights of its Gauss points."""
+    graded = np.geomspace(FINEST, WIDTH, GRADED)
+    even = np.arange(2.0 * WIDTH, CUT * reach + WIDTH, WIDTH)
+    edges = np.concatenate([[0.0], graded, even])
+    points, shares = np.polynomial.legendre.leggauss(POINTS)
+    half = 0.5 * np.diff(edges)[:, None]
+    kappa = edges[:-1, None] + half * (1.0 + points)
+    return kappa.ravel(), (half * shares).ravel()
+
+
+@lru_cache(maxsize=512)  # most of the time of the tables, which those of fewer modes share
+def _bessel(order: int, reach: float) -> Array:
+    """Weighted ``J_m(kappa)``."""
+    from scipy.special import jv
+
+    kappa, weights = _points(reach)
+    found = jv(order, kappa) * weights
+    found[np.abs(found) < NEGLIGIBLE] = 0.0
+    return found
+
+
 @lru_cache(maxsize=16)
 def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array, Array]:
     """kappa; sin(kappa x/L) at theta, or cos; cos, or -sin; weighted ``s_m m J_m(kappa)``."""
-    from scipy.special import jv
-
     modes = mirror_modes(number, even)
-    edges = np.append(
-        0.0,
-        np.geomspace(
-            FINEST,
-            WIDTH,
-            GRADED,
-        ),
-    )
-    edges = np.append(
-        edges,
-        np.arange(
-            edges[-1] + WIDTH,
-            CUT * reach + WIDTH,
-            WIDTH,
-        ),
-    )
-    points, shares = np.polynomial.legendre.leggauss(POINTS)
-    half = 0.5 * np.diff(edges)[:, None]
-    kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
-    bessel = jv(modes.orders, kappa[:, None]) * (half * shares).reshape(-1, 1)
-    bessel[np.abs(bessel) < NEGLIGIBLE] = 0.0
+    kappa = _points(reach)[0]
+    bessel = np.stack([_bessel(order, reach) for order in modes.orders.tolist()], axis=1)
     phase = np.outer(kappa, np.cos(modes.theta))
     sine, cosine = np.sin(phase), np.cos(phase)
     slip = -bessel * modes.weights * (-1.0) ** np.arange(number + 1)
@@ -159,14 +162,21 @@ class PatchResponse:
 
     def coupled(self, friction: Array | float) -> Array:
         """Shear stress lost plus friction that is gained: ``K1 + f S2``."""
-        return self.shear + np.reshape(friction, (-1, 1)) * self.normal
+        return self.shear + np.expand_dims(friction, -1) * self.normal
+
+
+def joined(responses: Sequence[PatchResponse]) -> PatchResponse:
+    """The responses of patches of several lengths, which are the arrays' first dimension."""
+    shear, normal = (
+        np.array([getattr(one, name) for one in responses]) for name in ("shear", "normal")
+    )
+    return dataclasses.replace(responses[0], shear=shear, normal=normal)
 
 
 def modes_for(one: Systems) -> int:
     """Number of modes that one fault needs."""
-    g1, g2 = _half_space_functions(one)
-    coupling = float(one.friction[0]) * float(g2[0] / g1[0])
-    return MORE_MODES if coupling < STIFFER_ABOVE else MODES
+    g1, g2 = one.pair.transfer_functions(SHORT)
+    return MORE_MODES if one.friction * g2 / g1 < STIFFER_ABOVE else MODES
 
 
 def response(
@@ -229,11 +239,6 @@ def extrapolation_error(one: Systems, length: float) -> float:
     return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
 
 
-def _half_space_functions(one: Systems) -> tuple[Array, Array]:
-    """G1 and G2 of half-spaces of the same materials, for k > 0."""
-    return one.pair.with_heights(lambda height: np.inf * height).transfer_functions(np.ones(1))
-
-
 def _mirror_response(
     one: Systems,
     length: float,
@@ -270,7 +275,7 @@ def _resolved(
     pair = LayerPair(*(body and body.with_zone_at_least(thickness) for body in one.pair))
     slim = length / min(float(thickness[0]) for thickness in pair.thicknesses)
     modes = mirror_modes(number, even)
-    far_g1, far_g2 = _half_space_functions(one._replace(pair=pair))
+    far_g1, far_g2 = pair.transfer_functions(SHORT)
     shear, normal = far_g1 * modes.half_space, far_g2 * modes.gradients
     if slim > 0.0:
         reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
@@ -296,17 +301,13 @@ def _thickened(
     Where ``kH`` is small G1 and G2 are powers of k, and thickness only scales them. Over L, layers
     of one slimness are the same whatever L is.
     """
-    factor = 1.0 / (reach * _lowest(one))
-    unit = one._replace(pair=one.pair.with_heights(lambda height: factor * height))
     key = number, reach, even
     if key not in known:
-        known[key] = _resolved(unit, 1.0, number, even)
-    shear, normal = known[key]
+        factor = 1.0 / (reach * _lowest(one))
+        pair = one.pair.with_heights(lambda height: factor * height)
+        unit = _resolved(one._replace(pair=pair), 1.0, number, even)
+        known[key] = *unit, *pair.transfer_functions(np.array([np.pi]))
+    shear, normal, thick_g1, thick_g2 = known[key]
     g1, g2 = one.pair.transfer_functions(np.array([np.pi / length]))
-    thick_g1, thick_g2 = unit.pair.transfer_functions(np.array([np.pi]))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        by_shear = float(g1[0] / thick_g1[0])
-        by_normal = float(g2[0] / thick_g2[0])
-    if not np.isfinite(by_normal):
-        by_normal = 0.0
-    return by_shear / length * shear, by_normal / length * normal
+    by_normal = g2 / thick_g2 if thick_g2 else 0.0
+    return g1 / thick_g1 / length * shear, by_normal / length * normal

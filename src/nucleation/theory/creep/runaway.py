@@ -196,10 +196,10 @@ def runaway_of(patches: Patches, critical: float) -> Runaway:
             reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {zeta / a:.3g}"
             raise NoLength(reason, UNKNOWN)
         if patches.law is not None:
-            own = stability_length_of(patches, critical)
-            constant = stability_length_of(patches, critical, constant=True)
-            if abs(own / constant - 1.0) < CONSTANT:
-                patches = dataclasses.replace(patches, law=None)
+            constant = dataclasses.replace(patches, law=None)
+            own, usual = (stability_length_of(one, critical) for one in (patches, constant))
+            if abs(own / usual - 1.0) < CONSTANT:
+                patches = constant
         return Runaway(*runaway_point(patches, critical), VALUE, "")
     except NoLength as none:
         return Runaway(math.nan, math.nan, none.status, str(none))

@@ -146,19 +146,11 @@ def lifetimes(
     for _ in range(MOST_STEPS):
         after, error = _step(slow, logs, stages, step)
         accepted = error < 1.0
-        logs = np.where(accepted[..., None], after, logs)
-        stages[0] = np.where(
-            accepted[..., None],
-            stages[-1],
-            stages[0],
-        )
+        np.copyto(logs, after, where=accepted[..., None])
+        np.copyto(stages[0], stages[-1], where=accepted[..., None])
         time = time + accepted * step
         fast = logs[0].max(axis=-1) > math.log(FAST)
-        found[rows] = np.where(
-            fast,
-            np.minimum(time, found[rows]),
-            found[rows],
-        )
+        found[rows] = np.minimum(found[rows], np.where(fast, time, np.inf))
         lasting = ~fast & (time < duration)
         growth = 0.85 * (error + 1e-9) ** (-1.0 / ORDER)
         step = lasting * step * np.clip(growth, 0.2, 3.0)
@@ -187,4 +179,4 @@ def _step(
         after = logs + own * change.reshape(logs.shape)
         slow.rates(after, stages[index])
     error = np.abs(RK45.E @ flat).reshape(logs.shape).max(axis=(0, -1))
-    return after, np.nan_to_num(step * error / TOLERANCE, nan=1e9)
+    return after, np.fmin(step * error / TOLERANCE, 1e9)
