@@ -87,7 +87,12 @@ def option(value):
 
 @pytest.mark.parametrize("number", quick(range(NUMBER)))
 def test_one_answer_by_library_and_command(cost, capsys, number):
-    """Each length is finite or has a reason, and is the same however the fault is given."""
+    """Each length is finite or has a reason, and is the same however the fault is given.
+
+    A third of the faults is asked for L, another one for a specimen; what repeats these answers by
+    another door is asked of every twelfth fault.
+    """
+    again = number % 12 == 0
     given, loading = random_fault(number)
     fault = Fault(**given, evolution=("aging", "slip")[number % 2])
     with warnings.catch_warnings(), np.errstate(all="raise"):
@@ -95,19 +100,24 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
         warnings.simplefilter("ignore", UserWarning)
         found = fault.lengths("none" if number % 3 else "normal_load", strength=1e-5)
         assert cost <= MOST
-        runaway = float(fault.runaway_length())
+        if again or number % 3:
+            runaway = float(fault.runaway_length())
+        else:
+            runaway = found["runaway_length"].value
         critical = found["critical_length"].value
         assert float(fault.critical_mode().length) == pytest.approx(critical, nan_ok=True)
-        if critical < LONGEST_SPECIMEN:
+        if number % 3 == 1 and critical < LONGEST_SPECIMEN:
             ends = np.array(fault.specimen("slip_distance", critical).intervals).ravel()
             assert np.isclose(ends, given["slip_distance"], rtol=1e-5).any() or not ends.size
-        stable = float(fault.replace(loading=loading).stability_length())
+        stability = found["stability_length"]
+        stable = stability.value
+        if again or loading == "remote":
+            stable = float(fault.replace(loading=loading).stability_length())
     assert math.isnan(stable) or 0.05 * critical < stable < 1.2 * LONGEST * critical
     assert found["homogeneous_sliding"].value > 0.0
     for answer in found.values():
         assert answer.exists == (answer.status == "value") == (answer.reason == "")
         assert not answer.exists or 0.0 < answer.low <= answer.value <= answer.high
-    stability = found["stability_length"]
     if loading == "edge":
         assert stability.value == pytest.approx(stable, nan_ok=True)
     assert math.isnan(runaway) or runaway > stability.value
@@ -122,7 +132,7 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
         del flat["second_shear_modulus"]
         flat["second_body"] = "rigid"
     words = [w for k, x in flat.items() for w in (f"--{k.replace('_', '-')}", option(x))]
-    perturbed = ["--strength", "1e-5"] if number % 6 == 0 else ["--perturbation", "none"]
+    perturbed = ["--strength", "1e-5"] if number % 12 == 6 else ["--perturbation", "none"]
     code = commands.run(["length", *words, *perturbed, "--json"])
     ended = capsys.readouterr()
     assert code == (0 if found["critical_length"].exists else 3), ended.err

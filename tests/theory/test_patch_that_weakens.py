@@ -1,5 +1,6 @@
 """W_c by theory: an independent route in a period, its limits, and what it must not depend on."""
 
+import functools
 import math
 import re
 from pathlib import Path
@@ -29,6 +30,11 @@ def over_critical(ratio, strengthening, **changed):
     if "outside_a" in fault:
         outside["outside_a"] = fault.pop("outside_a")
     return float(weakening_patch_length(**outside, **fault) / critical_length(**fault))
+
+
+@functools.cache
+def usual():
+    return over_critical(0.5, 0.7, **OTHER, height=0.8)
 
 
 def largest_growth(width, period, number, ratio, strengthening, outside_a, fault):
@@ -140,8 +146,7 @@ def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
     (weakening_patch, "OCTAVES", (-28, 13)),
 ])  # fmt: skip
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
-    weakening_patch.patch_basis.cache_clear()
-    before = over_critical(0.5, 0.7, **OTHER, height=0.8)
+    before = usual()
     weakening_patch.patch_basis.cache_clear()
     monkeypatch.setattr(module, name, value)
     after = over_critical(0.5, 0.7, **OTHER, height=0.8)
