@@ -32,9 +32,7 @@ def over_critical(ratio, strengthening, **changed):
     return float(weakening_patch_length(**outside, **fault) / critical_length(**fault))
 
 
-@functools.cache
-def usual():
-    return over_critical(0.5, 0.7, **OTHER, height=0.8)
+usual = functools.cache(over_critical)
 
 
 def largest_growth(width, period, number, ratio, strengthening, outside_a, fault):
@@ -146,7 +144,7 @@ def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
     (weakening_patch, "OCTAVES", (-28, 13)),
 ])  # fmt: skip
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
-    before = usual()
+    before = usual(0.5, 0.7, **OTHER, height=0.8)
     weakening_patch.patch_basis.cache_clear()
     monkeypatch.setattr(module, name, value)
     after = over_critical(0.5, 0.7, **OTHER, height=0.8)

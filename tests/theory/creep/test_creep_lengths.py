@@ -105,11 +105,8 @@ def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
     law = Friction(law="product", slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
     law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
     run = PAPER_RUN.replaced(height=0.03, **law_values(law))
-    patches = run.patches
-    own, constant = (
-        stability_length_of(one, run.critical_length)
-        for one in (patches, dataclasses.replace(patches, law=None))
-    )
+    critical, patches = run.critical_length, dataclasses.replace(run.patches, law=None)
+    own, constant = (stability_length_of(one, critical) for one in (run.patches, patches))
     assert 1.0 - own / constant == pytest.approx(0.01 * percent, abs=5e-3)
 
 
