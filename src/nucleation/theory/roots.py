@@ -35,16 +35,8 @@ def roots(
         for x, f in ((middle, f_middle), (new, f_new)):
             inside = (left < x) & (x < right)
             lower, upper = inside & (f < 0.0), inside & (f >= 0.0)
-            left, f_left = np.where(
-                lower,
-                (x, f),
-                (left, f_left),
-            )
-            right, f_right = np.where(
-                upper,
-                (x, f),
-                (right, f_right),
-            )
+            left, f_left = np.where(lower, (x, f), (left, f_left))
+            right, f_right = np.where(upper, (x, f), (right, f_right))
         found[index] = new
         on = (np.abs(new - last) > precision) & (f_new != 0.0) & (f_left * f_right < 0.0)
         if not on.any():

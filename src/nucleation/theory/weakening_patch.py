@@ -86,21 +86,9 @@ def patch_basis(number: int) -> _PatchBasis:
     wavenumber = np.concatenate([wavenumber, beyond])
     weights = np.concatenate([weights, share[:, None] * missing])
     # i^(n - m) is real where n - m is even, and i times a real number where it is odd
-    even = np.where(
-        power % 2 == 0,
-        (-1.0) ** (power // 2),
-        0.0,
-    )
-    odd = np.where(
-        power % 2 == 1,
-        (-1.0) ** (power // 2),
-        0.0,
-    )
-    return _PatchBasis(
-        wavenumber,
-        weights * even.ravel(),
-        weights * odd.ravel(),
-    )
+    even = np.where(power % 2 == 0, (-1.0) ** (power // 2), 0.0)
+    odd = np.where(power % 2 == 1, (-1.0) ** (power // 2), 0.0)
+    return _PatchBasis(wavenumber, weights * even.ravel(), weights * odd.ravel())
 
 
 def _octave(number: int, power: int) -> tuple[Array, Array]:
@@ -109,11 +97,7 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
 
     begin, end = 2.0**power, 2.0 ** (power + 1)
     nodes, _ = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
-    edges = np.linspace(
-        begin,
-        end,
-        1 + max(1, round((end - begin) / SPACING)),
-    )
+    edges = np.linspace(begin, end, 1 + max(1, round((end - begin) / SPACING)))
     half = 0.5 * np.diff(edges)[:, None]
     middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
     gauss, share = np.polynomial.legendre.leggauss(GAUSS)  # dense enough for Bessel functions
@@ -155,27 +139,27 @@ class WeakeningPatch(NamedTuple):
 
     def factors(
         self,
-        width: float,
+        elastic: tuple[Array, Array],
         number: int,
         frequency: Array,
     ) -> ComplexArray:
         """Factors of the determinant, (frequencies, number + 1), at frequencies over V/D.
 
+        Load and coupling are those at the wavenumbers of the basis.
         They are its diagonal entries, and the determinant of the matrix with rows divided by these:
         none of them turns much between neighbouring frequencies, while the product of many does.
         """
         basis = patch_basis(number)
-        load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
+        load, coupling = elastic
         rate: ComplexArray = 1j * frequency[:, None].astype(complex)
         within, around = (
             rate * (systems.a * rate - systems.zeta) / (1.0 + rate) for systems in self
         )
         forward = 1.0 / (load * (1.0 - 1j * coupling) + around)
         backward = 1.0 / (load * (1.0 + 1j * coupling) + around)
-        response = (forward + backward) @ basis.even
-        difference = forward - backward
-        if np.any(difference):
-            response = response + 1j * difference @ basis.odd
+        response = _integrated(forward + backward, basis.even)
+        if np.any(coupling):
+            response = response + 1j * _integrated(forward - backward, basis.odd)
         response = response.reshape(-1, number, number)
         matrix = np.eye(number) - (around - within)[:, :, None] * response
         diagonal = np.diagonal(matrix, axis1=1, axis2=2)
@@ -194,22 +178,24 @@ class WeakeningPatch(NamedTuple):
         for systems in self:
             scale += float(np.max(np.abs(systems.zeta / systems.a)))
         frequency = np.geomspace(SLOWEST, FASTEST * scale, FREQUENCIES)
-        found = self.factors(width, number, sign * frequency)
+        elastic = self.inside.load_and_coupling(2.0 * patch_basis(number).wavenumber / width)
+        found = self.factors(elastic, number, sign * frequency)
         for _ in range(HALVINGS):
             turns = np.angle(found[1:] / found[:-1])
             coarse = np.flatnonzero(np.abs(turns).max(axis=1) > TURN)
             if not coarse.size:
                 break
             middle = np.sqrt(frequency[coarse] * frequency[coarse + 1])
-            between = self.factors(width, number, sign * middle)
+            between = self.factors(elastic, number, sign * middle)
             frequency = np.insert(frequency, coarse + 1, middle)
-            found = np.insert(
-                found,
-                coarse + 1,
-                between,
-                axis=0,
-            )
+            found = np.insert(found, coarse + 1, between, axis=0)
         return -sign * float(np.angle(found[1:] / found[:-1]).sum())
+
+
+def _integrated(values: ComplexArray, weights: Array) -> ComplexArray:
+    """Their product, without a complex copy of the weights."""
+    real, imaginary = np.stack([values.real, values.imag]) @ weights
+    return real + 1j * imaginary
 
 
 def smallest_width(patch: WeakeningPatch, critical: float) -> float:
@@ -244,15 +230,7 @@ def weakening_patch_values(
 ) -> Any:
     """W_c (m); plain, in SI units."""
     zeta = checked("outside_zeta", outside_zeta, QUANTITIES["zeta"])
-    a = (
-        fault.a
-        if outside_a is None
-        else checked(
-            "outside_a",
-            outside_a,
-            QUANTITIES["a"],
-        )
-    )
+    a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
     require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
     def widths(

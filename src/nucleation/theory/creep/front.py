@@ -23,12 +23,7 @@ from numpy.typing import ArrayLike
 from ...model.friction import Friction
 from ...types import Array, ComplexArray
 from ..status import BEYOND, NoLength
-from .linearised import (
-    Creep,
-    creeping_patch,
-    edge_slip,
-    local_coefficients,
-)
+from .linearised import Creep, creeping_patch, edge_slip, local_coefficients
 from .patches import Patches, require_contact
 from .response import MORE_MODES, joined, mirror_modes
 
@@ -135,14 +130,7 @@ class Advance:
         speed = self.velocity / (self.by_length * self.distance)
         middle = 0.5 * (speeds[:-1] + speeds[1:])
         along = _followed(law, self._state_ahead(), distances / speed, middle)
-        rows = [
-            np.interp(
-                own.theta,
-                theta,
-                of_length,
-            )
-            for of_length in np.transpose(along)
-        ]
+        rows = [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
         self.log_states = np.array(rows)
         slip_rate = self._slip_rate(own.values)
         self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)
@@ -157,11 +145,7 @@ class Advance:
         log_state = np.full(self.length.size, np.log(self.initial_state))
         ends = np.append(
             0.0,
-            np.geomspace(
-                FIRST_REST,
-                1.0,
-                AT_REST,
-            ),
+            np.geomspace(FIRST_REST, 1.0, AT_REST),
         )
         steps = np.diff(ends)[:, None] * self.time  # which grow as the state does
         return _followed(self.law, log_state, steps, np.full(steps.shape, speed_at_rest))[-1]
@@ -229,11 +213,7 @@ def first_growing(
 
     low, high, pair = _bracket(advanced, critical)
     if np.isfinite(pair).all():
-        log_at = np.interp(
-            0.0,
-            pair,
-            np.log([low, high]),
-        )
+        log_at = np.interp(0.0, pair, np.log([low, high]))
         onset = _vanishing(advanced, float(np.exp(log_at)))
         around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
         before, after = fastest(advanced(around))

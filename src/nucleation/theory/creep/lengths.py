@@ -78,12 +78,7 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[floa
                 f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
                 BEYOND,
             )
-    (log_length,) = roots(
-        growths,
-        np.array([low]),
-        np.array([high]),
-        PRECISION,
-    )
+    (log_length,) = roots(growths, np.array([low]), np.array([high]), PRECISION)
     length = math.exp(log_length)
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]

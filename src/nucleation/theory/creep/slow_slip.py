@@ -100,11 +100,7 @@ class _SlowSlip:
         by_rate, by_state, speed = self._friction(v, logs[1])
         aging = per_state * self.evolve(speed / per_state)
         force = (v - self.steady) @ self.stiffness
-        np.divide(
-            force - by_state * aging,
-            by_rate,
-            out=out[0],
-        )
+        np.divide(force - by_state * aging, by_rate, out=out[0])
         np.negative(aging, out=out[1])
 
     def _friction(
