@@ -1,5 +1,6 @@
 """Does a weakening patch creep, slip slowly or nucleate; and the process zone."""
 
+import functools
 import math
 
 import pytest
@@ -34,10 +35,15 @@ def patch(row, **changed):
     return fault, outside
 
 
+@functools.cache
+def smallest_width(items):
+    return float(weakening_patch_length(**dict(items)))
+
+
 def told(fault, outside, ratio):
     """The outcome of a patch by its W/W_c."""
-    smallest = float(weakening_patch_length(**outside, **fault))
-    return patch_answer(Fault(**fault), **outside, width=ratio * smallest)["outcome"]
+    width = ratio * smallest_width(frozenset((fault | outside).items()))
+    return patch_answer(Fault(**fault), **outside, width=width)["outcome"]
 
 
 @pytest.mark.parametrize("row", simulated()[::4])

@@ -102,7 +102,7 @@ def assert_smooth(values):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("bodies", BODIES)
-@pytest.mark.parametrize("height", [0.003, 0.3, 30.0, np.inf])
+@pytest.mark.parametrize("height", [0.003, 0.3, np.inf])
 def test_continuous_in_weakening(bodies, height):
     """From zeta/a = .3 to 1000, in layers that are thin to thick, and half-spaces."""
     if bodies == "pushed top" and height < 1.0:

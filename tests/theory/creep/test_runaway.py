@@ -25,7 +25,6 @@ THIN = {
     "slip_distance": 5e-7, "second_shear_modulus": math.inf, "height": 1e-5, "friction": 0.0,
 }  # fmt: skip
 HALF_SPACES = {"second_shear_modulus": None, "height": math.inf, "friction": 0.41}
-PAIR = {"second_shear_modulus": None, "height": 0.02, "friction": 0.41}
 MOST_STEPS = 25_000  # of 40 patches at once: one to two seconds
 
 
@@ -34,7 +33,7 @@ def of_weakening(ratio, **changed):
 
 
 BODIES = {
-    "thin": {}, "pair": PAIR, "half-spaces": HALF_SPACES,
+    "thin": {}, "pair": HALF_SPACES | {"height": 0.02}, "half-spaces": HALF_SPACES,
     "half-spaces-slip": HALF_SPACES | {"evolution": "slip"},
 }  # fmt: skip
 
@@ -90,7 +89,7 @@ def runs_away_by_differences(ratio, length, nodes=60, duration=1500.0):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "length"),
-    [(0.2, 1.49), (0.3, 1.27), (0.5, 1.045), (0.8, 0.873), (1.5, 0.717)],
+    [(0.2, 1.49), (0.5, 1.045), (1.5, 0.717)],
 )
 def test_thin_limit_by_two_routes(ratio, length):
     """Modes of a layer, explicitly; and finite differences of the strip, implicitly."""
