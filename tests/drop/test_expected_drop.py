@@ -14,21 +14,10 @@ from nucleation.theory.status import NoLength
 
 THEORY = 0.4509  # m
 FAULT = PAPER_RUN.replaced(height=0.02, block_length=2.7, perturbation="normal_load", strength=1e-5)
-GRANITE = PAPER_RUN.replaced(
-    shear_modulus=3e10,
-    poisson_ratio=0.25,
-    density=2700.0,
-    slip_distance=2e-6,
-    friction=0.65,
-    a=0.008,
-    zeta=0.004,
-    normal_stress=5e6,
-    velocity=1e-6,
-    height=1.0,
-    block_length=60.0,
-    perturbation="normal_load",
-    strength=1e-5,
-)
+GRANITE = FAULT.replaced(
+    shear_modulus=3e10, poisson_ratio=0.25, density=2700.0, slip_distance=2e-6, friction=0.65,
+    a=0.008, zeta=0.004, normal_stress=5e6, velocity=1e-6, height=1.0, block_length=60.0,
+)  # fmt: skip
 
 
 def test_drop_follows_loss_of_stability():

@@ -129,14 +129,9 @@ def test_condensed_stiffness_converges_to_the_theory():
     errors, k, height = [], 2.0 * np.pi / 0.4, 0.1
     for n in (20, 40, 80):
         parameters = PAPER_RUN.replaced(
-            plane="antiplane",
-            height=height,
-            block_length=0.4,
-            n_x=2 * n + 1,
-            n_y=n,
-            loading="remote",
-            stress_rate=1.0,
-        )
+            plane="antiplane", height=height, block_length=0.4, n_x=2 * n + 1, n_y=n,
+            loading="remote", stress_rate=1.0,
+        )  # fmt: skip
         body = body_of(parameters)
         tangential, normal = Operator(body, 0.0).tangent(np.arange(1, 2 * n + 2))
         slip = np.cos(k * body.grid.dx * np.arange(2 * n + 1))
@@ -148,16 +143,9 @@ def test_condensed_stiffness_converges_to_the_theory():
 
 
 RUN = PAPER_RUN.replaced(
-    plane="antiplane",
-    height=0.02,
-    block_length=0.8,
-    n_x=320,
-    n_y=8,
-    end_time=60.0,
-    time_after_event=0.1,
-    perturbation="normal_load",
-    strength=1e-4,
-)
+    plane="antiplane", height=0.02, block_length=0.8, n_x=320, n_y=8, end_time=60.0,
+    time_after_event=0.1, perturbation="normal_load", strength=1e-4,
+)  # fmt: skip
 
 
 @pytest.mark.slow

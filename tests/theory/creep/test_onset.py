@@ -14,8 +14,7 @@ from nucleation.run.run import PAPER_RUN
 from nucleation.theory.creep import front, lengths
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import largest_crossings
-from nucleation.theory.evaluation import evaluate
+from nucleation.theory.evaluation import single_system
 from nucleation.theory.status import NoLength
 
 DIRECT = 1e-4  # a of the faults below
@@ -41,14 +40,8 @@ def fault(ratio, height, bodies, friction=0.5):
 
 def patches_of(parameters):
     """The patches of one fault, and its L_c (m)."""
-    found = []
-
-    def note(systems):
-        found.append((Patches(systems), 2.0 * np.pi / float(largest_crossings(systems)[0])))
-        return systems.a
-
-    evaluate(Fault(**parameters), note)
-    return found[0]
+    own = Fault(**parameters)
+    return Patches(single_system(own)), float(own.critical_length())
 
 
 def ratio_of(parameters):
