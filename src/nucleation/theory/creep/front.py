@@ -74,11 +74,12 @@ class Advance:
         self.modes = mirror_modes(number)
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
         self.length = length = np.atleast_1d(np.asarray(lengths, dtype=float))
-        before, self.bodies, after = (
+        bodies = [
             [patches.response(one, number) for one in length * np.exp(step)]
             for step in (-STEP, 0.0, STEP)
-        )
-        self.responses = list(map(joined, (before, self.bodies, after)))
+        ]
+        self.bodies = bodies[1]
+        self.responses = list(map(joined, bodies))
         steady_friction = self.law.expansion(self.velocity).f0
         self.friction = np.full((length.size, number), steady_friction)
         self.log_states = np.zeros_like(self.friction)

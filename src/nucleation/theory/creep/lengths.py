@@ -39,7 +39,7 @@ LARGEST_ERROR = 1e-3  # relative, of L_s, beyond which there are twice as many m
 NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 
 
-@lru_cache(maxsize=4)  # L_run and L need it of the same patches
+@lru_cache(maxsize=4)  # L_run and L need that of the same fault
 def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
     """L_s (m) of one fault with L_c (m) or NaN, and its relative error.
 
@@ -99,7 +99,7 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[floa
 def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """L_s (m), its relative error, its status and the reason for it.
 
-    A ParameterError if the friction law is not allowed with the loading, or lacks a constant.
+    A ParameterError if the friction law is not allowed with the loading.
     """
     law = fault.friction_law
     if law is not None and fault.loading != "edge":
@@ -107,12 +107,10 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
             f"friction_law is not allowed with loading = {fault.loading}: there the slip rate is "
             "not V, and a and b are constant"
         )
-    if law is not None and (fault.velocity is None or fault.friction is None):
-        raise ParameterError("a friction law needs the fault's velocity and friction")
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
     def answer(one: Systems, critical: float, *at: float) -> tuple[Any, ...]:
-        patches = Patches(one, loading=fault.loading)
+        patches = Patches(one, loading=fault.loading, evolution=fault.evolution)
         if law is not None:
             patches = patches.with_law(fault, *at)
         return *stability_point(patches, critical), VALUE, ""

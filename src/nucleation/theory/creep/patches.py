@@ -21,7 +21,7 @@ from .linearised import (
 from .response import PatchResponse, SlimLayers, modes_for, response
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
+@dataclasses.dataclass(frozen=True)
 class Patches:
     """The creeping patches of one fault, of any length.
 
@@ -38,10 +38,11 @@ class Patches:
     evolution: str = "aging"  # of the state, with constant a and b; a law has its own
     refinement: int = 1  # times the usual number of modes
     _slim: SlimLayers = dataclasses.field(
-        default_factory=dict,
-        init=False,
-        repr=False,
+        default_factory=dict, init=False, repr=False, compare=False
     )
+
+    def __hash__(self) -> int:
+        return hash(self.constants)
 
     @cached_property
     def number(self) -> int:

@@ -196,7 +196,7 @@ def runaway_of(patches: Patches, critical: float) -> Runaway:
             reason = f"it is computed for zeta/a < {WEAK:g}: zeta/a = {zeta / a:.3g}"
             raise NoLength(reason, UNKNOWN)
         if patches.law is not None:
-            constant = dataclasses.replace(patches, law=None)
+            constant = dataclasses.replace(patches, law=None, velocity=1.0)
             own, usual = (stability_length_of(one, critical) for one in (patches, constant))
             if abs(own / usual - 1.0) < CONSTANT:
                 patches = constant
