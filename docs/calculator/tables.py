@@ -19,8 +19,11 @@ FAULT = {"shear_modulus": 1e9, "normal_stress": 1e6, "b": B, "slip_distance": 1e
 FRICTION_LENGTH = 0.05  # mu D/(b sigma0) of this fault (m)
 
 
-def layers(place, weakening, nu, **more):
-    """L_s over L_c of layers; the place from -1 to 1 is that of a height from 0 to infinity."""
+def layers(place, weakening, nu=0.25, **more):
+    """L_s over L_c of layers; the place from -1 to 1 is that of a height from 0 to infinity.
+
+    Of layers that are alike it does not depend on nu.
+    """
     height = CENTRE * ((1.0 + place) / (1.0 - place)) ** (1.0 / POWER)
     fault = Fault(
         **FAULT,
@@ -74,12 +77,12 @@ def page():
     on_layers = {
         "place": tuple((places - 1.0) / (places + 1.0)),
         "zeta_over_a": WEAKENING,
-        "nu": POISSON,
     }
+    on_base = on_layers | {"nu": POISSON, "f": (0.0, 1.0)}
     spaces = {"zeta_over_a": WEAKENING, "coupling": (-0.5, 0.5)}
     tables = {
-        "rigid_base": tabulate(rigid_base, on_layers | {"f": (0.0, 1.0)}, (16, 6, 3, 3)),
-        "identical_layers": tabulate(layers, on_layers, (16, 6, 3)),
+        "rigid_base": tabulate(rigid_base, on_base, (16, 6, 3, 3)),
+        "identical_layers": tabulate(layers, on_layers, (16, 6)),
         "half_spaces": tabulate(half_spaces, spaces, (6, 9)),
     }
     axis = {"heights": HEIGHTS, "centre": CENTRE, "power": POWER}
