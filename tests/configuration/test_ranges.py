@@ -69,14 +69,14 @@ def refused_or_made(config):
 
 
 @pytest.mark.parametrize("key", ["height", "evolution", "n_x", "initial_state", "defaults"])
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(value=FORMS)
 def test_forms_of_what_a_run_gives(key, value):
     refused_or_made({"studies": {"s": {"runs": [{"density": 1.0, key: value}]}}})
 
 
 @pytest.mark.parametrize("key", ["results", "curves", "studies", "friction"])
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(value=FORMS)
 def test_forms_of_sections(key, value):
     refused_or_made({"studies": {"s": {"runs": [{"height": 1.0}]}}, key: value})

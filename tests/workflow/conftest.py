@@ -7,7 +7,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -45,17 +47,20 @@ class Workflow:
             "--directory", str(self.directory), "--configfile", str(self.config),
         ]  # fmt: skip
 
-    def start(self, *arguments: str) -> subprocess.Popen:
-        """Start snakemake, which leads a group of processes; its output comes from ``stdout``."""
-        return subprocess.Popen(
+    def start(self, *arguments: str, until: Callable = lambda: True) -> subprocess.Popen:
+        """Start snakemake, which leads a group of processes, and wait for a moment in its run.
+
+        Its output comes from ``stdout``.
+        """
+        process = subprocess.Popen(
             [sys.executable, "-m", "snakemake", *self.arguments(*arguments)],
-            cwd=self.checkout,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
+            cwd=self.checkout, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+        while not until():
+            time.sleep(0.02)
+            assert process.poll() is None
+        return process
 
     def __call__(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run snakemake; its whole output is in ``stdout``."""

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import shutil
-import time
 
 import pandas as pd
 import psutil
@@ -142,12 +141,12 @@ def test_a_run_of_two_studies_is_made_once(workflow):
     """By the batch or by its own job, whichever comes first; the other takes it."""
     values = configuration(3)
     values["studies"]["alone"] = values["studies"]["many"] | {"runs_per_job": 1}
-    values["studies"]["alone"]["runs"] = [{"height": [HEIGHTS[0], 0.06]}]
+    values["studies"]["alone"]["runs"] = [{"height": HEIGHTS[0]}]
     both = workflow.configured(values)
-    assert both.planned("lengths").items() >= {"simulate": 2, "simulate_and_measure": 1}.items()
+    assert both.planned("lengths").items() >= {"simulate": 1, "simulate_and_measure": 1}.items()
     done = both("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
-    assert begun(both) == len(datasets(both)) == 4
+    assert begun(both) == len(datasets(both)) == 3
     assert both("results/figures/study_alone.png").returncode == 0
     checked = both("check")
     assert checked.returncode == 0, "both names of the run are the configuration's"
@@ -167,10 +166,7 @@ def test_runs_that_fail_do_not_take_the_others_with_them(workflow, study_name):
 def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
     """And is, once run again, as one that nothing happened to."""
     slow = workflow.configured(configuration(3))
-    process = slow.start("lengths", "--cores", "1")
-    while not datasets(slow):
-        time.sleep(0.02)
-        assert process.poll() is None
+    process = slow.start("lengths", "--cores", "1", until=lambda: datasets(slow))
     for child in psutil.Process(process.pid).children(recursive=True):
         with contextlib.suppress(psutil.Error):
             child.kill()
@@ -192,10 +188,7 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     values["studies"]["many"]["defaults"] = SHORT | {"tolerance": 1e-4, "end_time": 4.0}
     slow = workflow.configured(values)
     two = ("--cores", "2", "--set-threads", "simulate_and_measure=2")
-    process = slow.start("lengths", *two)
-    while begun(slow) < 2:
-        time.sleep(0.02)
-        assert process.poll() is None
+    process = slow.start("lengths", *two, until=lambda: begun(slow) == 2)
     for child in psutil.Process(process.pid).children(recursive=True):
         if "replication.pipeline.job" in child.cmdline():
             child.terminate()
@@ -211,13 +204,8 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     assert whole("lengths", "--cores", "1").returncode == 0
     for name, path in datasets(slow).items():
         (other,) = (slow.directory / "whole" / "store").glob(f"{path.parent.name}/result.nc")
-        ours, theirs = netcdf.read(path), netcdf.read(other)
-        cost = ["wall_seconds", "peak_megabytes"]
-        assert (
-            ours.drop_vars(cost, errors="ignore")
-            .drop_attrs()
-            .identical(theirs.drop_vars(cost, errors="ignore").drop_attrs())
-        ), name
+        ours, theirs = (netcdf.read(file).drop_attrs() for file in (path, other))
+        assert ours.identical(theirs), name
 
 
 def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):

@@ -35,17 +35,24 @@ module nucleation:
 use rule * from nucleation as fault_*
 """
 
-STUDY = {"defaults": {"n_x": 40, "n_y": 4}, "runs": [{"height": [0.05, 0.1]}]}
+STUDY = {"defaults": {"n_x": 40, "n_y": 4, "end_time": 0.2}, "runs": [{"height": 0.05}]}
+
+
+def hosted(workflow, snakefile):
+    """A workflow of somebody's own, with a profile of its own: Snakemake waits for ours' 10 s."""
+    place = workflow.directory
+    (place / "Snakefile").write_text(snakefile)
+    (place / "profiles/default").mkdir(parents=True)
+    (place / "profiles/default/config.yaml").write_text("cores: 2\n")
+    configure(place, 1)
+    return dataclasses.replace(workflow, checkout=place, config=place / "mine.yaml")
 
 
 @pytest.fixture
 def host(workflow, tmp_path):
-    """A workflow of somebody's own, with what it makes made once."""
-    (tmp_path / "Snakefile").write_text(MODULE.join(OWN.split("\n\n", 1)))
-    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
+    """What a host makes, made once."""
     (tmp_path / "in.txt").write_text("a\n")
-    configure(tmp_path, 1)
-    made = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    made = hosted(workflow, MODULE.join(OWN.split("\n\n", 1)))
     done = made()
     assert done.returncode == 0, done.stdout
     assert "Nothing to be done" in made("--dry-run").stdout
@@ -85,13 +92,10 @@ rule count:
     output: "count.txt"
     shell: "wc -l < {{input}} > {{output}}"
 """
-    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{module}{count}')
-    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
-    configure(tmp_path, 1)
-    host = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    host = hosted(workflow, f'configfile: "mine.yaml"\n{module}{count}')
     done = host()
     assert done.returncode == 0, done.stdout
-    assert (tmp_path / "count.txt").read_text() == "3\n"  # with the head
+    assert (tmp_path / "count.txt").read_text() == "2\n"  # with the head
     assert "Nothing to be done" in host().stdout
     shown = [path.relative_to(tmp_path) for path in tmp_path.rglob("lengths.csv")]
     assert [str(path) for path in shown] == [file]
@@ -100,12 +104,8 @@ rule count:
     assert "All is current" in host("fault_check").stdout
 
 
-def test_paths_that_are_replaced_are_refused(workflow, tmp_path):
+def test_paths_that_are_replaced_are_refused(workflow):
     module = MODULE.replace("\n\nuse", '\n    replace_prefix: {"results/": "r/"}\n\nuse')
     every = '\nrule every:\n    default_target: True\n    input: "r/lengths.csv"\n'
-    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{module}{every}')
-    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
-    configure(tmp_path, 1)
-    other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
-    done = other("--dry-run")
+    done = hosted(workflow, f'configfile: "mine.yaml"\n{module}{every}')("--dry-run")
     assert done.returncode != 0 and "use prefix, not replace_prefix" in done.stdout

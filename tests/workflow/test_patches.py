@@ -14,7 +14,7 @@ TARGET = "patch_convergence"
 
 def configuration(study_name, heights):
     study = QUICK["studies"]["converged"] | {"runs": [{"evolution": "aging", "height": heights}]}
-    study["defaults"] = study["defaults"] | {"time_after_event": 0.0, "n_x": 80, "n_y": 6}
+    study["defaults"] = study["defaults"] | {"time_after_event": 0.0, "n_x": 40, "n_y": 4}
     return {**QUICK, "studies": {study_name: study}}
 
 

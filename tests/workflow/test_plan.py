@@ -40,11 +40,8 @@ def test_default_target_is_the_whole_paper(paper):
     ("target", "expected"),
     [
         ("figure_1 table_s1", {"figure_1": 1, "table_s1": 1}),
-        ("figure_2 figure_s1", {"theory": 1, "figure_2": 1, "figure_s1": 1}),
         ("simulations", {"simulate": 6}),
-        ("lengths", {"simulate": 6, "extract": 2, "lengths": 1}),
-        ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "lengths": 1,
-                      "figure_3": 1}),
+        ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "lengths": 1, "figure_3": 1}),
         ("figure_s2", {"simulate": 5, "extract": 1, "figure_s2": 1}),
         ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
                     "claims": 1}),

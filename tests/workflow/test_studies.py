@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from nucleation.datasets import netcdf
+from nucleation.fault.files import read_yaml
 from replication.tables.ratios import REFINEMENT
 
 TARGET = "convergence"
@@ -14,7 +15,10 @@ TARGET = "convergence"
 
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory, workflow_type):
+    quick = read_yaml(workflow_type.config)
+    study = quick["studies"]["convergence_x"] | {"runs": [{"height": 0.1, "n_x": [40, 60]}]}
     made = workflow_type(tmp_path_factory.mktemp("studies"))
+    made = made.configured({**quick, "studies": {"convergence_x": study}})
     done = made(TARGET)
     assert done.returncode == 0, done.stdout
     return made

@@ -6,7 +6,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -18,27 +17,19 @@ from replication.pipeline.planning import Plan
 TABLE = "results/quick/tables/table_s1.csv"
 
 
-def wait_for(condition, process):
-    while not condition():
-        time.sleep(0.05)
-        assert process.poll() is None
-
-
 def test_a_dry_run_with_other_values_changes_no_build(workflow):
     """It plans the same files while the build waits between its first job and the second."""
     other = {**read_yaml(workflow.config), "friction": {"aging_coefficient": 0.085}}
-    build = workflow.start("results/quick/theory.nc", TABLE, "--cores", "1")
-    wait_for((workflow.directory / "results/quick/logs/theory.log").exists, build)
+    log = workflow.directory / "results/quick/logs/theory.log"
+    build = workflow.start("results/quick/theory.nc", TABLE, "--cores", "1", until=log.exists)
     build.send_signal(signal.SIGSTOP)
     planned = workflow.configured(other)(TABLE, "--dry-run", "--nolock")
     build.send_signal(signal.SIGCONT)
     printed, _ = build.communicate(timeout=300)
     assert build.returncode == 0 and "table_s1" in planned.stdout, printed
     text = (workflow.directory / TABLE).read_text()
-    assert (
-        "0.085" not in text
-        and "5/18" in (workflow.directory / TABLE).with_suffix(".md").read_text()
-    )
+    assert "0.085" not in text
+    assert "5/18" in (workflow.directory / TABLE).with_suffix(".md").read_text()
     assert workflow.planned("table_s1") == {}
     assert workflow.configured(other).planned("table_s1") == {"table_s1": 1}
 
@@ -97,9 +88,9 @@ def test_a_storage_is_refused_in_one_sentence():
 
 
 def test_ctrl_c_ends_with_one_line_and_check_too(workflow):
-    build = workflow.start("simulations", "--cores", "1")
     logs = workflow.directory / "results/quick/logs/batches"
-    wait_for(lambda: any("step 0:" in log.read_text() for log in logs.glob("*.log")), build)
+    begun = lambda: any("step 0:" in log.read_text() for log in logs.glob("*.log"))  # noqa: E731
+    build = workflow.start("simulations", "--cores", "1", until=begun)
     os.killpg(build.pid, signal.SIGINT)
     printed, _ = build.communicate(timeout=300)
     assert build.returncode != 0 and printed.count("Stopped by Ctrl-C") == 1

@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 
-RUN = {"height": [0.05, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
+RUN = {"height": [0.05, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1, "longest_step": 0.5}
 FILES = ("lengths.csv", "lengths.nc", "lengths/s.csv", "figures/study_s.png", "figures/study_s.pdf")
 SAME = "made again: the same as in the store, which is kept"
 RULES = {"simulate", "extract", "lengths", "draw_study"}
@@ -15,11 +15,14 @@ RULES = {"simulate", "extract", "lengths", "draw_study"}
 @pytest.fixture(scope="module")
 def built(workflow_type, tmp_path_factory):
     """A study of two runs with its lengths and its figure."""
-    made = workflow_type(tmp_path_factory.mktemp("switches"))
-    made = made.configured({"studies": {"s": {"runs": [RUN]}}})
-    done = made()
-    assert done.returncode == 0, done.stdout
+    made = configured(workflow_type(tmp_path_factory.mktemp("switches")), RUN)
+    printed(made)
     return made
+
+
+def configured(made, run):
+    study = {"length_over_critical": 2.0, "defaults": {"time_after_event": 0.0}, "runs": [run]}
+    return made.configured({"studies": {"s": study}})
 
 
 @pytest.fixture
@@ -103,7 +106,7 @@ def test_threads_of_a_rule_can_be_set(fresh):
 def test_a_dry_run_changes_no_visible_file(copied):
     listed = {path: path.lstat().st_mtime_ns for path in copied.directory.glob("results/*/*")}
     assert "Nothing to be done" in printed(copied, "--dry-run")
-    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    changed = configured(copied, {**RUN, "tolerance": 0.2})
     assert changed.planned("lengths")["simulate"] == 2
     for path, time in listed.items():
         assert path.lstat().st_mtime_ns == time or {"logs", "store"} & {*path.parts}
@@ -114,7 +117,7 @@ def test_a_run_beside_another_one_changes_nothing(copied):
     locks = copied.directory / ".snakemake" / "locks"
     locks.mkdir(exist_ok=True)
     (locks / "0.output.lock").write_text("results/lengths.csv\n")
-    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    changed = configured(copied, {**RUN, "tolerance": 0.2})
     done = changed("lengths")
     assert done.returncode != 0 and "cannot be locked" in done.stdout
     assert all((copied.directory / "results" / name).is_file() for name in FILES)
@@ -130,7 +133,7 @@ def test_touch_makes_nothing_stale_or_current(copied, lost):
         shutil.rmtree(copied.directory / ".snakemake")
     printed(copied, "--touch")
     assert copied.planned() == {}
-    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    changed = configured(copied, {**RUN, "tolerance": 0.2})
     changed("--touch")
     assert changed.planned("lengths")["simulate"] == 2
 
