@@ -95,14 +95,7 @@ def expected_drop(
     if known.slips_slowly:
         doubts = [*_doubts_of_runaway(patches)]
     else:
-        doubts = [
-            *_doubts_of_law(
-                history,
-                known.law,
-                known.closed_form,
-                critical,
-            )
-        ]
+        doubts = [*_doubts_of_law(history, known.law, known.closed_form, critical)]
     if runaway.status != VALUE and known.weak:
         doubts.append(
             f"the patch may slip slowly beyond this length, since L_run is not known: "

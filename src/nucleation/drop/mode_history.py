@@ -19,6 +19,7 @@ changes growth by some 0.2 1/s, where Re Lambda reaches 3 1/s.
 """
 
 import dataclasses
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +58,7 @@ class ModeHistory:
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each place
 
 
+@lru_cache(maxsize=4)  # which perturbations of one fault share
 def mode_history(
     patches: Patches,
     critical_length: float,
@@ -86,16 +88,7 @@ def mode_history(
             "long enough around it to determine its growth"
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
-    rows = [
-        _weights(
-            patches,
-            found,
-            int(i),
-            complex(rates[i]),
-            x,
-        )
-        for i in known
-    ]
+    rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
     columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
     load, drive, strength, state = columns
     memory = patches.memory
@@ -188,12 +181,7 @@ def _weights(
 
     def along_x(weights: ComplexArray) -> ComplexArray:
         density = weights / spacing
-        along = np.interp(
-            x,
-            position[::-1],
-            density[::-1],
-            right=0.0,
-        )
+        along = np.interp(x, position[::-1], density[::-1], right=0.0)
         return along * (x[1] - x[0])
 
     load = complex(by_force @ friction.friction)

@@ -70,13 +70,7 @@ class Patches:
 
     def response(self, length: float, number: int) -> PatchResponse:
         """The bodies' response to slip of a patch (m) in a number of modes."""
-        return response(
-            self.one,
-            length,
-            number,
-            self.loading,
-            self._slim,
-        )
+        return response(self.one, length, number, self.loading, self._slim)
 
     def creep(
         self,
@@ -100,11 +94,7 @@ class Patches:
         if self.law is None:
             friction = constant_coefficients(creep.slip_rate, *self.constants)
         else:
-            friction = local_coefficients(
-                self.law,
-                self.velocity * creep.fastest,
-                creep.slip_rate,
-            )
+            friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
         return creeping_patch(creep, friction)
 
 

@@ -100,11 +100,7 @@ def mirror_modes(number: int, even: bool = False) -> MirrorModes:
     angles = np.outer(theta, orders)
     values = np.sin(angles)
     values[:, 0] = 0.0 if even else 2.0 * theta / np.pi
-    weights = np.where(
-        n == 0,
-        0.0 if even else 2.0 / np.pi,
-        orders,
-    )
+    weights = np.where(n == 0, 0.0 if even else 2.0 / np.pi, orders)
     return MirrorModes(
         theta=theta,
         values=values,

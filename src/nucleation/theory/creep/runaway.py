@@ -15,6 +15,7 @@ strain energy released by a patch equals the fracture energy of its front.
 import contextlib
 import dataclasses
 import math
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -182,6 +183,7 @@ class Runaway(NamedTuple):
     reason: str
 
 
+@lru_cache(maxsize=4)  # L needs it of each perturbation
 def runaway_of(patches: Patches, critical: float) -> Runaway:
     """L_run of one fault with L_c (m) whose friction weakens little.
 
