@@ -24,10 +24,11 @@ LAZY = """
 from replication.configuration import load
 load.load(lazy=True).runs_for("paper", "converged", "long_blocks")
 """
-COMMAND = """
+COMMANDS = """
 from nucleation.commands import run
-code = run("{words}".split())
-assert code in (0, None), code
+for words in {}:
+    code = run(words.split())
+    assert code in (0, None), code
 """
 LENGTHS = """
 from nucleation import api
@@ -46,20 +47,16 @@ HALF_SPACES = (
     "--slip-distance=5um"
 )
 DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
+PLAIN = ["--help", "simulate --help", DRY_RUN]
 NEEDED_LATER = {
     "theory": (LENGTHS, (*SOLVER, *HEAVY, "scipy", "pandas")),
     "configuration": (CONFIGURATION, (*SOLVER, *HEAVY)),
     "planning": (LAZY, (*SOLVER, *HEAVY, *SCIENCE)),
-    "help": (COMMAND.format(words="--help"), (*SOLVER, *HEAVY)),
-    "help of simulate": (COMMAND.format(words="simulate --help"), (*SOLVER, *HEAVY)),
-    "help of length": (COMMAND.format(words="length --help"), SOLVER),  # it knows named dimensions
-    "length": (COMMAND.format(words=HALF_SPACES), (*SOLVER, *HEAVY, "scipy")),
-    "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
+    "help and dry run": (COMMANDS.format(PLAIN), (*SOLVER, *HEAVY)),
+    "help of length": (COMMANDS.format(["length --help"]), SOLVER),  # it knows named dimensions
+    "length": (COMMANDS.format([HALF_SPACES]), (*SOLVER, *HEAVY, "scipy")),
     "plan": (PLAN.format(root=ROOT), COMPILED),
-    "reading and drawing": (
-        "import replication.tables.lengths, replication.figures.figure_3",
-        COMPILED,
-    ),
+    "drawing": ("import replication.tables.lengths, replication.figures.figure_3", COMPILED),
 }
 """Codes, and modules that they need not load."""
 

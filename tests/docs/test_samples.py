@@ -77,8 +77,6 @@ RULES = {
     "nucleation": command_line,
     ".venv/bin/python": module,
 }
-
-
 PLANNED = ("make", ".venv/bin/snakemake")  # by test_targets
 
 
