@@ -56,7 +56,7 @@ def usual(ratio, bodies="thin"):
         return *over_critical(ratio, bodies), len(steps)
 
 
-def runs_away_by_differences(ratio, length, nodes=60, duration=1500.0):
+def runs_away_by_differences(ratio, length, nodes=40, duration=1500.0):
     """The thin strip by central differences: ``a v'/v + b phi'/phi = c (v - v_c)''``, v_c linear.
 
     `length` over L_c; with b phi'/phi of the aging law. ``(zeta/a) lambda = 4 pi^2`` at L_c.
