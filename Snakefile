@@ -113,7 +113,7 @@ EVOLUTIONS = sorted(
 """Code of the paper's law with either evolution, for rules that compute with both."""
 
 EARLY = 3
-"""Priority of rules that need no simulation, or that verdicts wait for; simulations have less."""
+"""Priority of rules that need no simulation: they run while the first job compiles for all others."""
 
 PYTHON = 'exec "$NUCLEATION_PYTHON" -P'  # no module of the working directory runs
 JOB = f"{PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"

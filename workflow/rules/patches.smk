@@ -9,7 +9,7 @@ rule follow_patches:
         f"{RESULTS}/patches/{{study}}.json",
     log:
         f"{RESULTS}/logs/patches/{{study}}.log",
-    priority: EARLY
+    priority: 1
     threads: 2
     params:
         makes=lambda wildcards: patches(wildcards.study),

@@ -92,7 +92,7 @@ rule extract:
         multiext(f"{RESULTS}/lengths/{{study,{one_of(EXTRACTED)}}}", ".csv", ".nc"),
     log:
         f"{RESULTS}/logs/lengths/{{study}}.log",
-    priority: EARLY
+    priority: 1
     params:
         call="replication.tables.lengths:of_study",
         reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
