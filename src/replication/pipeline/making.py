@@ -106,34 +106,26 @@ class _Maker:
         them once all were tried.
         """
         missing = [self.forced or not part.is_in(self.store) for part in parts]
-        to_compute = sum(missing)
-        number_computed = multiprocessing.Value("i", 0)  # of all processes, failed ones too
+        to_compute = multiprocessing.Value("i", sum(missing))  # by all processes
         began = time.monotonic()
-
-        def progress(number: int) -> None:
-            """Log the runs done, and the time left if one was computed just now."""
-            if not missing[number]:
-                return
-            with number_computed:
-                number_computed.value += 1
-                computed = number_computed.value
-            rest = to_compute - computed
-            if rest:
-                left = (time.monotonic() - began) / computed * rest
-                text = f"{len(parts) - rest} of {len(parts)} runs done, about {left:.0f} s left"
-                LOGGER.log(PROGRESS, text)
 
         def one(number: int) -> tuple[str, Any]:
             """Why a part has failed, and the value of the function if it has not."""
+            failure = ""
             try:
                 result = self.result(parts[number])
+                parts[number].show()
             except _PartFailed as error:
                 LOGGER.info(error)
-                progress(number)
-                return str(error), None
-            parts[number].show()
-            progress(number)
-            return "", function(number, result)
+                failure = str(error)
+            with to_compute:
+                to_compute.value -= missing[number]
+                rest = to_compute.value
+            if missing[number] and rest:
+                left = (time.monotonic() - began) / (sum(missing) - rest) * rest
+                text = f"{len(parts) - rest} of {len(parts)} runs done, about {left:.0f} s left"
+                LOGGER.log(PROGRESS, text)
+            return failure, None if failure else function(number, result)
 
         names = [part.name for part in parts]
         made = side_by_side(one, names, cores)

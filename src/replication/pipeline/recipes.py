@@ -122,10 +122,7 @@ class Recipe:
         return dict.fromkeys(self.files, text)
 
     def show(self) -> None:
-        """Lay links to the result, or copies; for a batch write the list of its parts' keys.
-
-        They have the result's time: Snakemake makes again what is older than its inputs.
-        """
+        """Lay links to the result, or copies; for a batch write the list of its parts' keys."""
         newest = max(time_of(one.stored(one.files[0])) for one in self.needed)
         for name, wanted in self.expected().items():
             file = Path(name)
@@ -139,6 +136,7 @@ class Recipe:
                     shutil.copyfile(wanted, new)
             else:
                 new.write_text(wanted, "utf-8")
+            # Snakemake makes again what is older than its inputs
             os.utime(new, (newest, newest), follow_symlinks=False)
             new.replace(file)
 
