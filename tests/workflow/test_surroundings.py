@@ -89,7 +89,10 @@ def test_a_storage_is_refused_in_one_sentence():
 
 def test_ctrl_c_ends_with_one_line_and_check_too(workflow):
     logs = workflow.directory / "results/quick/logs/batches"
-    begun = lambda: any("step 0:" in log.read_text() for log in logs.glob("*.log"))  # noqa: E731
+
+    def begun():
+        return any("step 0:" in log.read_text() for log in logs.glob("*.log"))
+
     build = workflow.start("simulations", "--cores", "1", until=begun)
     os.killpg(build.pid, signal.SIGINT)
     printed, _ = build.communicate(timeout=300)

@@ -225,7 +225,7 @@ def wright_omega(z):
 
     Fritsch, Shafer & Crowley's fourth-order iteration (Comm. ACM 16, 123, 1973) on whole arrays.
     It starts from a rational function of exp(z), continued by a straight line for z > 0. numba
-    compiles this in place of scipy's function.
+    compiles this in place of the function of the same name that laws import.
     """
     z = np.maximum(z, -700.0)
     below = np.minimum(z, 0.0)

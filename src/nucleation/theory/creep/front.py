@@ -144,10 +144,7 @@ class Advance:
         """log(phi) of the interface that has aged at rest until the front reaches it, (n,)."""
         speed_at_rest = self.law.slip_speed(0.0) / self.distance
         log_state = np.full(self.length.size, np.log(self.initial_state))
-        ends = np.append(
-            0.0,
-            np.geomspace(FIRST_REST, 1.0, AT_REST),
-        )
+        ends = np.append(0.0, np.geomspace(FIRST_REST, 1.0, AT_REST))
         steps = np.diff(ends)[:, None] * self.time  # which grow as the state does
         return _followed(self.law, log_state, steps, np.full(steps.shape, speed_at_rest))[-1]
 
