@@ -34,7 +34,7 @@ def test_a_second_body_is_like_the_first_in_all_that_is_left_out():
     like = PAPER_RUN.replaced(second_body="deformable")
     taller = like.replaced(height=0.02)
     assert taller.below.height == 0.02 and taller.below.n_y == taller.block.n_y
-    again = like.replaced(second_height=like.fault.height, second_far_side="free")
+    again = like.replaced(second_height=like.fault.height, second_far_side="traction")
     assert again == like and fault(again) == fault(like) and ensemble(again) == ensemble(like)
     assert PAIR.below.material.shear_modulus == 6.2e9 and PAIR.below.n_y == 9
     assert PAIR.replaced(second_shear_modulus=None).below.material == PAIR.upper.material

@@ -157,8 +157,7 @@ class Fault:
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
-        for name, value in completed(vars(self)).items():
-            object.__setattr__(self, name, value)  # the dataclass is frozen
+        vars(self).update(completed(vars(self)))
 
     def keys(self) -> list[str]:
         """Names of the parameters with a value; with ``[name]`` they make ``**fault`` possible."""

@@ -12,8 +12,8 @@ import numpy as np
 from ..model.friction import Friction, law_class, law_declarations
 from ..model.friction.constants import LAW, ZETA_OVER_A, own_law
 from ..model.hints import hint
-from ..model.quantities import ParameterError, Quantity, check
-from ..model.units import parse
+from ..model.quantities import ParameterError, Quantity
+from ..model.units import in_si
 from ..theory.values import QUANTITIES, FaultLike
 
 _OF_FAULT = ("law", "evolution", "slip_distance")
@@ -131,12 +131,8 @@ def read_parameters(
                 suggestion = hint(str(key), known) or f"known: {', '.join(known)}"
                 raise ParameterError(f"{key} = {value!r} is not allowed: unknown key; {suggestion}")
             entry = known[key]
-            if isinstance(value, str) and not entry.worded:
-                read = parse_range if key in SAMPLED else parse
-                value = read(key, value, entry)
-            else:
-                check(key, value, entry)
-            found[key] = value
+            read = parse_range if isinstance(value, str) and key in SAMPLED else in_si
+            found[key] = read(key, value, entry)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
     return found

@@ -80,6 +80,8 @@ class Quantity:
 
     def allows(self, value: Any) -> bool:
         """Whether a value has the declared type and range; no bool and no text is a number."""
+        if isinstance(value, float) and self.kind == "float" and not self.choices:
+            return bool(self.inside(value))
         if value is None:
             return self.optional
         if self.many:

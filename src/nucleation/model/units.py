@@ -58,11 +58,9 @@ class Checked:
     def __post_init__(self) -> None:
         for name, entry in declarations(type(self)).items():
             value = getattr(self, name)
-            key = self.called.get(name, name)
-            if isinstance(value, str) and not entry.worded:
-                value = parse(key, value, entry)
+            if not entry.allows(value):
+                value = in_si(self.called.get(name, name), value, entry)
                 object.__setattr__(self, name, value)  # the dataclass is frozen
-            check(key, value, entry)
 
 
 @cache
@@ -74,6 +72,18 @@ def registry() -> pint.UnitRegistry:
     import pint
 
     return pint.UnitRegistry(non_int_type=Decimal)
+
+
+def in_si(
+    key: str,
+    value: Any,
+    entry: Quantity,
+) -> Any:
+    """A value in SI units that the declaration allows, from a number, a word or a text."""
+    if isinstance(value, str) and not entry.worded:
+        return parse(key, value, entry)
+    check(key, value, entry)
+    return value
 
 
 def parse(

@@ -18,7 +18,7 @@ from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from ..theory.stiffness import SATURATION
 from ..theory.values import ZONE
-from .names import OF_GROUPS, sections
+from .names import OF_GROUPS, OF_PARTS, sections
 
 HIGH = 4.0
 """Height of the blocks over L_c: their L_s is within 2 % of that of half-spaces."""
@@ -92,7 +92,7 @@ def complete(
             "free"
         )
     for name in values:
-        if not any(name in entries for entries in OF_GROUPS.values()):
+        if name not in OF_PARTS:
             raise ParameterError(
                 f"{name} is a parameter of the fault: fault.replace({name}=...) changes it"
             )

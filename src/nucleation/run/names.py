@@ -11,9 +11,9 @@ from ..model.friction import Friction, law_declarations
 from ..model.friction.constants import CONSTANTS, ZETA_OVER_A
 from ..model.heterogeneity import Heterogeneity
 from ..model.hints import hint
-from ..model.quantities import ParameterError, Quantity, check, declarations
+from ..model.quantities import ParameterError, Quantity, declarations
 from ..model.settings import Block, Perturbation, Start, Stepping
-from ..model.units import parse
+from ..model.units import in_si
 from ..theory.values import QUANTITIES
 
 GROUPS: dict[str, Any] = {
@@ -30,6 +30,9 @@ OF_GROUPS = {
     for group, cls in GROUPS.items()
 }
 """Declarations of the parts of a run, by the names of their parameters."""
+
+OF_PARTS = {name for entries in OF_GROUPS.values() for name in entries}
+"""Names of all these parameters."""
 
 _OF_SECOND = ("far_side", "shear_modulus", "poisson_ratio", "density", "height", "n_y", "grading")
 
@@ -81,10 +84,7 @@ def read(values: Mapping[str, Any]) -> dict[str, Any]:
             suggestion = hint(name, known) or f"known: {', '.join(known)}"
             raise ParameterError(f"there is no parameter {name}; {suggestion}")
         entry = known[name]
-        if isinstance(value, str) and not entry.worded:
-            value = parse(name, value, entry)
-        check(name, value, entry)
-        found[name] = in_type(entry, value)
+        found[name] = in_type(entry, in_si(name, value, entry))
     return found
 
 

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from ..fault import PAPER, Fault
 from ..model.friction import Friction
-from ..model.friction.constants import CONSTANTS, with_constants
+from ..model.friction.constants import with_constants
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
 from ..model.quantities import ParameterError
 from ..model.settings import Block, Perturbation, Start, Stepping
 from ..theory.evaluation import single_system
 from .complete import complete, flat, time_to_length, zone_length
-from .names import GROUPS, OF_GROUPS, OF_LAWS, read, sections
+from .names import GROUPS, OF_GROUPS, OF_LAWS, OF_PARTS, read, sections
 
 if TYPE_CHECKING:
     from ..theory.creep.patches import Patches
@@ -75,10 +75,10 @@ class Run:
         self._set(complete(fault, read(values)))
 
     @classmethod
-    def _of(cls, values: Mapping[str, Any]) -> Self:
-        """The run of a flat mapping of all parameters."""
+    def _of(cls, values: Mapping[str, Any], **parts: Any) -> Self:
+        """The run of a flat mapping of all parameters, with the parts that are made already."""
         run = object.__new__(cls)
-        run._set(values)
+        run._set(values, **parts)
         return run
 
     def completed(self, **values: Any) -> Self:
@@ -91,20 +91,19 @@ class Run:
             )
         )
 
-    def _set(self, values: Mapping[str, Any]) -> None:
-        """Set the fields from a flat mapping of all parameters."""
-        own = {name: values[name] for name in sections()["friction"] if name in values}
-        law = Friction(law=own.pop("friction_law"), **own)
-        object.__setattr__(self, "law", law)
-        object.__setattr__(self, "fault", _fault_of(values, law))
+    def _set(self, values: Mapping[str, Any], **parts: Any) -> None:
+        """Set the fields from a flat mapping of all parameters, unless they are given as parts."""
+        if "law" not in parts:
+            own = {name: values[name] for name in sections()["friction"] if name in values}
+            parts["law"] = Friction(law=own.pop("friction_law"), **own)
+        if "fault" not in parts:
+            parts["fault"] = _fault_of(values, parts["law"])
         for group, cls in GROUPS.items():
-            fields = zip(
-                OF_GROUPS[group],
-                dataclasses.fields(cls),
-                strict=True,
-            )
-            own = {field.name: values[name] for name, field in fields if name in values}
-            object.__setattr__(self, group, cls(**own))
+            if group not in parts:
+                fields = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
+                own = {field.name: values[name] for name, field in fields if name in values}
+                parts[group] = cls(**own)
+        vars(self).update(parts)
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
@@ -155,7 +154,8 @@ class Run:
             If a value is not allowed, or the law has no such parameter or constants.
         """
         given = read(values)
-        changed = {**self.to_dict(), **given}
+        before = self.to_dict()
+        changed = {**before, **given}
         if given.get("second_body") == "rigid":
             kept = [name for name in changed if not name.startswith("second_")]
             changed = {name: changed[name] for name in (*kept, "second_body")}
@@ -168,11 +168,15 @@ class Run:
             changed["velocity"],
             given,
         )
-        for name in (*OF_LAWS, *CONSTANTS):
-            changed.pop(name, None)
-        for name, value in vars(law).items():
-            changed[law.called.get(name, name)] = value
-        return self._of({name: x for name, x in changed.items() if x is not None})
+        moved = {name for name in changed if before.get(name) != changed[name]}
+        moved |= before.keys() - changed
+        kept = {
+            group: getattr(self, group) for group in GROUPS if moved.isdisjoint(OF_GROUPS[group])
+        }
+        if moved <= OF_PARTS:
+            kept["fault"] = self.fault
+        changed = {name: x for name, x in changed.items() if x is not None}
+        return self._of(changed, law=law, **kept)
 
     @property
     def upper(self) -> Body:
@@ -257,6 +261,8 @@ def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
                 f"that does not deform: leave {extra[0]} out, or make second_body deformable"
             )
         found["second_shear_modulus"] = math.inf
+    if found.get("second_far_side") == "traction":
+        found["second_far_side"] = "free"  # the other word for it
     if found["loading"] == "edge":
         return Fault(**found, friction_law=law)
     f, a, zeta = law.expansion(found["velocity"])

@@ -198,21 +198,20 @@ def bodies_differ(fault: Mapping[str, Any]) -> Any:
 def _read_numbers(found: dict[str, Any]) -> None:
     """Check the numbers and arrays; the registry is that of the last pint quantity, or None."""
     found["registry"] = None
-    numbers = {}
-    for name in found:
-        value = found[name]
+    arrays = {}
+    for name, value in found.items():
         if name not in QUANTITIES or name in WORDS or value is None:
             continue
         if is_quantity(value):
             found["registry"] = value._REGISTRY
         array = checked(name, value, QUANTITIES[name])
-        numbers[name] = array if np.ndim(array) or labelled(array) else float(array)
-    found.update(numbers)
-    with_names = any(map(labelled, numbers.values()))
-    without_names = any(np.ndim(x) and not labelled(x) for x in numbers.values())
-    if with_names and without_names:
+        if np.ndim(array) or labelled(array):
+            found[name] = arrays[name] = array
+        else:
+            found[name] = float(array)
+    if len({labelled(x) for x in arrays.values()}) == 2:
         raise ParameterError("arrays with and without named dimensions can't be combined")
-    require_broadcast(numbers)
+    require_broadcast(arrays)
 
 
 def _expand(found: dict[str, Any]) -> None:

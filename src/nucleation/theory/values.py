@@ -147,6 +147,9 @@ def checked(
 
     Raises ParameterError if it is no array of numbers, or one of them is out of range.
     """
+    if isinstance(value, float) and entry.inside(value):  # of thousands of runs most values
+        warn_of_implausible(name, value, entry)
+        return np.asarray(value)
     value = magnitude(name, value, entry)
     try:
         array = value if labelled(value) else np.asarray(value)

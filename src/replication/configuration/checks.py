@@ -13,9 +13,9 @@ import numpy as np
 
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.model.hints import hint
-from nucleation.model.quantities import ParameterError, Quantity, check, declarations, refusal
+from nucleation.model.quantities import ParameterError, Quantity, declarations, refusal
 from nucleation.model.settings import STUCK_BELOW
-from nucleation.model.units import parse
+from nucleation.model.units import in_si
 from nucleation.run.checks import contradictions, memory_problem
 from nucleation.run.names import in_type, parameters
 
@@ -148,9 +148,7 @@ class Reader:
     def single(self, entry: Quantity, place: str, value: Any) -> Any:
         """One value in its declared type; no number may be infinite."""
         try:
-            if isinstance(value, str) and not entry.worded:
-                value = parse(place, value, entry)
-            check(place, value, entry)
+            value = in_si(place, value, entry)
             if not (value is None or entry.worded or abs(value) <= sys.float_info.max):
                 raise ParameterError(refusal(place, value, entry))
         except ParameterError as error:

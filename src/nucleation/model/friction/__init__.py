@@ -185,6 +185,8 @@ class Friction(Checked):
 
         Raises a ParameterError if the law has no such parameter, or a value is out of its range.
         """
+        if not values:
+            return self
         same = values.get("law", self.law) == self.law
         own = type(self) if same else Friction
         kept = {name: getattr(self, name) for name in declarations(own)}
