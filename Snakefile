@@ -23,6 +23,8 @@ from dataclasses import asdict
 from math import ceil
 from pathlib import Path
 
+import snakemake.common
+import snakemake.rules
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
@@ -74,6 +76,12 @@ from replication.pipeline.store import others
 
 gc.freeze()  # searching all loaded objects takes a third of a second in all
 gc.set_threshold(50_000)  # of thousands of jobs nothing is garbage; this saves a twelfth of a plan
+
+# Snakemake looks up the arguments of a rule's functions fifteen times for each job, a tenth of a plan.
+arguments_of = getattr(snakemake.common, "get_function_params", None)
+if arguments_of:
+    snakemake.common.get_function_params = functools.cache(arguments_of)
+    snakemake.rules.get_function_params = snakemake.common.get_function_params
 
 ON_CTRL_C = signal.getsignal(signal.SIGINT)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 from collections.abc import Mapping
@@ -213,26 +214,17 @@ def _of_quantity(
     """The numbers of a pint quantity: by its own registry, whose units may be others."""
     wanted = "dimensionless" if entry.unit == "1" else entry.unit
     unit = f"{value.units:D}"
-    try:
+    own = ours = math.nan
+    with contextlib.suppress(Exception):  # of kinds of the user's library
         own = float(value._REGISTRY.Quantity(1.0, value.units).to(wanted).magnitude)
-    except Exception:  # of kinds of the user's library; ours words the error
+        ours = float(_converted(Decimal(1), unit or "dimensionless", entry))  # or it is unknown
+    if math.isnan(own) or abs(ours / own - 1.0) < 1e-9:
         return rescaled(
             key,
             value.magnitude,
             unit,
             entry,
-        )
-    try:
-        ours = float(_converted(Decimal(1), unit or "dimensionless", entry))
-    except ValueError:  # a unit of the user's own
-        ours = math.nan
-    if abs(ours / own - 1.0) < 1e-9:
-        return rescaled(
-            key,
-            value.magnitude,
-            unit,
-            entry,
-        )  # without round-off
+        )  # without round-off, or with our error
     return np.asarray(value.magnitude, dtype=float) * own
 
 

@@ -80,8 +80,7 @@ def complete(
     Raises a ParameterError if the fault is no single one, has a zone, or lacks what a simulation
     needs.
     """
-    for name in dict(fault):
-        value = getattr(fault, name)
+    for name, value in dict(fault).items():
         if name in ZONE:
             raise ParameterError(f"{name} is not allowed: no simulation has a zone")
         if np.ndim(value):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from .checks import require_uniform_edge
-from .names import sections
+from .names import OF_GROUPS
 from .run import Run
 
 if TYPE_CHECKING:
@@ -28,15 +28,11 @@ def fault(run: Run) -> str:
 
     The block must be so long that its length has no effect.
     """
-    known = sections()
-    of_solution = [name for name in known["block"] if name != "height"]
-    for section in ("stepping", "recording", "perturbation"):
-        of_solution += known[section]
     return identity(
         run,
-        *of_solution,
-        "second_n_y",
-        "second_grading",
+        *OF_GROUPS["block"],
+        *OF_GROUPS["stepping"],
+        *OF_GROUPS["perturbation"],
     )
 
 

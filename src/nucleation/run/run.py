@@ -154,12 +154,10 @@ class Run:
             If a value is not allowed, or the law has no such parameter or constants.
         """
         given = read(values)
-        before = self.to_dict()
-        changed = {**before, **given}
+        before = own = self.to_dict()
         if given.get("second_body") == "rigid":
-            kept = [name for name in changed if not name.startswith("second_")]
-            changed = {name: changed[name] for name in (*kept, "second_body")}
-            changed |= {name: x for name, x in given.items() if name.startswith("second_")}
+            own = {name: x for name, x in before.items() if not name.startswith("second_")}
+        changed = {**own, **given}
         of_law = {name: x for name, x in given.items() if name in OF_LAWS}
         if "friction_law" in of_law:
             of_law["law"] = of_law.pop("friction_law")
@@ -168,8 +166,7 @@ class Run:
             changed["velocity"],
             given,
         )
-        moved = {name for name in changed if before.get(name) != changed[name]}
-        moved |= before.keys() - changed
+        moved = {name for name in before | changed if before.get(name) != changed.get(name)}
         kept = {
             group: getattr(self, group) for group in GROUPS if moved.isdisjoint(OF_GROUPS[group])
         }

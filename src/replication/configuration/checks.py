@@ -66,24 +66,17 @@ class Reader:
         """A whole configuration; its values count only if there is no problem."""
         keys: dict[str, _Read] = {"results": partial(self.single, _RESULTS)}
         for section in (*SECTIONS, *GROUPS):
-            own: dict[str, _Read] = {}
-            for key, entry in entries_of(section).items():
-                own[key] = partial(self.several if entry.many else self.single, entry)
-            keys[section] = partial(self.mapping, own)
+            keys[section] = partial(self.mapping, self.declared(entries_of(section)))
         keys["studies"] = self.studies
         return self.mapping(keys, "", values)
 
     def studies(self, place: str, given: Any) -> dict[str, Any]:
         """The section ``studies``."""
-        one: dict[str, _Read] = {}
         several: dict[str, _Read] = {}
         for name, entry in parameters().items():
-            one[name] = partial(self.single, entry)
             several[name] = partial(self.several, entry)
-        several["defaults"] = partial(self.mapping, one)
-        keys: dict[str, _Read] = {
-            name: partial(self.single, entry) for name, entry in declarations(StudySettings).items()
-        }
+        several["defaults"] = partial(self.mapping, self.declared(parameters()))
+        keys = self.declared(declarations(StudySettings))
         keys["defaults"] = several["defaults"]
         keys["runs"] = partial(self.listed, partial(self.entry, several))
         names = list(given) if isinstance(given, dict) else []
@@ -95,6 +88,13 @@ class Reader:
                 )
         read = partial(self.mapping, keys, needed=["runs"])
         return self.mapping(dict.fromkeys(names, read), place, given, filled=True)
+
+    def declared(self, entries: Mapping[str, Quantity]) -> dict[str, _Read]:
+        """Functions that read declared values: one value of each name, or a tuple."""
+        return {
+            name: partial(self.several if entry.many else self.single, entry)
+            for name, entry in entries.items()
+        }
 
     def entry(self, keys: Mapping[str, _Read], place: str, given: Any) -> dict[str, Any]:
         """An entry of a study's runs, with all values of each parameter."""
@@ -174,7 +174,7 @@ class Reader:
         if not isinstance(value, dict) or entry.choices or entry.kind == "int":
             return (read(place, value),)
         keys: dict[str, _Read] = dict.fromkeys(("start", "stop"), read)
-        keys |= {name: partial(self.single, declared) for name, declared in RANGE.items()}
+        keys |= self.declared(RANGE)
         given = self.mapping(keys, place, value, needed=("start", "stop", "num"))
         if len(self.problems) > before:
             return ()

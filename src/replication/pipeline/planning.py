@@ -7,7 +7,7 @@ triggers decide correctly, even if its notes are lost or times of files are wron
 process plans has other names.
 
 A run, unlike a dry run, first removes files that show another result, so that none is left if a job
-fails, and shows all results that are in a store. Snakemake's inner parts are used here alone.
+fails, and shows all that stores have. Snakemake's inner parts are used here and in the Snakefile.
 """
 
 import atexit
@@ -221,13 +221,13 @@ class Plan:
         A job on another machine takes the one that was planned, even if the configuration has
         changed since then.
         """
-        name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
         if not self._workflow.is_main_process:
+            name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
             lines = Path(self._place, _PLANNED).read_text("utf-8").splitlines()
             planned = dict(line.rsplit(" ", 1) for line in lines)
             return f"{self._place}/{name}.{planned[name]}.json"
         recipe = self._of_rule(rule, wildcards)
-        file = f"{self._place}/{name}.{recipe.key}.json"
+        file = f"{self._place}/{recipe.name}.{recipe.key}.json"
         self._write(rule, recipe, file)
         return file
 
