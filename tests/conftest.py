@@ -9,7 +9,6 @@ from pathlib import Path
 
 import hypothesis
 import pytest
-import square_evolution
 
 pytest_plugins = ("coarse_run",)
 
@@ -21,7 +20,8 @@ for name in [*OF_MAKE, "CORES", "TARGETS", "CONFIG", "PRUNE"]:
 # Snakemake's plugin asks Slurm at every start: a controller that is gone would take ten seconds.
 os.environ["SLURM_CONF"] = os.devnull
 
-# Workers are processes: threads of the linear algebra would take the cores from one another.
+# Workers are processes: threads of the linear algebra would take the cores from one another. It is
+# set before anything imports numpy.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # No deadline: machines are busy. In CI the same examples at every run, elsewhere new ones.
@@ -38,6 +38,8 @@ LONG = ("test_random_faults.py", *SYSTEM, "docs", "test_packaging.py", "theory",
 @pytest.fixture
 def square(monkeypatch):
     """The state evolves by a law that is not the project's."""
+    import square_evolution
+
     monkeypatch.setattr("nucleation.model.friction.Friction.evolution_law", square_evolution)
 
 

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 from nucleation import commands
-from nucleation.api import Fault, ParameterError
+from nucleation.api import Fault
 from nucleation.theory.creep import slow_slip
 from nucleation.theory.creep.lengths import LONGEST
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.pair import LayerPair
-from replication.configuration.load import configure
 
 SEED, NUMBER, QUICK = 34, 300, 12
 LONGEST_SPECIMEN = 1e7  # m
@@ -89,20 +88,22 @@ def option(value):
 def test_one_answer_by_library_and_command(cost, capsys, number):
     """Each length is finite or has a reason, and is the same however the fault is given.
 
-    A third of the faults is asked for L, and one for a specimen; every sixth for L_run or L twice.
+    A fifth of the faults is asked for L, and one for a specimen; a fifteenth for L_run or L twice.
     """
     given, loading = random_fault(number)
     fault = Fault(**given, evolution=("aging", "slip")[number % 2])
     with warnings.catch_warnings(), np.errstate(all="raise"):
         warnings.simplefilter("error", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
-        found = fault.lengths("none" if number % 3 else "normal_load", strength=1e-5)
+        found = fault.lengths("none" if number % 5 else "normal_load", strength=1e-5)
         assert cost <= MOST
-        known = found.get("runaway_length") if number % 12 else None
-        runaway = known.value if known else float(fault.runaway_length())
+        known = found.get("runaway_length")
+        runaway = known.value if known else math.nan
+        if number % 15 in (0, 3):
+            runaway = float(fault.runaway_length())
         critical = found["critical_length"].value
         assert float(fault.critical_mode().length) == pytest.approx(critical, nan_ok=True)
-        if number % 3 == 1 and critical < LONGEST_SPECIMEN:
+        if number % 5 == 1 and critical < LONGEST_SPECIMEN:
             ends = np.array(fault.specimen("slip_distance", critical).intervals).ravel()
             assert np.isclose(ends, given["slip_distance"], rtol=1e-5).any() or not ends.size
         stable = float(fault.replace(loading=loading).stability_length())
@@ -117,7 +118,7 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
     assert math.isnan(runaway) or runaway > stability.value
     if "drop_length" in found:
         drop = found["drop_length"]
-        assert found["runaway_length"].value == pytest.approx(runaway, nan_ok=True)
+        assert known.value == pytest.approx(runaway, nan_ok=True)
         assert not drop.exists or not drop.value < runaway
         assert not drop.exists or drop.value > stability.value or "before L_s" in drop.doubt
     assert Fault.from_dict(fault.to_dict()) == fault
@@ -126,7 +127,7 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
         del flat["second_shear_modulus"]
         flat["second_body"] = "rigid"
     words = [w for k, x in flat.items() for w in (f"--{k.replace('_', '-')}", option(x))]
-    perturbed = ["--strength", "1e-5"] if number % 12 == 6 else ["--perturbation", "none"]
+    perturbed = ["--strength", "1e-5"] if number % 15 == 5 else ["--perturbation", "none"]
     code = commands.run(["length", *words, *perturbed, "--json"])
     ended = capsys.readouterr()
     assert code == (0 if found["critical_length"].exists else 3), ended.err
@@ -135,33 +136,3 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
     for key, entry in told.items():
         assert entry["value"] == (found[key].value if found[key].exists else None), key
         assert (entry["status"], entry["reason"]) == (found[key].status, found[key].reason)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("number", range(NUMBER))
-def test_a_study_has_the_lengths_of_its_fault(number):
-    """L_s is located within 1e-3; a study refuses, with a reason, what no simulation can have."""
-    given, _ = random_fault(number)
-    fault = Fault(**given)
-    if math.isinf(fault.height) or math.isnan(fault.critical_length()):
-        return
-    values = {key: value for key, value in fault.to_dict().items() if "far_side" not in key}
-    values["second_body"] = "deformable"
-    if math.isinf(fault.second_shear_modulus):
-        del values["second_shear_modulus"]
-        values["second_body"] = "rigid"
-    values["friction_law"] = "dieterich_ruina"
-    values["regularisation_slip_rate"] = 1e-6 * fault.velocity
-    study = {"defaults": values, "runs": [{"seed": 1}]}
-    try:
-        (run,) = configure({"studies": {"own": study}}).runs_of("own")
-    except ParameterError as error:
-        assert "is not allowed" in str(error) or "no friction law has" in str(error)
-        return
-    own = run.run.fault
-    of_law = ("friction", "a", "zeta", "slip_distance")
-    rest = {key: value for key, value in given.items() if key not in of_law}
-    by_law = Fault(**rest, friction_law=own.friction_law)
-    assert own.critical_length() == pytest.approx(fault.critical_length(), rel=1e-9)
-    stable = by_law.stability_length()
-    assert own.stability_length() == pytest.approx(stable, rel=1e-3, nan_ok=True)

@@ -14,7 +14,7 @@ STRONG = Fault(
     shear_modulus=3.1e9, poisson_ratio=1 / 3, density=1200.0, normal_stress=1e6, a=0.005, b=0.02,
     slip_distance=0.5e-6, friction=0.4, velocity=1e-5, height=0.02, second_shear_modulus=math.inf,
 )  # fmt: skip
-WEAK = STRONG.replace(zeta=0.0025)
+WEAK = STRONG.replace(zeta=0.005)
 PLATES = Fault(
     shear_modulus=3.1e9, poisson_ratio=0.33, density=1200.0, normal_stress=1e6, a=0.0068,
     zeta=0.0156, slip_distance=0.5e-6, friction=0.41, velocity=1e-5, height=0.1, plane="stress",
@@ -26,7 +26,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::UserWarning"
     ("fault", "settings"),
     [
         pytest.param(STRONG, {"n_x": 960, "n_y": 10}, id="strong: at L_c and noise"),
-        pytest.param(WEAK, {"n_x": 240, "n_y": 6, "block_length": 3.56}, id="weak: at L_run"),
+        pytest.param(WEAK, {"n_x": 160, "n_y": 4, "block_length": 2.0}, id="weak: at L_run"),
     ],
 )
 def test_the_force_drops_where_it_is_expected(fault, settings):
@@ -41,7 +41,7 @@ def test_a_specimen_that_may_nucleate_does(length):
     """L_s is 0.168 m: one specimen is longer, the other shorter, and L_c longer than both."""
     verdict = PLATES.stability_length()
     assert PLATES.critical_length() > 0.25 > verdict > 0.15
-    run = Run(PLATES, block_length=length, n_x=100, n_y=16, time_after_event=0.1, **NOISE)
+    run = Run(PLATES, block_length=length, n_x=60, n_y=10, time_after_event=0.1, **NOISE)
     waves = math.sqrt(PLATES.shear_modulus / PLATES.density)
     dynamic = 2.0 * PLATES.a * PLATES.normal_stress * waves / PLATES.shear_modulus
     assert float(simulate(run).maximal_slip_rate.max()) > dynamic

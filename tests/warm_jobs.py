@@ -5,6 +5,7 @@ A job takes a second of processor time before it begins, nearly all of it import
 code anew, from wherever Snakemake's environment says.
 """
 
+import importlib
 import json
 import os
 import runpy
@@ -21,8 +22,8 @@ from typing import Any, NoReturn
 
 def serve_jobs() -> None:
     """Have the Snakemake of this process run its jobs so; to be called before it begins."""
-    import snakemake.shell
-
+    shell = importlib.import_module("snakemake.shell")  # as an attribute it is a class
+    assert shell.sp is subprocess  # else each job would start by itself, unseen
     address = f"\0jobs-of-{os.getpid()}"
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(address)
@@ -33,11 +34,11 @@ def serve_jobs() -> None:
         _serve(listener, alive)
     os.close(alive)
     listener.close()
-    snakemake.shell.sp = Subprocess(address)
+    shell.sp = Subprocess(address)
 
 
 class Subprocess:
-    """The module of that name, but for commands that run a module of this project."""
+    """The module of that name, but for commands that run a job of this project and no more."""
 
     def __init__(self, address: str) -> None:
         self._address = address
@@ -47,7 +48,7 @@ class Subprocess:
 
     def Popen(self, command: Any, **options: Any) -> Any:
         words = shlex.split(command) if isinstance(command, str) else []
-        if "-m" in words and words[words.index("-m") + 1].startswith("replication.pipeline"):
+        if "replication.pipeline.job" in words and "|" not in words:
             return Job(self._address, words, options.get("env"))
         return subprocess.Popen(command, **options)
 

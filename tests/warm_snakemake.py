@@ -23,7 +23,7 @@ PACKAGES = (
     "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "snakemake.script",
     "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "click",
     "numba", "scipy.linalg", "scipy.fft", "netCDF4", "matplotlib.figure", "jinja2",
-    "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf",
+    "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "scipy.integrate",
 )  # fmt: skip
 """What a call and its jobs would import. One that is missing here costs time, no more."""
 

@@ -1,11 +1,13 @@
-"""Random values and forms: what the declarations allow, and nothing else."""
+"""Random values, forms and faults: what the declarations allow, and nothing else."""
 
 import math
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_random_faults import NUMBER, random_fault
 
+from nucleation.api import Fault
 from nucleation.model.quantities import ParameterError
 from nucleation.run.names import parameters
 from replication.configuration.checks import Reader
@@ -81,3 +83,33 @@ def test_forms_of_what_a_run_gives(key, value):
 def test_forms_of_sections(key, value):
     refused_or_made({"studies": {"s": {"runs": [{"height": 1.0}]}}, key: value})
     refused_or_made({"studies": {"s": {"runs": value, key: value}}})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(NUMBER))
+def test_a_study_has_the_lengths_of_its_fault(number):
+    """L_s is located within 1e-3; a study refuses, with a reason, what no simulation can have."""
+    known, _ = random_fault(number)
+    fault = Fault(**known)
+    if math.isinf(fault.height) or math.isnan(fault.critical_length()):
+        return
+    values = {key: value for key, value in fault.to_dict().items() if "far_side" not in key}
+    values["second_body"] = "deformable"
+    if math.isinf(fault.second_shear_modulus):
+        del values["second_shear_modulus"]
+        values["second_body"] = "rigid"
+    values["friction_law"] = "dieterich_ruina"
+    values["regularisation_slip_rate"] = 1e-6 * fault.velocity
+    study = {"defaults": values, "runs": [{"seed": 1}]}
+    try:
+        (run,) = configure({"studies": {"own": study}}).runs_of("own")
+    except ParameterError as error:
+        assert "is not allowed" in str(error) or "no friction law has" in str(error)
+        return
+    own = run.run.fault
+    of_law = ("friction", "a", "zeta", "slip_distance")
+    rest = {key: value for key, value in known.items() if key not in of_law}
+    by_law = Fault(**rest, friction_law=own.friction_law)
+    assert own.critical_length() == pytest.approx(fault.critical_length(), rel=1e-9)
+    stable = by_law.stability_length()
+    assert own.stability_length() == pytest.approx(stable, rel=1e-3, nan_ok=True)

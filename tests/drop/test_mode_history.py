@@ -22,9 +22,7 @@ def drops(table):
         fault = first.evolution, first.height
         if fault not in histories:
             histories[fault] = mode_history(
-                run.run.patches,
-                run.critical_length,
-                run.run.fault.initial_state,
+                run.run.patches, run.critical_length, run.run.fault.initial_state
             )
         declared = run.run.perturbation
         drop = growth(histories[fault], declared).drop(declared.strength)

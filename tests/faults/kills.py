@@ -7,16 +7,7 @@ import signal
 
 import psutil
 from damage import DAMAGE, damage, truncate
-from harness import (
-    CONFIG,
-    FAULTS,
-    IDS,
-    OTHER,
-    Place,
-    Reference,
-    configure,
-    fault,
-)
+from harness import CONFIG, FAULTS, IDS, OTHER, Place, Reference, configure, fault
 from processes import Running, processor_time, require
 
 TERM, KILL, INT = signal.SIGTERM, signal.SIGKILL, signal.SIGINT

@@ -144,10 +144,7 @@ def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
     assert abs(expected[0].imag + expected[1].imag) > 1e-3 * abs(expected[0])  # they differ
 
 
-SLIDING = {
-    "one": PARAMETERS,
-    "pair": PARAMETERS.replaced(**LAYERS["stiff above, free"]),
-}
+SLIDING = {"one": PARAMETERS, "pair": PARAMETERS.replaced(**LAYERS["stiff above, free"])}
 
 
 @pytest.mark.parametrize("parameters", SLIDING.values(), ids=SLIDING)

@@ -87,10 +87,7 @@ def runs_away_by_differences(ratio, length, nodes=40, duration=1500.0):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("ratio", "length"),
-    [(0.2, 1.49), (0.5, 1.045), (1.5, 0.717)],
-)
+@pytest.mark.parametrize(("ratio", "length"), [(0.2, 1.49), (0.5, 1.045), (1.5, 0.717)])
 def test_thin_limit_by_two_routes(ratio, length):
     """Modes of a layer, explicitly; and finite differences of the strip, implicitly."""
     found, error, _ = usual(ratio)
@@ -120,8 +117,11 @@ CHANGES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("change", CHANGES)
-@pytest.mark.parametrize(("ratio", "bodies"), [(0.3, "half-spaces"), (0.2, "pair"), (0.5, "thin")])
+@pytest.mark.parametrize(("ratio", "bodies", "change"), [
+    *((0.3, "half-spaces", change) for change in CHANGES),
+    *((0.2, "pair", change) for change in list(CHANGES)[::2]),
+    *((0.5, "thin", change) for change in list(CHANGES)[1::2]),
+])  # fmt: skip
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, ratio, bodies, change):
     """Within the errors of both lengths, which are two standard errors or more."""
     before, error, _ = usual(ratio, bodies)
@@ -132,7 +132,7 @@ def test_it_does_not_depend_on_how_it_is_found(monkeypatch, ratio, bodies, chang
     assert after == pytest.approx(before, rel=math.hypot(error, its_error))
 
 
-@pytest.mark.parametrize("ratio", [0.2, 0.5, 1.5, 6.0])
+@pytest.mark.parametrize("ratio", [0.2, 1.5])
 @pytest.mark.parametrize("bodies", BODIES)
 def test_what_it_costs(ratio, bodies):
     _, error, steps = usual(ratio, bodies)
