@@ -136,7 +136,8 @@ $(STAMP): environment.txt
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
 	$(BIN)/python -c 'from workflow.install import compile_imports; \
-		compile_imports("nucleation", "replication", "snakemake.cli", "matplotlib.pyplot")'
+		compile_imports("nucleation", "replication", "snakemake.cli", "snakemake.report.html_reporter", \
+		"smart_open.smart_open_lib", "matplotlib.backends.backend_pdf", "pint.registry", "netCDF4.utils")'
 	@touch $(ENVIRONMENT)/environment.stamp
 
 $(DEV_STAMP): environment-dev.txt $(STAMP)

@@ -53,6 +53,10 @@ PAIRED = {subject: STATED.pop(subject) for subject in ["two bodies, simulated"]}
 ENTRIES = {id: entry for entries in STATED.values() for id, entry in entries.items()}
 
 
+def in_pairs(statements):
+    return [(subject, entries.items()) for subject, entries in statements.items()]
+
+
 def judged(id, evidence):
     """The row of one claim that needs no pairs."""
     return table_of_claims.evaluate_one(id, ENTRIES[id], evidence)
@@ -60,7 +64,7 @@ def judged(id, evidence):
 
 def evaluate(evidence):
     """The claims that need no pairs, on some evidence."""
-    return table_of_claims.evaluate(STATED, evidence)
+    return table_of_claims.evaluate(in_pairs(STATED), evidence)
 
 
 def evaluated():

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import PAIRED, REFERENCE
+from reference_evidence import PAIRED, REFERENCE, in_pairs
 from reference_evidence import modes as modes_of
 from reference_evidence import table as of_reference
 
@@ -165,7 +165,7 @@ def test_both_senses_are_needed():
 def test_without_runs_nothing_is_judged():
     empty = table().isel(run=slice(0, 1))
     evidence = {"pairs": empty, "modes": modes(name="stiff above, clamped")}
-    rows = table_of_claims.evaluate(PAIRED, evidence)
+    rows = table_of_claims.evaluate(in_pairs(PAIRED), evidence)
     assert {row["verdict"] for row in rows} == {"cannot be checked"}
 
 
@@ -176,6 +176,6 @@ def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     assert all(name in places for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
     assert list(rows.index) == list(FOUND)
     evidence = {"pairs": of_reference("pairs.csv"), "modes": modes_of("pair_modes.csv")}
-    for row in table_of_claims.evaluate(PAIRED, evidence):
+    for row in table_of_claims.evaluate(in_pairs(PAIRED), evidence):
         assert row["verdict"] == rows.loc[row["id"], "verdict"]
         assert row["ours"] == pytest.approx(rows.loc[row["id"], "ours"], rel=1e-4)

@@ -31,7 +31,7 @@ def record() -> xr.Dataset:
 def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
     path = tmp_path / "deep" / "record.nc"
     netcdf.write(record, path, parameters="{}", code_digest="1")
-    again = netcdf.read(path, requires=["slip_rate", "x"])
+    again = netcdf.read(path)
     xr.testing.assert_equal(again, record)
     assert again.attrs.pop("Conventions") == netcdf.CONVENTIONS == "CF-1.11"
     assert again.attrs.pop("title") == netcdf.TITLE
@@ -66,16 +66,13 @@ def test_failed_write_leaves_the_old_file(record, tmp_path, monkeypatch):
     assert [file.name for file in tmp_path.iterdir()] == ["record.nc"]
 
 
-def test_foreign_missing_and_incomplete_files_are_refused(record, tmp_path):
+def test_foreign_and_missing_files_are_refused(record, tmp_path):
     path = tmp_path / "record.nc"
     with pytest.raises(DatasetError, match="does not exist"):
         netcdf.read(path)
     record.to_netcdf(path)
     with pytest.raises(DatasetError, match="not of this project"):
         netcdf.read(path)
-    netcdf.write(record, path)
-    with pytest.raises(DatasetError, match=r"lacks the variables \['state'\]"):
-        netcdf.read(path, requires=["state", "slip_rate"])
 
 
 def test_joined_tables_keep_their_longest_text(tmp_path):

@@ -46,7 +46,10 @@ def test_a_name_means_the_same_wherever_it_is_declared():
     ("root", "known"),
     [
         ("nucleation.simulation.run", {RECORDED}),
-        ("nucleation.extraction.growth", {RECORDED, "nucleation.extraction.growth"}),
+        (
+            "nucleation.extraction.growth",
+            {RECORDED, "nucleation.extraction.growth", "nucleation.extraction.definitions"},
+        ),
     ],
 )
 def test_no_column_of_a_table_is_in_the_key_of_a_costly_dataset(root, known):
@@ -61,7 +64,7 @@ def test_a_table_has_its_columns_in_their_order():
     assert found["id"].attrs == {"long_name": "name"}
     require_annotated(found)
     assert to_csv(found) == "id,length\na,1.0\nb,2.0\n"
-    require_annotated(table([], COLUMNS, "twin"))
+    require_annotated(table([], COLUMNS))
 
 
 def test_a_column_that_is_not_computed_is_named():

@@ -69,6 +69,16 @@ def test_what_counts(package, name, old, new, matters):
     assert (digest(package) != before) == matters
 
 
+def test_what_is_kept_of_a_module_counts_only_for_its_bytes(package):
+    low = package / "nucleation/wing/__pycache__/low.source.json"
+    low.parent.mkdir()
+    before = digest(package)
+    high = low.with_name("high.source.json")
+    for content in (high.read_text(), "[", "1", low.read_text()[:-9]):
+        low.write_text(content)
+        assert digest(package) == before
+
+
 def test_a_definition_of_another_name_counts(package):
     before = digest(package)
     (package / "nucleation" / "wing" / "high.py").write_text(

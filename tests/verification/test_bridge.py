@@ -19,6 +19,7 @@ from nucleation.run.run import PAPER_RUN
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from replication.claims import printed
+from replication.claims.pairs import measured_response
 from replication.tables import modes as tables
 from replication.tables.modes import sliding_period, sliding_state
 
@@ -163,7 +164,7 @@ def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
     """Swapped layers: what went along +x goes along -x, G2 changing sign and G1 not."""
     swapped = dict(list(tables.HALF_SPACES.items())[:2])
     modes = tables.pair_modes(PARAMETERS, swapped, (0.8,))
-    g1, g2 = tables.measured_response(modes)
+    g1, g2 = measured_response(modes)
     modulus = modes["shear_modulus"].values[:, None]
     # Poisson's ratios are not swapped, so that the formulas are to be asked
     for i, layers in enumerate(swapped.values()):

@@ -54,7 +54,7 @@ rule simulate_and_measure:
         ),
         runtime=ceil(settings.limits.runtime),
     params:
-        call="replication.tables.lengths:measured_runs",
+        call="replication.tables.measured:measured_runs",
         loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
         makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),

@@ -3,7 +3,7 @@
 import contextlib
 import os
 import stat
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterator
 from typing import Any
 
 import numpy as np
@@ -83,15 +83,13 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
             raise
 
 
-def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Dataset:
+def read(path: str | os.PathLike[str]) -> xr.Dataset:
     """Read a dataset into memory and check it.
 
     Parameters
     ----------
     path : path
         The file.
-    requires : iterable of str
-        Variables that the dataset must have.
 
     Returns
     -------
@@ -101,7 +99,7 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     Raises
     ------
     DatasetError
-        If the file is missing, truncated or damaged, or lacks a variable.
+        If the file is missing, truncated or damaged.
 
     Examples
     --------
@@ -125,11 +123,7 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
         declared = dataset.attrs.pop("coordinates", "").split()
         for variable in dataset.variables.values():
             declared += variable.attrs.pop("coordinates", "").split()
-        dataset = dataset.set_coords(sorted(set(declared) - {_ROWS}))
-    missing = sorted(set(requires) - set(map(str, dataset.variables)))
-    if missing:
-        raise DatasetError(f"{path} lacks the variables {missing}")
-    return dataset
+        return dataset.set_coords(sorted(set(declared) - {_ROWS}))
 
 
 def attributes(path: str | os.PathLike[str]) -> dict[str, Any]:

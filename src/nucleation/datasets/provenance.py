@@ -7,6 +7,7 @@ import json
 import os
 import platform
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from .. import __version__
@@ -47,16 +48,22 @@ def attributes(
     `parameters` are all values (for JSON) that it depends on, `sources` the keys of the results
     that it was made from, by role, and `key` its own in the workflow, if that made it.
     """
-    versions = {"nucleation": __version__, "python": platform.python_version()}
-    for library in _LIBRARIES:
-        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
-            versions[library] = importlib.metadata.version(library)
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),
         "code_digest": code_digest,
         "sources": json.dumps(dict(sources or {}), sort_keys=True),
-        "versions": json.dumps(versions, sort_keys=True),
+        "versions": _versions(),
         "command": command,
         "created": moment().isoformat(timespec="seconds"),
     }
     return made | ({"key": key} if key else {})
+
+
+@cache
+def _versions() -> str:
+    """Versions of this package, of Python and of libraries, as JSON."""
+    found = {"nucleation": __version__, "python": platform.python_version()}
+    for library in _LIBRARIES:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            found[library] = importlib.metadata.version(library)
+    return json.dumps(found, sort_keys=True)

@@ -49,10 +49,8 @@ def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset
     return annotated
 
 
-def table(
-    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Variable], dim: str = "run"
-) -> xr.Dataset:
-    """A table with one variable for each declared column, in their order; `dim` is of its rows.
+def table(rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Variable]) -> xr.Dataset:
+    """A table with one variable for each declared column, in their order; ``run`` is of its rows.
 
     Each row has a value for each column, else a DatasetError is raised; further values are ignored.
     """
@@ -64,7 +62,7 @@ def table(
         raise DatasetError(f"columns that are declared and not computed: {missing}")
     variables = {}
     for name, column in columns.items():
-        variables[name] = (dim, [row[name] for row in listed], column.attributes)
+        variables[name] = ("run", [row[name] for row in listed], column.attributes)
     return xr.Dataset(variables)
 
 

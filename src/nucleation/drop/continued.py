@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from ..types import Array, ComplexArray
 from .mode_history import ModeHistory
@@ -86,6 +85,8 @@ def continued(history: ModeHistory) -> CreepPath:
 
 def exponent_of(path: CreepPath) -> ComplexArray:
     """``int Lambda dt`` from the first time on."""
+    from scipy.integrate import cumulative_trapezoid  # slow to load, and few processes need it
+
     return np.asarray(
         cumulative_trapezoid(
             path.rate,

@@ -25,7 +25,6 @@ import dataclasses
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from ..model.settings import Perturbation, correlation, spectral_density
 from ..types import Array
@@ -85,6 +84,8 @@ class Growth:
 
     def _dropped(self, strength: float) -> Array:
         """The part of the realisations that have dropped by each length; it never decreases."""
+        from scipy.integrate import cumulative_trapezoid
+
         log_sigma = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
         inverse_square = np.exp(np.minimum(-2.0 * log_sigma, LARGEST))
         reached = np.exp(-inverse_square)

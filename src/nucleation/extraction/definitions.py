@@ -12,6 +12,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from ..datasets.variables import declared
 from ..model.quantities import quantity
 from ..model.settings import EVENT_DROP
 from ..model.units import Checked
@@ -20,6 +21,15 @@ from ..types import Array
 
 RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
+
+FITTED = declared("""
+    stability_length | m | patch length where growth begins | L_s
+    stability_length_low | m | L_s less the scatter as the front hops | L_s
+    stability_length_high | m | L_s with the scatter as the front hops | L_s
+    stability_length_error | m | standard error of L_s | L_s
+    stability_frequency | 1/s | angular frequency where growth begins | omega
+""")
+"""Results of :mod:`.growth`: of the patch where its growth begins."""
 
 
 @dataclasses.dataclass(frozen=True)

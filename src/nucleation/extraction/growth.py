@@ -34,7 +34,7 @@ from ..simulation.event import NEAR as NEAR_EDGE
 from ..simulation.recorded import RECORDED
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array, ComplexArray
-from .definitions import ExtractionSettings
+from .definitions import FITTED, ExtractionSettings
 from .extraction import Record
 
 if TYPE_CHECKING:
@@ -46,15 +46,6 @@ NEAR = 60  # instants around it, at most, to which the line is fitted
 AROUND = 0.08  # their range of lengths, to either side, over the crossing's length
 REFITS = 2  # the second is about the crossing of the first
 FEWEST_NEAR = 4  # instants for a line
-
-FITTED = {
-    "stability_length": Variable("m", "patch length where growth begins", "L_s"),
-    "stability_length_low": Variable("m", "L_s less the scatter as the front hops", "L_s"),
-    "stability_length_high": Variable("m", "L_s with the scatter as the front hops", "L_s"),
-    "stability_length_error": Variable("m", "standard error of L_s", "L_s"),
-    "stability_frequency": Variable("1/s", "angular frequency where growth begins", "omega"),
-}
-"""Variables of the patch where its growth begins."""
 
 FOLLOWED = {
     "x": RECORDED["x"],
@@ -162,30 +153,24 @@ def follow_patch(
     frozen = freezer(record.run, record.threshold)
     grid = grid_of(record.run.upper, record.run.fault.loading == "remote")
     force = -simulation["sigma_yy"].values[creep] * grid.nodal_lengths
-    known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating, by frame
+    known: dict[int, tuple[FrozenPatch, complex]] = {}  # with the oscillating mode, by frame
 
     def rates(frames: Iterable[int]) -> tuple[ComplexArray, ComplexArray]:
+        found = []
         for frame in frames:
             if frame not in known:
-                patch, pair = frozen(
-                    slip_rate[frame],
-                    state[frame],
-                    force[frame],
-                )
-                fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
-                known[frame] = fastest, pair
-        found = np.array([known[frame] for frame in frames], dtype=complex).reshape(-1, 2)
-        return found[:, 0], found[:, 1]
+                known[frame] = frozen(slip_rate[frame], state[frame], force[frame])
+            patch, pair = known[frame]
+            fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
+            found.append((fastest, pair))
+        both = np.array(found, dtype=complex).reshape(-1, 2)
+        return both[:, 0], both[:, 1]
 
     frames = np.flatnonzero(length >= FEWEST_NODES * grid.dx)
     fit, nearest = beginning_of_growth(frames, length, rates)
     mode = np.zeros(grid.n_x + 1, dtype=complex)
     if nearest is not None:
-        patch, pair = frozen(
-            slip_rate[nearest],
-            state[nearest],
-            force[nearest],
-        )
+        patch, pair = known[nearest]
         mode[patch.nodes], _ = patch.mode(pair)
     instants = sorted(known)
     fastest, oscillating = rates(instants)

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import Variable
+from ..datasets.variables import Variable, declared
 from ..model.friction import Friction
 from ..simulation.event import slipping_zone
 from ..types import Array
@@ -24,14 +24,14 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
-MEASURED = {
-    "onset_time": Variable("s", "onset of the event", "t"),
-    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
-    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
-    "length": Variable("m", "length at the drop", "L"),
-    "length_low": Variable("m", "smallest length over the definitions", "L"),
-    "length_high": Variable("m", "largest length over the definitions", "L"),
-}
+MEASURED = declared("""
+    onset_time | s | onset of the event | t
+    onset_time_low | s | earliest onset over the definitions of the drop | t
+    onset_time_high | s | latest onset over the definitions of the drop | t
+    length | m | length at the drop | L
+    length_low | m | smallest length over the definitions | L
+    length_high | m | largest length over the definitions | L
+""")
 """Results of :func:`.extraction.extract`."""
 
 EDGES = ("usual", "high", "low")
@@ -46,12 +46,12 @@ BY_DEFINITION = {
 }
 """The length by every definition of the patch's edge and of the instant."""
 
-ALWAYS = {
-    "rupture_time": Variable("s", "time during which some point slips faster than 1 mm/s"),
-    "largest_rate": Variable("m/s", "largest slip rate ever"),
-    "usual_step": Variable("s", "median of the time steps"),
-    "largest_normal_stress_ever": Variable("Pa", "largest sigma_yy on the interface, ever"),
-}
+ALWAYS = declared("""
+    rupture_time | s | time during which some point slips faster than 1 mm/s
+    largest_rate | m/s | largest slip rate ever
+    usual_step | s | median of the time steps
+    largest_normal_stress_ever | Pa | largest sigma_yy on the interface, ever
+""")
 """Those of :data:`MEASURES` that a run without an event has as well."""
 
 MEASURES = {

@@ -5,7 +5,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..model.hints import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
@@ -83,6 +82,8 @@ def specimen_fit(
         if value not in allowed:
             raise ParameterError(f"{name} = {value!r} is not allowed: one of {', '.join(allowed)}")
     given = checked("length", length, SPECIMEN)
+    from scipy.optimize import brentq  # slow to load, and few processes need it
+
     low, high = _range(unknown, within)
     others = numbers_of(fault).items()
     if np.ndim(given) or any(np.size(x) != 1 for name, x in others if name != unknown):

@@ -13,7 +13,6 @@ import xarray as xr
 
 from nucleation.types import Array
 
-from ..tables.modes import measured_response
 from ..tables.ratios import pairs_over_realisations
 from . import printed
 from .verdicts import Computation, Estimate, Missing, between
@@ -116,6 +115,17 @@ def _response(evidence: Tables, component: int) -> Array:
     )
     expected = np.array([printed.bimaterial_transfer(*pair)[component] for pair in pairs])
     return measured_response(high)[component] / expected[:, None]
+
+
+def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
+    """G1 and G2 of the bodies by the measured rates of simulated modes, (run, branch)."""
+    rates = modes["measured_growth"] + 1j * modes["measured_frequency"]
+    a, zeta, ell, v = (modes[name] for name in ("a", "zeta", "slip_distance", "velocity"))
+    weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
+    load = modes["shear_modulus"] * modes["mode_wavenumber"]
+    response = -modes["normal_stress"] * weakening / load
+    response = response.transpose("run", "branch")
+    return response.real.values, (-response.imag / modes["friction"]).values
 
 
 def _modulus(evidence: Tables) -> Array:

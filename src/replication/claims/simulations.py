@@ -29,6 +29,11 @@ def _with_range(row: Row, column: str, unit: float = 1.0) -> Estimate:
     return between(*(row[f"{column}{end}"] / unit for end in ("", "_low", "_high")))
 
 
+def _shown(column: str) -> Computation:
+    """A number of the run in Figure S2, with its range."""
+    return on_both(lambda e, role: _with_range(e.row(role, "aging", _SHOWN), column))
+
+
 def _heights(evidence: Evidence, role: str) -> list[Row]:
     """The rows of all heights; raises Missing if there are fewer than two."""
     rows = evidence.series(role)
@@ -161,26 +166,8 @@ def _shortest_step(evidence: Evidence) -> Estimate:
 
 
 NUMBERS: dict[str, Computation] = {
-    "onset-time": on_both(
-        lambda e, role: _with_range(
-            e.row(
-                role,
-                "aging",
-                _SHOWN,
-            ),
-            "onset_time",
-        )
-    ),
-    "length-shown": on_both(
-        lambda e, role: _with_range(
-            e.row(
-                role,
-                "aging",
-                _SHOWN,
-            ),
-            "length",
-        )
-    ),
+    "onset-time": _shown("onset_time"),
+    "length-shown": _shown("length"),
     "theory-agreement": on_both(
         lambda e, role: [
             _with_range(

@@ -22,11 +22,8 @@ from . import pairs as of_two_bodies
 from .evidence import Evidence, caution, mesh, span
 from .verdicts import Computation, Missing, Result, Verdict, judge, read, worst
 
-Statements = Mapping[str, Mapping[str, Mapping[str, Any]]]
-"""The entries of ``claims.yaml`` by subject and id."""
-
-Ordered = Sequence[tuple[str, Sequence[tuple[str, Mapping[str, Any]]]]]
-"""The same in pairs, in the paper's order."""
+Statements = Sequence[tuple[str, Iterable[tuple[str, Mapping[str, Any]]]]]
+"""The entries of ``claims.yaml`` by subject and id, in pairs, which keep the paper's order."""
 
 NUMBERS: dict[str, Computation] = {
     **friction.NUMBERS,
@@ -35,6 +32,7 @@ NUMBERS: dict[str, Computation] = {
     **of_two_bodies.NUMBERS,
 }
 """The function that computes our number for each claim, by its id."""
+
 
 COLUMNS = (
     *("id", "subject", "where", "statement", "paper", "ours", "ours_low", "ours_high"),
@@ -47,16 +45,12 @@ _HEADER = (
 )
 
 
-def _by_subject(ordered: Ordered) -> Statements:
-    return {subject: dict(entries) for subject, entries in ordered}
-
-
 def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason."""
     return [
         {"subject": subject} | evaluate_one(id, entry, evidence)
-        for subject, entries in statements.items()
-        for id, entry in entries.items()
+        for subject, entries in statements
+        for id, entry in entries
     ]
 
 
@@ -152,7 +146,7 @@ def escaped(text: str) -> str:
 
 
 def of_paper(
-    statements: Ordered,
+    statements: Statements,
     base: Run,
     settings: ExtractionSettings,
     theory: xr.Dataset,
@@ -171,33 +165,16 @@ def of_paper(
     tables = list(lengths)
     if longer_runs:
         tables.append(lengths_table(longer_runs, longer, settings))
-    by_id = dict(
-        zip(
-            patch_ids,
-            patches,
-            strict=True,
-        )
-    )
-    evidence = Evidence(
-        base,
-        theory,
-        dispersion,
-        tuple(tables),
-        by_id,
-    )
-    rows = evaluate(_by_subject(statements), evidence)
-    listed = json.dumps(
-        rows,
-        indent=1,
-        ensure_ascii=False,
-        allow_nan=False,
-    )
+    by_id = dict(zip(patch_ids, patches, strict=True))
+    evidence = Evidence(base, theory, dispersion, tuple(tables), by_id)
+    rows = evaluate(statements, evidence)
+    listed = json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False)
     return {".csv": to_csv(rows), ".md": to_markdown(rows), ".json": listed + "\n"}
 
 
-def of_pairs(statements: Ordered, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+def of_pairs(statements: Statements, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
     """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations."""
-    rows = evaluate(_by_subject(statements), {"pairs": pairs, "modes": modes})
+    rows = evaluate(statements, {"pairs": pairs, "modes": modes})
     return {".csv": to_csv(rows), ".md": to_markdown(rows)}
 
 

@@ -1,7 +1,6 @@
 """Making results: call a recipe's function with its sources, and put the result into the store.
 
 A job refuses to run code that differs from the planned code, and checks each source that it reads.
-New results are copied to the stores elsewhere.
 """
 
 import gc
@@ -48,13 +47,16 @@ class _PartFailed(Exception):
 
 
 def make(recipe: Recipe, rule: str, store: Store, threads: int, forced: bool) -> None:
-    """Make the result of a recipe and put it into the store; SystemExit with the reason if not.
+    """Make the result of a recipe and put it into the stores; SystemExit with the reason if not.
 
-    The parts of a batch are made on `threads` cores. If it is `forced`, a result that the store has
-    is made too, and compared.
+    The parts of a batch are made on `threads` cores; see _Maker for `forced`.
     """
     try:
         verify(recipe)
+        if "pint" not in sys.modules:  # xarray looks for it, and for 0.2 s if it finds it
+            sys.modules["pint"] = None  # type: ignore[assignment]
+            xr.IndexVariable("x", [0.0])
+            del sys.modules["pint"]
         gc.freeze()  # at its end Python would search all loaded objects, which takes 0.3 s
         gc.enable()
         maker = _Maker(rule, store, forced, others(strict=False))
@@ -102,8 +104,7 @@ class _Maker:
     ) -> list[Any]:
         """Make the parts of a batch; return the values of a function of their numbers and results.
 
-        It is called in the process that makes the result. If parts have failed, SystemExit names
-        them once all were tried.
+        If parts have failed, SystemExit names them once all were tried.
         """
         missing = [self.forced or not part.is_in(self.store) for part in parts]
         to_compute = multiprocessing.Value("i", sum(missing))  # by all processes
@@ -192,10 +193,7 @@ class _Maker:
         return function(**arguments(function, values), **sources, **more)
 
     def _open(self, path: str) -> xr.Dataset | Path:
-        """Read a dataset; other files are paths.
-
-        If an entry of the store is damaged, it is moved aside, and DatasetError is raised.
-        """
+        """Read a dataset; other files are paths. A damaged entry of the store: DatasetError."""
         file = Path(path)
         key = key_in(path)
         if key is None:

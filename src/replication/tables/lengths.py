@@ -1,6 +1,5 @@
 """The table of lengths at the drop: one row for each simulation, SI units."""
 
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -11,7 +10,6 @@ import xarray as xr
 from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
-from nucleation.extraction.growth import follow_patch
 from nucleation.extraction.measures import MEASURED, MEASURES, measure
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.names import parameters as known_parameters
@@ -95,36 +93,6 @@ COMPARED = declared(
     COLUMNS,
 )
 """Columns of every CSV file; parameters are there if the runs differ in them."""
-
-
-def measured_runs(
-    runs: Sequence[Row],
-    records: Any,
-    settings: ExtractionSettings,
-    measure: str,
-) -> xr.Dataset:
-    """The rows of a job's runs, which are also printed; without those that have no record.
-
-    `records` has the results of a function of the number and the record of each run.
-    """
-
-    def measured(i: int, record: xr.Dataset) -> xr.Dataset:
-        row = lengths_table([runs[i]], [record], settings)
-        if measure == "stability":
-            found = follow_patch(record, settings)["stability_length"]
-            row["stability_length"] = ("run", found.values[None], found.attrs)
-        onset, length, steps, seconds = (
-            row[name].item() for name in ("onset_time", "length", "steps", "wall_seconds")
-        )
-        print(
-            f"{runs[i]['id']}: onset {onset:.4f} s, length {length:.5g} m, "
-            f"{steps} steps in {seconds:.1f} s",
-            file=sys.stderr,
-        )
-        return row
-
-    rows = records(measured)
-    return join(rows) if rows else xr.Dataset()  # an empty one is not kept
 
 
 def lengths_table(

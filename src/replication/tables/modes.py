@@ -333,14 +333,3 @@ def pair_mode_files(base: Run) -> dict[str, Any]:
             ),
         ],
     )
-
-
-def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
-    """G1 and G2 of the bodies by the measured rates of simulated modes, (run, branch)."""
-    rates = modes["measured_growth"] + 1j * modes["measured_frequency"]
-    a, zeta, ell, v = (modes[name] for name in ("a", "zeta", "slip_distance", "velocity"))
-    weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
-    load = modes["shear_modulus"] * modes["mode_wavenumber"]
-    response = -modes["normal_stress"] * weakening / load
-    response = response.transpose("run", "branch")
-    return response.real.values, (-response.imag / modes["friction"]).values

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from nucleation.datasets.variables import declared, table
-from nucleation.extraction.growth import FITTED
+from nucleation.extraction.definitions import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_contrast

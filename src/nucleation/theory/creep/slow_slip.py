@@ -15,7 +15,6 @@ reach the wavenumber 2 N/L. They are then little stiff, and an explicit method i
 import math
 
 import numpy as np
-from scipy.integrate import RK45
 
 from ...model.friction import module
 from ...types import Array
@@ -30,7 +29,6 @@ TOLERANCE = 3e-3  # absolute, of the logarithms in a step
 FIRST_STEP = 1e-2  # over D/V
 MOST_STEPS = 40_000
 ORDER = 5  # of the method, Dormand and Prince's
-WEIGHTS = tuple(row[:count] for count, row in enumerate([*RK45.A, RK45.B]))[1:]  # of its stages
 
 
 def cohesive_wavenumber(patches: Patches, critical: float) -> float:
@@ -133,7 +131,7 @@ def lifetimes(
     """
     slow = _SlowSlip(patches, lengths, number)
     logs = slow.disturbed(disturbances)
-    stages = np.empty((len(WEIGHTS) + 1, *logs.shape))
+    stages = np.empty((ORDER + 2, *logs.shape))
     slow.rates(logs, stages[0])
     found = np.full(logs.shape[1:3], np.inf)
     rows = np.arange(len(found))
@@ -168,10 +166,12 @@ def _step(
     step: Array,
 ) -> tuple[Array, Array]:
     """Logarithms after a step, and their error over the tolerance; fills the later stages."""
+    from scipy.integrate import RK45  # slow to load, and few processes need it
+
     flat = stages.reshape(len(stages), -1)  # a view: stages is contiguous
     own = step[..., None]
-    for index, weights in enumerate(WEIGHTS, start=1):
-        change = weights @ flat[:index]
+    for index, row in enumerate([*RK45.A[1:], RK45.B], start=1):
+        change = row[:index] @ flat[:index]
         after = logs + own * change.reshape(logs.shape)
         slow.rates(after, stages[index])
     error = np.abs(RK45.E @ flat).reshape(logs.shape).max(axis=(0, -1))
