@@ -64,18 +64,18 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 def problem(arguments: Sequence[str]) -> str | None:
     """The problem with the cores or the configuration files, in words; None if there is none."""
-    from nucleation.model.quantities import ParameterError
-
-    from ..configuration.load import load
-
     given = options(arguments)
     if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"
-    try:
-        if given.configfile:
+    if given.configfile:
+        from nucleation.model.quantities import ParameterError
+
+        from ..configuration.load import load
+
+        try:
             load(*given.configfile)
-    except ParameterError as error:
-        return str(error)
+        except ParameterError as error:
+            return str(error)
     return None
 
 
