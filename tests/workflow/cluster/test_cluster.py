@@ -21,9 +21,9 @@ FIRST = "step 0:"  # in the log of a simulation that runs
 AGAIN = "the run resumes from"  # in the log of one that was stopped
 COSTS = ["wall_seconds", "peak_megabytes"]  # columns of the table that tell how long a run took
 
-# Four simulations of the quick configuration with so short steps that they can be hit midway.
+# Three simulations of the quick configuration with so short steps that they can be hit midway.
 QUICK = read_yaml(ROOT / "config/quick.yaml")
-STUDY = {**QUICK["studies"]["paper"], "runs": QUICK["studies"]["paper"]["runs"][:2]}
+STUDY = {**QUICK["studies"]["paper"], "runs": QUICK["studies"]["paper"]["runs"][:1]}
 STUDY["defaults"] = {"n_x": 40, "n_y": 4, "longest_step": 0.05, "time_after_event": 0.0}
 CONFIG = {**QUICK, "studies": {"paper": STUDY}}
 RUNS = configure(CONFIG).runs
@@ -82,13 +82,13 @@ def local(workflow_type, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def disturbed(slurm, workflow_type, tmp_path_factory):
-    """Figure 3 through Slurm, losing a job and a node midway; how many ran side by side."""
+    """Figure S2 and lengths through Slurm, losing a job and a node midway; jobs of each node."""
     made = workflow_type(tmp_path_factory.mktemp("slurm"), profile="slurm").configured(CONFIG)
     with pytest.MonkeyPatch.context() as environment:  # no checkpoint by the clock
         environment.setenv(VARIABLE, "3600")
-        process = made.start("figure_3", *OFTEN)
+        process = made.start("figure_s2", "lengths", *OFTEN)
     try:
-        wait_for(lambda: len(hold(made)) == 4 or process.poll() is not None)
+        wait_for(lambda: len(hold(made)) == len(RUNS) or process.poll() is not None)
         assert process.poll() is None, process.stdout.read()
         held = hold(made)
         jobs = slurm.jobs(made.directory)
@@ -114,7 +114,7 @@ def test_a_core_for_each_simulation(disturbed):
     """What sbatch was asked for: a core, a run's memory, and twice that in the next attempt."""
     _, jobs, on = disturbed
     simulations = [job for job in jobs if "simulate" in job["Comment"]]
-    assert {node: len(ids) for node, ids in on.items()} == {"n1": 2, "n2": 2}
+    assert {node: len(ids) for node, ids in on.items()} == {"n1": 2, "n2": 1}
     assert len(simulations) == 1 + len(RUNS)  # the cancelled one again
     assert {job["NumCPUs"] for job in simulations} == {"1"}
     assert {job["TimeLimit"] for job in simulations} == {"01:00:00"}
@@ -133,14 +133,14 @@ def test_lost_job_and_node_are_made_up_for(disturbed):
     assert states.pop(on["n2"][0]) == "CANCELLED"
     assert set(states.values()) == {"COMPLETED"}
     assert {job["Restarts"] for job in jobs if job["JobId"] in on["n1"]} == {"1"}
-    assert len(states) == 2 + len(RUNS)  # the theory and the lengths as well
+    assert len(states) == 1 + len(RUNS)  # the lengths as well
     assert sum(AGAIN in log for log in logs(made).values()) == 1  # the cancelled, not the lost
 
 
 @pytest.fixture(scope="module")
 def batch(slurm, workflow_type, tmp_path_factory):
-    """Four simulations in one job, started here: what follows need not wait for it."""
-    values = {**CONFIG, "studies": {"paper": STUDY | {"runs_per_job": 4}}}
+    """Three simulations in one job, started here: what follows need not wait for it."""
+    values = {**CONFIG, "studies": {"paper": STUDY | {"runs_per_job": 3}}}
     made = workflow_type(tmp_path_factory.mktemp("batch"), profile="slurm").configured(values)
     process = made.start("simulations", *OFTEN)
     yield made, process
@@ -168,7 +168,7 @@ def test_results_of_the_cluster_are_the_local_ones(disturbed, stopped, batch, lo
     pd.testing.assert_frame_equal(
         *(table.drop(columns=COSTS, errors="ignore") for table in tables), check_exact=True
     )
-    assert (made.directory / "results/quick/figures/figure_3.pdf").exists()
+    assert (made.directory / "results/quick/figures/figure_s2.pdf").exists()
 
 
 def test_time_limit_leaves_time_for_a_checkpoint(stopped):
