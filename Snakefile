@@ -12,6 +12,7 @@ import atexit
 import functools
 import gc
 import importlib.util
+import inspect
 import logging
 import os
 import runpy
@@ -23,8 +24,6 @@ from dataclasses import asdict
 from math import ceil
 from pathlib import Path
 
-import snakemake.common
-import snakemake.rules
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
@@ -77,12 +76,6 @@ from replication.pipeline.store import others
 gc.freeze()  # searching all loaded objects takes a third of a second in all
 gc.set_threshold(50_000)  # of thousands of jobs nothing is garbage; this saves a twelfth of a plan
 
-# Snakemake looks up the arguments of a rule's functions fifteen times for each job, a tenth of a plan.
-arguments_of = getattr(snakemake.common, "get_function_params", None)
-if arguments_of:
-    snakemake.common.get_function_params = functools.cache(arguments_of)
-    snakemake.rules.get_function_params = snakemake.common.get_function_params
-
 ON_CTRL_C = signal.getsignal(signal.SIGINT)
 
 
@@ -129,6 +122,12 @@ JOB = f"{PYTHON} -m replication.pipeline.job {{input.recipe:q}} {{rule}} {{threa
 
 
 recipe = Plan(rules, workflow, RESULTS)
+
+
+def asked_often(function):
+    """A function with its signature at hand, for which Snakemake looks several times in each job."""
+    function.__signature__ = inspect.signature(function)
+    return function
 
 
 def ours(path):

@@ -3,8 +3,10 @@
 # One job makes a batch: several simulations of a study with `runs_per_job`, or a single one. It makes
 # them in parallel on its cores, and shows each one, results/simulations/ID.nc, when it is finished.
 # If no other rule reads the simulations one by one, the job also extracts their lengths.
-def memory(runs, threads, attempt):
-    """Memory (MB) of a cluster job that makes simulations; Snakemake itself needs 300 MB."""
+@asked_often
+def memory(wildcards, threads, attempt):
+    """Memory (MB) of a cluster job that makes a batch; Snakemake itself needs 300 MB."""
+    runs = runs_of_batch(wildcards.batch)
     largest = max(estimated_megabytes(run.run) for run in runs)
     return attempt * ceil(300 + min(threads, len(runs)) * (largest + 150))
 
@@ -17,6 +19,16 @@ def before_others(runs):
     return elements / (elements + 1e6)
 
 
+@asked_often
+def cores_of(wildcards):
+    return min(2, len(runs_of_batch(wildcards.batch)))
+
+
+@asked_often
+def simulations_of(wildcards):
+    return simulations(runs_of_batch(wildcards.batch))
+
+
 rule simulate:
     """The simulations of a batch, in parallel on its cores"""
     input:
@@ -25,15 +37,13 @@ rule simulate:
         f"{RESULTS}/batches/{{batch}}.json",
     log:
         f"{RESULTS}/logs/batches/{{batch}}.log",
-    priority: lambda wildcards: 2 + before_others(runs_of_batch(wildcards.batch))
-    threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
+    priority: asked_often(lambda wildcards: 2 + before_others(runs_of_batch(wildcards.batch)))
+    threads: cores_of
     resources:
-        mem_mb=lambda wildcards, threads, attempt: memory(
-            runs_of_batch(wildcards.batch), threads, attempt
-        ),
+        mem_mb=memory,
         runtime=ceil(settings.limits.runtime),
     params:
-        makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
+        makes=simulations_of,
     shell:
         JOB
 
@@ -46,17 +56,15 @@ rule simulate_and_measure:
         multiext(f"{RESULTS}/batches/{{batch}}", ".nc", ".csv"),
     log:
         f"{RESULTS}/logs/batches/{{batch}}.log",
-    priority: lambda wildcards: 1 + before_others(runs_of_batch(wildcards.batch))
-    threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
+    priority: asked_often(lambda wildcards: 1 + before_others(runs_of_batch(wildcards.batch)))
+    threads: cores_of
     resources:
-        mem_mb=lambda wildcards, threads, attempt: memory(
-            runs_of_batch(wildcards.batch), threads, attempt
-        ),
+        mem_mb=memory,
         runtime=ceil(settings.limits.runtime),
     params:
         call="replication.tables.measured:measured_runs",
         loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
-        makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
+        makes=simulations_of,
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
         settings=asdict(settings.extraction),
         measure=lambda wildcards: settings.studies[study_of(wildcards.batch)].measure,

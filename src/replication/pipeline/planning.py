@@ -7,7 +7,7 @@ triggers decide correctly, even if its notes are lost or times of files are wron
 process plans has other names.
 
 A run, unlike a dry run, first removes files that show another result, so that none is left if a job
-fails, and shows all that stores have. Snakemake's inner parts are used here and in the Snakefile.
+fails, and shows all results that are in a store. Snakemake's inner parts are used here alone.
 """
 
 import atexit
@@ -18,6 +18,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from inspect import signature
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -59,6 +60,7 @@ class Plan:
             except Exception as error:  # else Snakemake would use an outdated file of the result
                 raise SystemExit(f"{rule} can't be planned: {error}") from None
 
+        recipe_file.__signature__ = signature(recipe_file)  # type: ignore[attr-defined]
         return recipe_file
 
     def _report(self) -> None:
