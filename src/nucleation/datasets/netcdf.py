@@ -83,13 +83,15 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
             raise
 
 
-def read(path: str | os.PathLike[str]) -> xr.Dataset:
+def read(path: str | os.PathLike[str], checked: bool = False) -> xr.Dataset:
     """Read a dataset into memory and check it.
 
     Parameters
     ----------
     path : path
         The file.
+    checked : bool
+        Whether its bytes were compared just now with those that were written.
 
     Returns
     -------
@@ -114,7 +116,7 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
     1.0
     """
     with _refusing(path):
-        sealed(path)  # before HDF5 reads any byte
+        sealed(path, whole=not checked)  # before HDF5 reads any byte
         # xarray would move the coordinate of the rows behind all columns
         with xr.open_dataset(
             path, engine="netcdf4", decode_times=False, decode_coords=False

@@ -97,16 +97,10 @@ def find_onset(
         None if there is no event.
     """
     maxima: list[tuple[float, float]] = []
+    steps = list(zip(time.tolist(), force.tolist(), fast.tolist(), strict=True))
 
     def falls(step: int) -> bool:
-        dropped = has_dropped(
-            maxima,
-            window,
-            drop,
-            time[step],
-            force[step],
-            fast[step],
-        )
+        dropped = has_dropped(maxima, window, drop, *steps[step])
         return dropped and bool(long_enough[np.searchsorted(time, maxima[0][0])])
 
     end = next(filter(falls, range(time.size)), None)

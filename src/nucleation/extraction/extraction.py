@@ -96,12 +96,8 @@ class Record:
         if "fastest_position" in self.simulation:
             places = self.simulation["fastest_position"].values
         found = [False]
-        for step in zip(
-            self.step_time,
-            self.fastest,
-            places,
-            strict=True,
-        ):
+        # lists, as numbers of arrays take four times as long
+        for step in np.transpose([self.step_time, self.fastest, places]).tolist():
             found.append(
                 patch_is_fast(
                     self.run,
@@ -179,17 +175,21 @@ def extract(
     >>> extract(simulate(run))["length"]  # the run ends before its event
     nan
     """
-    record = Record(simulation, settings)
+    return extracted(Record(simulation, settings))
+
+
+def extracted(record: Record) -> dict[str, float]:
+    """What :func:`extract` returns, from a record whose onset is then known."""
     if record.onset is None:
-        recorded, drop = record.run.stepping.event_drop, settings.drop
-        status = str(simulation.attrs.get("status"))
+        recorded, drop = record.run.stepping.event_drop, record.settings.drop
+        status = str(record.simulation.attrs.get("status"))
         if drop > recorded and status.startswith(Outcome.AFTER_EVENT):
             warnings.warn(
                 f"the run ended after its event, a drop of the force by {recorded:g}, and before "
                 f"it fell by drop = {drop:g}: simulate with a larger stepping.event_drop "
                 "or time_after_event",
                 UserWarning,
-                stacklevel=2,
+                stacklevel=3,
             )
         return dict.fromkeys(READ, float("nan"))
     instants = record.drop_times

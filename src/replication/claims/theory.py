@@ -318,7 +318,12 @@ NUMBERS: dict[str, Computation] = {
     "thin-length": _thin_length,
     "thin-agreement": lambda e: (e.theory["thin_limit_length"] / e.theory["critical_length"])[0],
     "thin-deviation": lambda e: (
-        (e.theory["thin_limit_length"] / e.theory["critical_length"]).interp(height=0.1) - 1.0
+        np.interp(
+            0.1,
+            e.theory["height"],
+            e.theory["thin_limit_length"] / e.theory["critical_length"],
+        )
+        - 1.0
     ),
     "response-matrix": lambda e: [
         _response_error(

@@ -200,7 +200,7 @@ class _Maker:
             return file
         try:
             read_note(file.parent, whole=True)
-            return netcdf.read(file) if file.suffix == ".nc" else file
+            return netcdf.read(file, checked=True) if file.suffix == ".nc" else file
         except DatasetError as error:
             self.store.set_aside(key)
             advice = "It was moved aside: run this again, and it is made again"

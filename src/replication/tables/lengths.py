@@ -9,7 +9,7 @@ import xarray as xr
 
 from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.extraction.extraction import Record, extract
+from nucleation.extraction.extraction import Record, extracted
 from nucleation.extraction.measures import MEASURED, MEASURES, measure
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.names import parameters as known_parameters
@@ -110,7 +110,7 @@ def lengths_table(
         if row["fault"] not in by_theory:
             by_theory[row["fault"]] = _stability(run)
         record = Record(simulation, settings)
-        found = extract(simulation, settings)
+        found = extracted(record)
         reached = record.lengths[-1] if record.onset is None else found["length"]
         row |= by_theory[row["fault"]] | found | measure(record)
         row |= {name: simulation.attrs[name] for name in DIAGNOSTICS}
