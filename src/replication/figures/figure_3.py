@@ -204,7 +204,8 @@ def draw_extended(
 
     `table` has L_s of the same runs.
     """
-    lengths = _means(lengths)
+    length = lengths["length"]  # with one definition: ranges are those of realisations
+    lengths = over_realisations(lengths.assign(length_low=length, length_high=length))
     figure, (left, right) = style.panels(8.2, columns=2)
     _draw_lengths(left, theory, lengths, table)
     _draw_lengths(right, *map(_over_theory, (theory, lengths, table)))
@@ -235,12 +236,6 @@ def draw_extended(
     right.legend(handles=marks, loc="upper left")
     style.letters(left, right)
     return figure
-
-
-def _means(table: xr.Dataset) -> xr.Dataset:
-    """The mean of each fault's realisations, and their range with one definition of length."""
-    length = table["length"]
-    return over_realisations(table.assign(length_low=length, length_high=length))
 
 
 def _over_theory(table: xr.Dataset) -> xr.Dataset:

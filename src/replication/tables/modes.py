@@ -168,7 +168,11 @@ PAIR_MODES = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)
 DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
 ENDLESS = 1e3  # m
 SOFT, STIFF = 3.1e9, 9.3e9  # Pa
-OF_FAULT = ("friction", "a", "zeta", "slip_distance", "velocity", "normal_stress")
+OF_FAULT = (
+    *("height", "second_height", "shear_modulus", "second_shear_modulus", "poisson_ratio"),
+    *("second_poisson_ratio", "friction", "a", "zeta", "slip_distance", "velocity"),
+    "normal_stress",
+)
 
 
 _BODIES: Row = {
@@ -303,18 +307,12 @@ def pair_modes(
             run = base.replaced(**{"height": height, "second_height": height} | pair)
             fault, below = run.fault, run.below
             assert below is not None
-            upper, lower = run.upper.material, below.material
+            contrast = bimaterial_contrast(run.upper.material, below.material)
             described: Row = {
                 "id": name,
                 "far_side": below.far_side,
-                "height": fault.height,
-                "second_height": below.height,
-                "shear_modulus": upper.shear_modulus,
-                "second_shear_modulus": lower.shear_modulus,
-                "poisson_ratio": upper.poisson_ratio,
-                "second_poisson_ratio": lower.poisson_ratio,
                 **{column: getattr(fault, column) for column in OF_FAULT},
-                "f_beta": fault.friction * bimaterial_contrast(upper, lower),
+                "f_beta": fault.friction * contrast,
             }
             rows.append(described | mode_row(run, ratio, critical))
     return _table(rows)
