@@ -20,8 +20,7 @@ for name in [*OF_MAKE, "CORES", "TARGETS", "CONFIG", "PRUNE"]:
 # Snakemake's plugin asks Slurm at every start: a controller that is gone would take ten seconds.
 os.environ["SLURM_CONF"] = os.devnull
 
-# Workers are processes: threads of the linear algebra would take the cores from one another. It is
-# set before anything imports numpy.
+# Workers are processes: threads of the linear algebra would take the cores from one another.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # No deadline: machines are busy. In CI the same examples at every run, elsewhere new ones.
@@ -31,14 +30,15 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("project")
 SYSTEM = ("workflow/cluster", "faults", "workflow")
 """Directories of tests that start the whole workflow."""
-LONG = ("test_random_faults.py", *SYSTEM, "docs", "test_packaging.py", "theory", "verification")
+LATER = ("docs", "theory", "configuration", "test_packaging.py", "verification")
+LONG = ("test_random_faults.py", *SYSTEM, *LATER)
 """What is begun first, by the time that its longest file takes; all others take less."""
 
 
 @pytest.fixture
 def square(monkeypatch):
     """The state evolves by a law that is not the project's."""
-    import square_evolution
+    import square_evolution  # and numpy with it, after OPENBLAS_NUM_THREADS is set
 
     monkeypatch.setattr("nucleation.model.friction.Friction.evolution_law", square_evolution)
 
