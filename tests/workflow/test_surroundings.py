@@ -82,7 +82,9 @@ def test_a_simulation_is_not_planned_again_after_a_build(quick):
 def test_a_storage_is_refused_in_one_sentence():
     """Of Snakemake's plug-ins for storages, none of which is installed here."""
     output = SimpleNamespace(is_storage=True, apply_wildcards=lambda _: "results/a.nc")
-    plan = Plan(SimpleNamespace(a=SimpleNamespace(output=[output])), None, "results")
+    rule = SimpleNamespace(output=[output], input={}, params={})
+    workflow = SimpleNamespace(is_main_process=True)
+    plan = Plan(SimpleNamespace(a=rule), workflow, "results")
     with pytest.raises(SystemExit, match="a can't be planned: results are links, which no storage"):
         plan("a")({})
 
