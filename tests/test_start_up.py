@@ -42,6 +42,16 @@ try:
 except SystemExit as end:
     assert not end.code
 """
+JOB = """
+from dataclasses import asdict
+from replication.configuration.load import load
+from replication.pipeline import making, recipes, store
+settings = load(lazy=True)
+values = {"base": settings.base.to_dict(), "curves": asdict(settings.drawn_curves())}
+call = "replication.tables.curves:theory_dataset"
+recipe = recipes.Recipe("theory", ["theory.nc"], ".", call, [], values, {}, [])
+making.make(recipe, "theory", store.Store("store"), 1, False)
+"""
 HALF_SPACES = (
     "length --shear-modulus=30GPa --poisson-ratio=0.25 --normal-stress=50MPa --a=0.010 --b=0.015 "
     "--slip-distance=5um"
@@ -56,6 +66,7 @@ NEEDED_LATER = {
     "help of length": (COMMANDS.format(["length --help"]), SOLVER),  # it knows named dimensions
     "length": (COMMANDS.format([HALF_SPACES]), (*SOLVER, *HEAVY, "scipy")),
     "plan": (PLAN.format(root=ROOT), COMPILED),
+    "job": (JOB, (*SOLVER, "matplotlib", "pint", "scipy.integrate", "scipy.optimize")),
     "drawing": ("import replication.tables.lengths, replication.figures.figure_3", COMPILED),
 }
 """Codes, and modules that they need not load."""

@@ -113,6 +113,12 @@ def test_digest_of_the_simulation_reaches_its_libraries():
     assert not any(module.startswith("replication") for module in modules)
 
 
+def test_what_reads_tables_does_not_count_the_solver():
+    """Nor does its job load it, as a job loads all code that counts."""
+    drawing, claims = "replication.figures.figure_3", "replication.claims.table"
+    assert not code.libraries(drawing, claims, "replication.tables.lengths") & {"numba"}
+
+
 WITHOUT = """
 import sys
 
