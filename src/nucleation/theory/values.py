@@ -147,9 +147,18 @@ def checked(
 
     Raises ParameterError if it is no array of numbers, or one of them is out of range.
     """
-    if isinstance(value, float) and entry.inside(value):  # of thousands of runs most values
-        warn_of_implausible(name, value, entry)
-        return np.asarray(value)
+    if not (isinstance(value, float) and entry.inside(value)):  # as few values of many runs
+        value = _array(name, value, entry)
+    warn_of_implausible(name, value, entry)
+    return value if labelled(value) else np.asarray(value)
+
+
+def _array(
+    name: str,
+    value: Any,
+    entry: Quantity,
+) -> Array | xr.DataArray:
+    """The array of :func:`checked`; its magnitudes may be implausible."""
     value = magnitude(name, value, entry)
     try:
         array = value if labelled(value) else np.asarray(value)
@@ -175,7 +184,6 @@ def checked(
                 entry,
             )
         )
-    warn_of_implausible(name, flat, entry)
     return array
 
 
