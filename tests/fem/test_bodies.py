@@ -133,7 +133,7 @@ def test_edge_that_moves_as_foreseen_saves_a_solve(off, bottom):
     at_rest = operator.respond(load, 0.0 * near_the_load)
     solved = operator.balance(at_rest, near_the_load)[0]
     moved = Field(solved.modes, (1.0 + off) * solved.edge)
-    foreseen = foreseen_edge((Motion(moved, body.zero_field(), 0.0),), 1e-3, 0.0)
+    foreseen = foreseen_edge((Motion(moved, body.zero_field(), 0.0),), 1e-3, 0.0, 0.0, 0.0)
     response = operator.respond(load, near_the_load, foreseen)
     found, _, error = operator.balance(response, near_the_load, foreseen=foreseen)
     assert operator.tolerates(error) == (off == 0.0)

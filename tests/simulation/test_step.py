@@ -12,7 +12,6 @@ from nucleation.simulation import interface, passes, step
 from nucleation.simulation.interface import NewtonFailure
 from nucleation.simulation.run import instants
 from nucleation.simulation.start import at_rest, composed
-from nucleation.simulation.stepping import BDF, _Formula
 
 
 def small(law="aging", **mesh):
@@ -141,9 +140,12 @@ def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     state, report = at_rest(dynamics, small())
     rates = np.full_like(report.interface.slip_rate, slow)
     rates[0] = fastest
-    state = dataclasses.replace(state, past_slip_rates=rates[None])
-    formulas = dataclasses.replace(BDF().step(0, state.past_times), body=_Formula(length, 1.0, ()))
-    scaled, guess, _, scale = step._extrapolated(state, formulas, 1e-3, 5e-7)
+    least = max(step.SLOW * 1e-3, step.SLIGHT_SLIP * 5e-7 / length)
+    states, w = state.past_log_states, state.past_w
+    one, none = np.ones(1), np.zeros(rates.size)
+    scaled, guess, _, scale, *_ = passes.predicted(
+        rates[None], states, w, one, (1.0, 0.0, 0.0), 1.0, fastest, False, none, least
+    )
     np.testing.assert_allclose(guess, rates, rtol=1e-12)
     changed = rates * (1.0 + 1e-6)
     changed[0] = fastest

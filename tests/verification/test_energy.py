@@ -129,7 +129,7 @@ class Accountant:
             return [(v - old) / step for v, (old,) in zip(relative, before, strict=True)]
         f = _Formula.bdf2(BDF().leading_coefficient(step, past[0].step), past[0].step)
         pairs = zip(relative, before, strict=True)
-        return [(v - f.from_past(np.array(old))) / f.beta for v, old in pairs]
+        return [(v - np.array(f.past) @ np.array(old)[:2]) / f.beta for v, old in pairs]
 
 
 def creeps_again(fastest, rate):

@@ -302,5 +302,5 @@ class Body:
         ):
             displacement = motion.displacement.plus(risen.times(age * rate - rise))
             velocity = motion.velocity.plus(risen.times(-rate))
-            settled.append(Motion(displacement, velocity, motion.momentum))
+            settled.append(motion._replace(displacement=displacement, velocity=velocity))
         return tuple(settled)

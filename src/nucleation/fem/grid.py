@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -59,8 +60,7 @@ class Grid:
         return lengths
 
 
-@dataclasses.dataclass(frozen=True)
-class Field:
+class Field(NamedTuple):
     """A displacement, a velocity or a load of a body, its layers one after the other.
 
     `modes` are amplitudes, (levels, 2, n_x): level from the interface up, component, mode. `edge`
@@ -79,10 +79,11 @@ class Field:
         return Field(factor * self.modes, factor * self.edge)
 
 
-@dataclasses.dataclass(frozen=True)
-class Motion:
+class Motion(NamedTuple):
     """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``."""
 
     displacement: Field
     velocity: Field
     momentum: float  # along x, of that velocity (kg/s per unit depth)
+    excess: float = 0.0  # of the load on the far sides over the steady one, relative,
+    excess_rate: float = 0.0  # 1/s, and its rate by the formula of the step

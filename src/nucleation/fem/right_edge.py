@@ -20,14 +20,25 @@ ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 
 
-def foreseen_edge(motions: Sequence[Motion], step: float, last_step: float) -> Array:
-    """Edge values (m) after a step (s) with the acceleration of the last step."""
+def foreseen_edge(
+    motions: Sequence[Motion],
+    step: float,
+    last_step: float,
+    excess: float,
+    per_load: Array,
+) -> Array:
+    """Edge values (m) after a step (s) to a load of some relative excess.
+
+    They follow the load at once, by `per_load` (m), and otherwise go on with the acceleration of
+    the last step.
+    """
     now = motions[0]
     before = motions[-1]
-    edge = now.displacement.edge + step * now.velocity.edge
+    velocity = now.velocity.edge - now.excess_rate * per_load
+    edge = now.displacement.edge + (excess - now.excess) * per_load + step * velocity
     if last_step == 0.0:
         return edge
-    change = now.velocity.edge - before.velocity.edge
+    change = velocity - (before.velocity.edge - before.excess_rate * per_load)
     return edge + (0.5 * step**2 / last_step) * change
 
 

@@ -21,6 +21,7 @@ class Imposed(NamedTuple):
     strength: Array | None = None  # factor on the friction coefficient, nodes 0..n_x; None: 1
     state_forcing: Array | None = None  # added to d log(phi)/dt (1/s), nodes 0..n_x; None: 0
     acceleration: float = 0.0  # m/s^2, U''(t) of the driven edge
+    normal_load: float = 1.0  # over the steady one, which it multiplies
 
 
 class Drive(NamedTuple):
@@ -28,7 +29,7 @@ class Drive(NamedTuple):
 
     velocity: float  # m/s, unperturbed: the scale of slip rates
     at: Callable[[float], Imposed]  # boundary conditions
-    load: Callable[[float], Field]  # N/m, on the body
+    load: Callable[[float], Field]  # N/m, on the body, but for the factor of the normal load
     moves: bool = True  # an edge is moved, and the driving force is the force on it
 
 
@@ -56,10 +57,12 @@ def remote_drive(near: Drive, start: Field, rising: Field) -> Drive:
             displacement=0.0,
             velocity=0.0,
             acceleration=0.0,
+            normal_load=1.0,
         )
 
     def load(time: float) -> Field:
-        risen = rising.times(near.at(time).displacement)
-        return near.load(time).plus(start).plus(risen)
+        imposed = near.at(time)
+        normal = near.load(time).times(imposed.normal_load)
+        return normal.plus(start).plus(rising.times(imposed.displacement))
 
     return Drive(near.velocity, at, load, moves=False)

@@ -10,6 +10,8 @@ from numba.extending import overload
 from ..fem.compiling import compiled
 from ..model.friction import evolutions
 
+LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / scale) in a first guess
+SLOW_IN_EVENT = 1e-3  # slip rates below this part of the fastest one need no relative accuracy
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 
@@ -164,27 +166,54 @@ def moved(
 
 
 @compiled
-def expected(
-    rates,
-    log_states,
+def predicted(
+    past_rates,
+    past_states,
+    past_w,
     weights,
-    scale,
-    largest,
+    formula,
+    beta,
+    velocity,
+    periodic,
+    forcing,
+    least,
 ):
-    """Extrapolated asinh(v / scale), slip rates (m/s) and log(phi), by weights, newest first."""
-    past, n = rates.shape
+    """A step's first guess, and the past part of its formula.
+
+    Past values, newest first, are extrapolated by weights: slip rates as asinh(v / scale), above
+    the scale by relative changes, and log(phi). Returned are the first, slip rates (m/s) with that
+    of the driven edge, log(phi), the scale (m/s), the past part of w (m) and of log(phi), and w
+    (m). The scale is the largest one of `least` (m/s) and a part of the fastest slip rate.
+    """
+    past, n = past_rates.shape
+    fastest = largest(past_rates[0])
+    scale = max(least, SLOW_IN_EVENT * fastest)
+    bound = min(LARGEST_RATE_EXPONENT, np.arcsinh(10.0 * fastest / scale))
     scaled = np.empty(n)
     rate = np.empty(n)
     log_state = np.empty(n)
+    past_log_state = np.empty(n)
+    before = np.empty(n - 1)
+    w = np.empty(n - 1)
     for i in range(n):
-        z = psi = 0.0
+        z = psi = kept = 0.0
         for k in range(past):
-            z += weights[k] * np.arcsinh(rates[k, i] / scale)
-            psi += weights[k] * log_states[k, i]
-        scaled[i] = min(max(z, -largest), largest)
+            z += weights[k] * np.arcsinh(past_rates[k, i] / scale)
+            psi += weights[k] * past_states[k, i]
+            kept += formula[k] * past_states[k, i]
+        scaled[i] = min(max(z, -bound), bound)
         rate[i] = scale * np.sinh(scaled[i])
         log_state[i] = psi
-    return scaled, rate, log_state
+        past_log_state[i] = kept + beta * forcing[i]
+        if i == 0:
+            continue
+        kept = 0.0
+        for k in range(past):
+            kept += formula[k] * past_w[k, i - 1]
+        before[i - 1] = kept
+        w[i - 1] = kept + beta * (rate[i] - velocity)
+    rate[0] = rate[n - 1] if periodic else velocity
+    return scaled, rate, log_state, scale, before, past_log_state, w
 
 
 @compiled

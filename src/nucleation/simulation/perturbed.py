@@ -222,9 +222,12 @@ def perturbed(run: Run, body: Body, drive: Drive) -> Drive:
         )
     series = Series(seed, correlation_time)
     if kind == "normal_load":
-        return drive._replace(
-            load=lambda time: drive.load(time).times(1.0 + strength * series.value(time))
-        )
+
+        def pressed(time: float) -> Imposed:
+            factor = 1.0 + strength * series.value(time)
+            return drive.at(time)._replace(normal_load=factor)
+
+        return drive._replace(at=pressed)
 
     def fluctuating(time: float) -> Imposed:
         ahead = strength * series.integral(time)

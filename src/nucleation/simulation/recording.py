@@ -235,7 +235,7 @@ class _Energy:
         self._far = np.cumsum(levels) - 1  # levels of the far sides
         self._works = np.zeros(2)  # of edge and loads, and of friction on the body
         self._start = np.empty(0)  # elastic and kinetic energy
-        self._last = np.empty(0)  # forces (N/m) and ways (m), those of friction last
+        self._last: tuple[Array, ...] = ()  # forces (N/m), those of friction last, and ways (m)
 
     def take(self, state: State, report: StepReport) -> None:
         """Take in the initial state or a step."""
@@ -243,21 +243,24 @@ class _Energy:
         grid, modes = self._body.grid, self._body.modes
         load, field = self._drive.load(state.time), state.displacement
         moved = self._drive.at(state.time).displacement
+        factor = 1.0 + state.motions[0].excess
         far = self._far
-        slip = moved + modes.on_all_nodes(report.interface.w, 0.0)[grid.own]
         forces = (
-            [-report.driving_force],
-            (load.modes[far] * modes.norms).ravel(),
-            load.edge[far],
+            np.array([-report.driving_force]),
+            factor * load.modes[far] * modes.norms,
+            factor * load.edge[far],
             report.interface.tangential[grid.own],
         )
-        ways = ([moved], field.modes[far].ravel(), field.edge[far], slip)
-        before, self._last = self._last, np.array([np.concatenate(forces), np.concatenate(ways)])
-        if before.size:
-            works = 0.5 * (before[0] + self._last[0]) * (self._last[1] - before[1])
-            self._works += works[: -slip.size].sum(), works[-slip.size :].sum()
-        else:
+        slip = moved + modes.on_all_nodes(report.interface.w, 0.0)[grid.own]
+        ways = np.array([moved]), field.modes[far], field.edge[far], slip
+        before, self._last = self._last, (*forces, *ways)
+        if not before:
             self._start = self._stored(state)
+            return
+        works = []
+        for i, (force, way) in enumerate(zip(forces, ways, strict=True)):
+            works.append(0.5 * np.vdot(before[i] + force, way - before[4 + i]))
+        self._works += sum(works[:-1]), works[-1]
 
     def _stored(self, state: State) -> Array:
         """Elastic and kinetic energy (J/m)."""
@@ -279,12 +282,12 @@ class _Energy:
 
     def to_arrays(self) -> Arrays:
         """What is not in the state, as plain arrays by name, to be stored; exact."""
-        works = self._works.copy()
-        return {"energy_works": works, "energy_start": self._start, "energy_last": self._last}
+        last = {f"energy_{i}": values for i, values in enumerate(self._last)}
+        return last | {"energy_works": self._works.copy(), "energy_start": self._start}
 
     def restore(self, arrays: Mapping[str, Array]) -> None:
         """The inverse of :meth:`to_arrays`, with the arrays of the state."""
         self._works = arrays["energy_works"].copy()
         self._start = arrays["energy_start"]
-        self._last = arrays["energy_last"]
+        self._last = tuple(arrays[f"energy_{i}"] for i in range(8))
         self._state = State.from_arrays(arrays)

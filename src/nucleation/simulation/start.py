@@ -98,7 +98,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest."""
     body = dynamics.body
     imposed, load = dynamics.driven(0.0)
-    operator = Operator(body, 0.0)
+    operator = dynamics.operator(0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
         # after the slip with which all nodes bear the initial shear stress
@@ -112,7 +112,8 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     displacement = operator.balance(response, response.w)[0]
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
-    motion = body.at_rest(displacement, imposed.velocity)
+    still = body.at_rest(displacement, imposed.velocity)
+    motion = still._replace(excess=imposed.normal_load - 1.0)
     past = slip_rate[None], log_state[None], response.w[None]
     state = State((motion,), np.zeros(1), *past)
     interface = InterfaceSolution(

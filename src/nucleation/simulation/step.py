@@ -10,9 +10,8 @@ scheme (:mod:`.stepping`).
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Mapping
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
@@ -27,10 +26,8 @@ from .interface import Interface, InterfaceSolution, Past
 from .stepping import BDF, Step
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
-LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
-SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
-SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
+SLIGHT_SLIP = 1e-2  # nor do those that slip by less than this part of D within the step
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,33 +47,22 @@ class State:
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
         arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}
-        for name in _FIELDS:
-            fields = [getattr(motion, name) for motion in self.motions]
-            arrays[name] = np.array([field.modes for field in fields])
-            arrays[f"{name}_edge"] = np.array([field.edge for field in fields])
-        arrays["momentum"] = np.array([motion.momentum for motion in self.motions])
+        motions = [(*one.displacement, *one.velocity, *one[2:]) for one in self.motions]
+        for name, values in zip(_OF_MOTIONS, zip(*motions, strict=True), strict=True):
+            arrays[name] = np.array(values)
         return arrays
 
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
         """The inverse of :meth:`to_arrays`."""
-        fields = (
-            map(
-                Field,
-                arrays[name],
-                arrays[f"{name}_edge"],
-            )
-            for name in _FIELDS
-        )
-        motions = tuple(
-            map(
-                Motion,
-                *fields,
-                arrays["momentum"].tolist(),
-            )
-        )
+        motions = []
+        for u, u_edge, v, v_edge, *numbers in zip(
+            *[arrays[name] for name in _OF_MOTIONS], strict=True
+        ):
+            motion = Motion(Field(u, u_edge), Field(v, v_edge), *map(float, numbers))
+            motions.append(motion)
         plain = {name: arrays[name] for name in _PLAIN}
-        return cls(motions, **plain, edge_error=float(arrays["edge_error"]))
+        return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
 
     @property
     def time(self) -> float:
@@ -101,7 +87,15 @@ class State:
 
 
 _PLAIN = ("past_times", "past_slip_rates", "past_log_states", "past_w")
-_FIELDS = ("displacement", "velocity")
+_OF_MOTIONS = (
+    "displacement",
+    "displacement_edge",
+    "velocity",
+    "velocity_edge",
+    "momentum",
+    "excess",
+    "excess_rate",
+)
 
 
 def _pushed(newest: Array | float, past: Array, most: int) -> Array:
@@ -145,6 +139,7 @@ class Dynamics:
         # ``K + s M`` by s (1/s^2), those used recently
         self.operator = lru_cache(most)(partial(Operator, body))
         self._slip_distance = float(np.min(interface.friction.slip_distance))
+        self._no_forcing = np.zeros(body.modes.n_x + 1)
 
     def advance(
         self,
@@ -163,14 +158,36 @@ class Dynamics:
                 (c * step.body.beta, past_motion.velocity),
             ]
         load = self.body.inertia_load(step.s, inertia, external)
-        guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
-        scaled, expected, log_state, scale = guess
-        rates = self.body.modes.on_all_nodes(expected[1:], imposed.velocity)
-        past = self._past(state, step, imposed)
-        w = past.w + past.beta * (expected[1:] - imposed.velocity)
-        foreseen = foreseen_edge(state.motions, step.length, state.last_step)
-        newest, oldest = state.displacement, state.motions[-1].displacement
-        before = step.body.past, step.body.beta, newest, oldest
+        # Above the scale by relative changes, also in an event. After it elastic waves ring in the
+        # body. They shake the slip rates but hardly move the interface; the last term lets the
+        # steps become longer than these waves.
+        least = max(SLOW * self.drive.velocity, SLIGHT_SLIP * self._slip_distance / step.length)
+        formula = step.interface
+        scaled, rates, log_state, scale, past_w, past_log_state, w = passes.predicted(
+            state.past_slip_rates,
+            state.past_log_states,
+            state.past_w,
+            step.extrapolation,
+            (*formula.past, 0.0)[:3],
+            formula.beta,
+            imposed.velocity,
+            not self.body.modes.has_edge,
+            self._no_forcing if imposed.state_forcing is None else imposed.state_forcing,
+            least,
+        )
+        past = Past(past_w, past_log_state, formula.beta, step.first)
+        excess = imposed.normal_load - 1.0
+        foreseen = foreseen_edge(
+            state.motions,
+            step.length,
+            state.last_step,
+            excess,
+            self._edge_per_load,
+        )
+        newest, oldest = state.motions[0], state.motions[-1]
+        c1, c2 = step.body.past
+        beta = step.body.beta
+        before = step.body.past, beta, newest.displacement, oldest.displacement
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
@@ -184,33 +201,31 @@ class Dynamics:
             )
             if operator.tolerates(error):
                 break
-        motion = Motion(moved, velocity, self.body.momentum_x(velocity))
+        excess_rate = (excess - c1 * newest.excess - c2 * oldest.excess) / beta
+        motion = Motion(
+            moved,
+            velocity,
+            self.body.momentum_x(velocity),
+            excess,
+            excess_rate,
+        )
         new = self._pushed(state, time, solution, motion, error)
         force = self._driving_force(state, step, imposed, solution, motion)
         rate, psi = solution.slip_rate, solution.log_state
         distance = passes.distance(scaled, log_state, rate, psi, scale)
         return new, StepReport(solution, force, step.error(distance))
 
-    def _past(
-        self,
-        state: State,
-        step: Step,
-        imposed: Imposed,
-    ) -> Past:
-        formula = step.interface
-        log_state = formula.from_past(state.past_log_states)
-        if imposed.state_forcing is not None:
-            log_state = log_state + formula.beta * imposed.state_forcing
-        return Past(
-            formula.from_past(state.past_w),
-            log_state,
-            formula.beta,
-            step.first,
-        )
+    @cached_property
+    def _edge_per_load(self) -> Array:
+        """Edge values (m) at rest under the steady load, the interface held."""
+        nothing = np.zeros(self.body.modes.n_x)
+        return self.operator(0.0).respond(self.drive.load(0.0), nothing).edge
 
     def driven(self, time: float) -> tuple[Imposed, Field]:
         """Boundary conditions at a time (s), and the load (N/m) with the inertia of the frame."""
         imposed, load = self.drive.at(time), self.drive.load(time)
+        if imposed.normal_load != 1.0:
+            load = load.times(imposed.normal_load)
         if imposed.acceleration != 0.0:
             load = load.plus(self.body.translation_load(imposed.acceleration))
         return imposed, load
@@ -259,34 +274,3 @@ class Dynamics:
             _pushed(solution.w, state.past_w, most),
             edge_error,
         )
-
-
-def _extrapolated(
-    state: State,
-    step: Step,
-    velocity: float,
-    distance: float,
-) -> tuple[Array, Array, Array, float]:
-    """Slip rates and states at the end of a step, by polynomials through the past ones.
-
-    They are asinh(v / scale), v (m/s), log(phi) and the scale (m/s).
-
-    Slip rates are extrapolated as asinh(v / scale): above the scale by relative changes. After an
-    event elastic waves ring in the body. They shake the slip rates but hardly move the interface;
-    the last term of the scale lets the steps become longer than these waves.
-    """
-    fastest = passes.largest(state.past_slip_rates[0])
-    scale = max(
-        SLOW * velocity,
-        SLOW_IN_EVENT * fastest,
-        SLIGHT_SLIP * distance / step.length,
-    )
-    largest = min(LARGEST_RATE_EXPONENT, math.asinh(10.0 * fastest / scale))
-    scaled, rate, log_state = passes.expected(
-        state.past_slip_rates,
-        state.past_log_states,
-        step.extrapolation,
-        scale,
-        largest,
-    )
-    return scaled, rate, log_state, scale

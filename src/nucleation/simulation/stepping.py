@@ -66,14 +66,6 @@ class _Formula:
         )
         return cls(step, beta, past)
 
-    def from_past(self, values: Array) -> Array:
-        """The weighted sum of past values, newest first along the first axis.
-
-        Missing values count as zero: the first step has one past value.
-        """
-        used = min(len(self.past), values.shape[0])
-        return np.asarray(self.past[:used]) @ values[:used]
-
 
 def extrapolation_weights(time: float, past: Array) -> Array:
     """Lagrange weights that extrapolate values at past times (s) to a time (s)."""
