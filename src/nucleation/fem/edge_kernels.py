@@ -40,76 +40,83 @@ def diagonal_inverse(inverse, lower, out):
 
 
 @compiled_loop
-def respond(
+def response_sums(
     inverse,
     lower,
     diagonal,
-    profiles,
+    matrices,
     weights,
     scale,
-    first,
-    solution,
+    out,
 ):
-    """Displacement under the force of one edge value, interface held fixed.
+    """The :func:`edge_sums` of the displacement under the force of each edge value.
 
-    The force has `profiles` on the levels first - 1 .. first + 1; `diagonal` is that of
-    :func:`diagonal_inverse`. Fills `solution` from the level first - 1 on.
+    The interface is held fixed; `matrices` are the rows of the edge values, and `diagonal` is that
+    of :func:`diagonal_inverse`. Fills `out` from one level below each value on; the rest is zero.
     """
-    top = inverse.shape[0] - 1
+    levels = inverse.shape[0]
     modes = inverse.shape[2]
-    loaded = profiles.shape[1]
-    base = first - 1
-    for m in range(modes):
-        lx = 0.0  # loads of the upper levels, eliminated down to the base
-        ly = 0.0
-        for row in range(loaded - 1, -1, -1):
+    loads = np.zeros((3, 2, modes))
+    here = np.zeros((2, modes))  # the displacement of one level
+    wa = weights[0]
+    wb = weights[1]
+    wc = weights[2]
+    for i in range(levels):
+        base = max(i - 1, 0)
+        loaded = min(3, levels - base)  # levels on which the force of the value acts
+        for row in range(loaded - 1, -1, -1):  # eliminated down to the base
             j = base + row
-            along_x = profiles[0, row] * weights[0, m]
-            across_x = profiles[1, row] * weights[1, m]
-            x = scale * (along_x + across_x)
-            y = scale * profiles[2, row] * weights[2, m]
-            if row + 1 < loaded:
-                t = lower[j]
-                x -= t[0, m] * lx + t[1, m] * ly
-                y -= t[2, m] * lx + t[3, m] * ly
-            lx = x
-            ly = y
-            solution[j, 0, m] = x
-            solution[j, 1, m] = y
-        s = diagonal[base]
-        solution[base, 0, m] = s[0, m] * lx + s[1, m] * ly
-        solution[base, 1, m] = s[1, m] * lx + s[2, m] * ly
-    for j in range(first, top + 1):
-        below = solution[j - 1]
-        here = solution[j]
-        t = lower[j - 1]
-        q = inverse[j]
-        for m in range(modes):
-            px = below[0, m]
-            py = below[1, m]
-            ax = -(t[0, m] * px + t[2, m] * py)
-            ay = -(t[1, m] * px + t[3, m] * py)
-            if j < base + loaded:
-                x = here[0, m]
-                y = here[1, m]
-                ax += q[0, m] * x + q[1, m] * y
-                ay += q[1, m] * x + q[2, m] * y
-            here[0, m] = ax
-            here[1, m] = ay
+            beside = 1 + j - i
+            acts = j > 0 and beside < 3
+            a = scale * matrices[0, beside, i] if acts else 0.0
+            b = scale * matrices[1, beside, i] if acts else 0.0
+            c = scale * matrices[2, beside, i] if acts else 0.0
+            t = lower[min(j, levels - 2)]
+            above = loads[min(row + 1, 2)]
+            coupled = 1.0 if row + 1 < loaded else 0.0
+            for m in range(modes):
+                x = a * wa[m] + b * wb[m]
+                y = c * wc[m]
+                loads[row, 0, m] = x - coupled * (t[0, m] * above[0, m] + t[1, m] * above[1, m])
+                loads[row, 1, m] = y - coupled * (t[2, m] * above[0, m] + t[3, m] * above[1, m])
+        here[:] = 0.0
+        for j in range(base, levels):
+            row = j - base
+            t = lower[max(j - 1, 0)]
+            q = diagonal[j] if row == 0 else inverse[j]
+            load = loads[min(row, 2)]
+            a = 0.0
+            b = 0.0
+            c = 0.0
+            for m in range(modes):
+                x = -(t[0, m] * here[0, m] + t[2, m] * here[1, m])
+                y = -(t[1, m] * here[0, m] + t[3, m] * here[1, m])
+                if row < loaded:
+                    lx = load[0, m]
+                    ly = load[1, m]
+                    x += q[0, m] * lx + q[1, m] * ly
+                    y += q[1, m] * lx + q[2, m] * ly
+                here[0, m] = x
+                here[1, m] = y
+                a += wa[m] * x
+                b += wb[m] * x
+                c += wc[m] * y
+            out[i, 0, j] = a
+            out[i, 1, j] = b
+            out[i, 2, j] = c
 
 
 @compiled_loop
 def edge_sums(
     weights,
     field,
-    first,
     out,
 ):
-    """Sums over the modes ``w_0 u_x``, ``w_1 u_x``, ``w_2 u_y`` of a field, from a level on."""
+    """Sums over the modes ``w_0 u_x``, ``w_1 u_x``, ``w_2 u_y`` of a field."""
     wa = weights[0]
     wb = weights[1]
     wc = weights[2]
-    for j in range(first, field.shape[0]):
+    for j in range(field.shape[0]):
         x = field[j, 0]
         y = field[j, 1]
         a = 0.0
@@ -140,7 +147,7 @@ def edge_residual(
     """
     given = min(field.shape[0], edge.size)
     sums = np.empty((4, given))
-    edge_sums(weights, field, 0, sums)
+    edge_sums(weights, field, sums)
     for j in range(given):
         sums[3, j] = edge[j]
     out = np.empty(levels)

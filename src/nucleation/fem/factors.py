@@ -102,29 +102,16 @@ class LayerFactors:
         levels = self.layer.levels
         diagonal = np.empty_like(self.inverse)
         edge_kernels.diagonal_inverse(self.inverse, self.lower, diagonal)
-        solution = np.zeros((levels, 2, modes.n_x))
         sums = np.zeros((levels, 3, levels))  # of the response to each edge value over the modes
-        for i, unit in enumerate(np.eye(levels)):
-            first = max(i, 1)
-            profiles = self.profiles(unit)[:, first - 1 : first + 2]
-            if first == 1:
-                profiles[:, 0] = 0.0  # the interface is held fixed
-            edge_kernels.respond(
-                self.inverse,
-                self.lower,
-                diagonal,
-                profiles,
-                modes.edge_weights,
-                modes.scale,
-                first,
-                solution,
-            )
-            edge_kernels.edge_sums(
-                modes.edge_weights,
-                solution,
-                first - 1,
-                sums[i],
-            )
+        edge_kernels.response_sums(
+            self.inverse,
+            self.lower,
+            diagonal,
+            self._rows,
+            modes.edge_weights,
+            modes.scale,
+            sums,
+        )
         rows = np.zeros((levels, levels))
         for matrix, by_value in zip(
             self._rows[:3],
