@@ -31,6 +31,7 @@ from nucleation.simulation.step import Dynamics, State, StepReport
 from nucleation.simulation.stepping import BDF
 from nucleation.types import Array
 
+from ..nodal import nodal_values
 from .fields import Displacement, Loads, Term
 
 NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
@@ -198,7 +199,7 @@ class Manufactured:
 
     def displacement_error(self, state: State) -> float:
         """The root mean square over the area of the nodal error (m)."""
-        values = np.array(self.body.nodal_values(state.displacement))
+        values = np.array(nodal_values(self.body, state.displacement))
         return self.loads.mean_over_area(values - self.nodal_exact(state.time))
 
     def slip_rate_error(self, state: State) -> float:

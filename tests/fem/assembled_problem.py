@@ -5,6 +5,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from benchmarks.assembled import assemble, unknown
+from benchmarks.nodal import nodal_values
 
 HELD = {"free": (), "clamped": (0, 1), "roller": (1,)}
 
@@ -71,7 +72,7 @@ class Assembled:
         """The unknowns of a field."""
         values = np.zeros(self.stiffness.shape[0])
         for number, (x, y, _) in enumerate(self.places):
-            values[x], values[y] = self.body.nodal_values(field, number)
+            values[x], values[y] = nodal_values(self.body, field, number)
         return values
 
     def solve(self, s, forces, w, pinned=False):

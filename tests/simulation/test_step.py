@@ -6,6 +6,7 @@ import itertools
 import numpy as np
 import pytest
 
+from benchmarks.nodal import nodal_values
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation import interface, passes, step
@@ -48,7 +49,7 @@ def test_start_without_shear_is_uniaxial_stress():
     parameters = small().replaced(initial_stress="uniform_shear")
     dynamics = composed(parameters)
     state, report = at_rest(dynamics, parameters)
-    u_x, u_y = dynamics.body.nodal_values(state.displacement)
+    u_x, u_y = nodal_values(dynamics.body, state.displacement)
     material, stress = parameters.upper.material, parameters.fault.normal_stress
     x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
     nu, scale = material.poisson_ratio, stress / (2.0 * material.shear_modulus)

@@ -14,6 +14,7 @@ scheme's dissipation is that of BDF2 in the inertial term and must vanish with t
 
 import dataclasses
 import re
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from simulation.test_loadings import REMOTE
 from verification.test_page import PAGE
 
 from benchmarks.assembled import assemble, unknown
+from benchmarks.nodal import nodal_values
 from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.recording import ENERGIES, _Energy
@@ -36,7 +38,7 @@ class Body:
     """Assembled matrices and nodal values of the body above, or of the one below, upside down."""
 
     def __init__(self, parameters, dynamics, below):
-        self.below, self.values = below, dynamics.body.nodal_values
+        self.below, self.values = below, partial(nodal_values, dynamics.body)
         grid, own = dynamics.body.layers[below].grid, parameters.below or parameters.upper
         self.stiffness, self.mass = assemble(grid, (own if below else parameters.upper).material)
         i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))

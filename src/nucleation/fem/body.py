@@ -26,7 +26,7 @@ import numpy as np
 from ..model.material import Material
 from ..types import Array
 from . import kernels
-from .grid import Components, Field, Grid, Motion
+from .grid import Field, Grid, Motion
 from .modes import BlockModes, Modes, PeriodModes
 
 LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
@@ -250,21 +250,6 @@ class Body:
         modes = (momentum.modes * velocity.modes).sum(axis=(0, 1)) @ self.modes.norms
         own = 0.5 * float(modes + momentum.edge @ velocity.edge)
         return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
-
-    def nodal_values(self, field: Field, number: int = 0) -> Components:
-        """Nodal w_x and u_y of a layer, by its number, levels from the interface on.
-
-        Each has the shape (n_y + 1, n_x + 1).
-        """
-        own = self.parts(field)[number]
-        x = self.modes.sine_values(own.modes[:, 0])
-        y = self.modes.cosine_values(own.modes[:, 1])
-        if self.modes.has_edge:
-            x = np.hstack((np.zeros_like(own.edge)[:, None], x))
-            y = np.hstack((y, own.edge[:, None]))
-        else:
-            x, y = self.modes.on_all_nodes(x, 0.0), self.modes.on_all_nodes(y, 0.0)
-        return x, -y if number else y
 
     def settled(
         self,

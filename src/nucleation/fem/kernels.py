@@ -213,38 +213,6 @@ def move(
 
 
 @compiled_loop
-def load_couple(
-    compliance,
-    forces,
-    upper,
-    lower,
-    held,
-    start,
-):
-    """The effect of two bodies' reduced loads r1, r2 (N/m) at zero slip, per mode.
-
-    Fills `held` with ``S2 T^-1 r1 - S1 T^-1 r2`` (N/m), and `start` with the interface's
-    displacement ``T^-1 (r1 + r2)`` (m). `compliance` is T^-1: xx, xy, yy; `forces` is S1 T^-1 and
-    S2 T^-1: xx, xy, yx, yy of each. The lower body is mirrored.
-    """
-    for m in range(upper.shape[1]):
-        x1 = upper[0, m]
-        y1 = upper[1, m]
-        x2 = lower[0, m]
-        y2 = -lower[1, m]
-        upper_x = forces[4, m] * x1 + forces[5, m] * y1
-        lower_x = forces[0, m] * x2 + forces[1, m] * y2
-        held[0, m] = upper_x - lower_x
-        upper_y = forces[6, m] * x1 + forces[7, m] * y1
-        lower_y = forces[2, m] * x2 + forces[3, m] * y2
-        held[1, m] = upper_y - lower_y
-        x = x1 + x2
-        y = y1 + y2
-        start[0, m] = compliance[0, m] * x + compliance[1, m] * y
-        start[1, m] = compliance[1, m] * x + compliance[2, m] * y
-
-
-@compiled_loop
 def products(matrices, vector):
     """Products of tridiagonal matrices, (number, 3, n), with a vector, (number, n)."""
     out = np.empty((matrices.shape[0], vector.size))

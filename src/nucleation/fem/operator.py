@@ -29,6 +29,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from ..types import Array
 from . import edge_kernels, kernels
@@ -127,21 +128,22 @@ class Operator:
         return swept.modes
 
     def reduced(self, swept: Array) -> tuple[Array, Array | float]:
-        """The load per mode that is held (N/m), and the interface's displacement (m), at w = 0."""
+        """The load per mode that is held (N/m), and the interface's displacement (m), at w = 0.
+
+        Of a pair: ``S2 T^-1 r1 - S1 T^-1 r2`` and ``T^-1 (r1 + r2)``.
+        """
         if len(self.factors) == 1:
             return swept[0].copy(), 0.0
-        held = np.empty_like(self.modal)
-        start = np.empty_like(self.modal)
-        lower = swept[self.body.layers[0].levels]
-        kernels.load_couple(
-            self.compliance,
-            self.forces,
-            swept[0],
-            lower,
-            held,
-            start,
-        )
-        return held, start
+        x1, y1 = swept[0]
+        x2, y2 = swept[self.body.layers[0].levels]
+        y2 = -y2  # the lower body is mirrored
+        xx1, xy1, yx1, yy1, xx2, xy2, yx2, yy2 = self.forces
+        held_x = xx2 * x1 + xy2 * y1 - (xx1 * x2 + xy1 * y2)
+        held_y = yx2 * x1 + yy2 * y1 - (yx1 * x2 + yy1 * y2)
+        xx, xy, yy = self.compliance
+        x = x1 + x2
+        y = y1 + y2
+        return np.array([held_x, held_y]), np.array([xx * x + xy * y, xy * x + yy * y])
 
     def substitute_up(
         self,
@@ -297,8 +299,8 @@ class Operator:
         if self.edge is None:
             tangential, normal = self.apply(np.eye(n)[0])
             return tangential, normal[1:]
-        d = modes.cosine_values(self.modal[0]) / n
-        h = np.append(0.0, modes.sine_values(self.modal[1])) / n
+        d = fft.dct(self.modal[0]) / (2 * n)
+        h = np.append(0.0, fft.dst(self.modal[1])) / (2 * n)
         # about the right edge i = n_x, the cosine modes are odd and the sine modes even
         d = np.concatenate((d, [0.0], -d[:0:-1], [-d[0]]))
         return d, np.concatenate((h, h[-2::-1]))
