@@ -116,6 +116,8 @@ lock: ## Pin the newest versions of what pyproject.toml names in environment*.tx
 		--no-annotate --no-emit-index-url --no-header - -o workflow/uv.txt
 
 INSTALL = $(BIN)/python -P workflow/install.py
+# Bytecode of all that is imported: eight seconds of one core, five of two.
+COMPILE = $(BIN)/python -c 'import sys; from workflow.install import compile_imports; compile_imports(*sys.argv[1:])'
 
 # Everything installed is pinned and hashed. The package itself is not installed but pointed to, so
 # that the code of the checkout is what runs. An environment that works keeps its Python.
@@ -135,9 +137,9 @@ $(STAMP): environment.txt
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
 	printf '#!/bin/sh\nexec "%s/python" -P -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
-	$(BIN)/python -c 'from workflow.install import compile_imports; \
-		compile_imports("nucleation", "replication", "snakemake.cli", "snakemake.report.html_reporter", \
-		"smart_open.smart_open_lib", "matplotlib.backends.backend_pdf", "pint.registry", "netCDF4.utils")'
+	$(COMPILE) nucleation replication netCDF4.utils & other=$$!; \
+		$(COMPILE) snakemake.cli snakemake.report.html_reporter smart_open.smart_open_lib \
+			matplotlib.backends.backend_pdf pint.registry && wait $$other
 	@touch $(ENVIRONMENT)/environment.stamp
 
 $(DEV_STAMP): environment-dev.txt $(STAMP)
