@@ -37,7 +37,11 @@ def declared(text: str, known: Mapping[str, Variable] | None = None) -> dict[str
     found: dict[str, Variable] = {}
     for line in text.strip().splitlines():
         name, *entry = (cell.strip() for cell in line.split("|"))
-        found |= {name: Variable(*entry)} if entry else {n: (known or {})[n] for n in name.split()}
+        if entry:
+            found[name] = Variable(*entry)
+            continue
+        for one in name.split():
+            found[one] = (known or {})[one]
     return found
 
 

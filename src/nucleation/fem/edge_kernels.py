@@ -77,8 +77,10 @@ def response_sums(
             for m in range(modes):
                 x = a * wa[m] + b * wb[m]
                 y = c * wc[m]
-                loads[row, 0, m] = x - coupled * (t[0, m] * above[0, m] + t[1, m] * above[1, m])
-                loads[row, 1, m] = y - coupled * (t[2, m] * above[0, m] + t[3, m] * above[1, m])
+                above_x = t[0, m] * above[0, m] + t[1, m] * above[1, m]
+                above_y = t[2, m] * above[0, m] + t[3, m] * above[1, m]
+                loads[row, 0, m] = x - coupled * above_x
+                loads[row, 1, m] = y - coupled * above_y
         here[:] = 0.0
         for j in range(base, levels):
             row = j - base
@@ -89,8 +91,10 @@ def response_sums(
             b = 0.0
             c = 0.0
             for m in range(modes):
-                x = -(t[0, m] * here[0, m] + t[2, m] * here[1, m])
-                y = -(t[1, m] * here[0, m] + t[3, m] * here[1, m])
+                px = here[0, m]
+                py = here[1, m]
+                x = -(t[0, m] * px + t[2, m] * py)
+                y = -(t[1, m] * px + t[3, m] * py)
                 if row < loaded:
                     lx = load[0, m]
                     ly = load[1, m]

@@ -97,7 +97,12 @@ class Operator:
         xx, xy, yy = self.compliance
         products = []
         for a, b, c in ((a1, b1, c1), (a2, b2, c2)):
-            products += [a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy]
+            products += [
+                a * xx + b * xy,
+                a * xy + b * yy,
+                b * xx + c * xy,
+                b * xy + c * yy,
+            ]
         self.forces = np.array(products)
         self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
         if not (body.modes.has_edge or body.is_held_along_y or self.moves):
@@ -143,7 +148,9 @@ class Operator:
         xx, xy, yy = self.compliance
         x = x1 + x2
         y = y1 + y2
-        return np.array([held_x, held_y]), np.array([xx * x + xy * y, xy * x + yy * y])
+        start_x = xx * x + xy * y
+        start_y = xy * x + yy * y
+        return np.array([held_x, held_y]), np.array([start_x, start_y])
 
     def substitute_up(
         self,
@@ -262,7 +269,8 @@ class Operator:
             own = given + self.edge.compliance @ residual
         error, largest = np.inf, np.abs(own).max()
         if foreseen is not None and largest > 0.0:
-            error = max(np.abs(foreseen - own).max(), np.abs(edge - own).max()) / largest
+            apart = np.abs(foreseen - own).max()
+            error = max(apart, np.abs(edge - own).max()) / largest
         edge_rate = np.zeros_like(own)
         if before is not None:
             (c1, c2), beta, newest, oldest = before

@@ -78,7 +78,8 @@ class EdgeValues:
             self.compliance = _inverse_within(self.schur, slice(1, None))
         else:
             modal = self._put_in_series(*series, moves)
-        one, nothing = np.ones(body.modes.n_x), np.zeros((2, body.modes.n_x))
+        one = np.ones(body.modes.n_x)
+        nothing = np.zeros((2, body.modes.n_x))
         # in this layout the steps' compiled transform serves here, too
         rows = np.ascontiguousarray(np.moveaxis(body.modes.scale * modal, 1, 0))
         by_edge = [

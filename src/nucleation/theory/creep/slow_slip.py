@@ -36,7 +36,12 @@ def cohesive_wavenumber(patches: Patches, critical: float) -> float:
     one = patches.one
     k = 2.0 * np.pi / critical * np.geomspace(0.1, 1e4, 500)
     load = one.load_and_coupling(k)[0]
-    return float(np.exp(np.interp(math.log(one.b[0]), np.log(load), np.log(k))))
+    log_k = np.interp(
+        math.log(one.b[0]),
+        np.log(load),
+        np.log(k),
+    )
+    return float(np.exp(log_k))
 
 
 def modes_that_resolve(
