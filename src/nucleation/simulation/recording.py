@@ -242,8 +242,8 @@ class _Energy:
         self._state = state
         grid, modes = self._body.grid, self._body.modes
         load, field = self._drive.load(state.time), state.displacement
-        moved = self._drive.at(state.time).displacement
-        factor = 1.0 + state.motions[0].excess
+        imposed = self._drive.at(state.time)
+        moved, factor = imposed.displacement, imposed.normal_load
         far = self._far
         forces = (
             np.array([-report.driving_force]),
@@ -259,7 +259,7 @@ class _Energy:
             return
         works = []
         for i, (force, way) in enumerate(zip(forces, ways, strict=True)):
-            works.append(0.5 * np.vdot(before[i] + force, way - before[4 + i]))
+            works.append(0.5 * np.vdot(before[i] + force, way - before[len(ways) + i]))
         self._works += sum(works[:-1]), works[-1]
 
     def _stored(self, state: State) -> Array:
@@ -289,5 +289,5 @@ class _Energy:
         """The inverse of :meth:`to_arrays`, with the arrays of the state."""
         self._works = arrays["energy_works"].copy()
         self._start = arrays["energy_start"]
-        self._last = tuple(arrays[f"energy_{i}"] for i in range(8))
+        self._last = tuple(arrays[f"energy_{i}"] for i in range(8))  # four forces, four ways
         self._state = State.from_arrays(arrays)
