@@ -133,8 +133,10 @@ def test_edge_that_moves_as_foreseen_saves_a_solve(off, bottom):
     near_the_load = np.where(np.arange(LONG.n_x) < 10, 1e-9 * rng.normal(size=LONG.n_x), 0.0)
     at_rest = operator.respond(load, 0.0 * near_the_load)
     solved = operator.balance(at_rest, near_the_load)[0]
-    moved = Field(solved.modes, (1.0 + off) * solved.edge)
-    foreseen = foreseen_edge((Motion(moved, body.zero_field(), 0.0),), 1e-3, 0.0, 0.0, 0.0)
+    per_load = rng.normal(size=solved.edge.size) * solved.edge  # for a load that rises to 0.5
+    moved = Field(solved.modes, (1.0 + off) * solved.edge - 0.3 * per_load)
+    rate = body.zero_field()._replace(edge=7.0 * per_load)
+    foreseen = foreseen_edge((Motion(moved, rate, 0.0, 0.2, 7.0),), 1e-3, 0.0, 0.5, per_load)
     response = operator.respond(load, near_the_load, foreseen)
     found, _, error = operator.balance(response, near_the_load, foreseen=foreseen)
     assert operator.tolerates(error) == (off == 0.0)

@@ -142,8 +142,7 @@ def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     rates = np.full_like(report.interface.slip_rate, slow)
     rates[0] = fastest
     least = max(step.SLOW * 1e-3, step.SLIGHT_SLIP * 5e-7 / length)
-    states, w = state.past_log_states, state.past_w
-    one, none = np.ones(1), np.zeros(rates.size)
+    states, w, one, none = state.past_log_states, state.past_w, np.ones(1), 0.0 * rates
     scaled, guess, _, scale, *_ = passes.predicted(
         rates[None], states, w, one, (1.0, 0.0, 0.0), 1.0, fastest, False, none, least
     )

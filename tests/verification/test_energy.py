@@ -206,8 +206,7 @@ def test_energy_balance_of_two_blocks_and_of_perturbed_loads(parameters):
 
 # Where all slips, the forces are balanced to what displacements are rounded to, whatever Newton's
 # tolerance: single steps of a remote load miss 2e-10, and changes in the last bit move the sum by
-# up to 4e-10 either way. With bumps of .29, .3 and .31 m, and sums in three orders, a pair misses
-# 1e-9 to 8e-9: one of these alone would be luck.
+# up to 4e-10 either way. With bumps of three widths, in three orders, a pair misses 1e-9 to 8e-9.
 @pytest.mark.parametrize(
     ("parameters", "missing"),
     [
