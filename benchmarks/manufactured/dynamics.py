@@ -22,7 +22,7 @@ import numpy as np
 from nucleation.fem.body import Body
 from nucleation.fem.grid import Field, Motion
 from nucleation.fem.modes import BlockModes
-from nucleation.fem.operator import Operator, Response
+from nucleation.fem.operator import Forces, Operator
 from nucleation.run.run import Run
 from nucleation.simulation.drive import Drive, Imposed
 from nucleation.simulation.interface import Interface, InterfaceSolution, Past
@@ -46,7 +46,7 @@ class _GivenDisplacement(Interface):
     def solve(
         self,
         operator: Operator,
-        response: Response,
+        response: Forces,
         past: Past,
         imposed: Imposed,
         guess: Array,
@@ -65,6 +65,16 @@ class _GivenDisplacement(Interface):
             w,
             0,
         )
+
+
+class _Loaded(Dynamics):
+    """Under a load (N/m) that is a function of time (s)."""
+
+    load_at: Callable[[float], Field]
+
+    def load(self, imposed: Imposed) -> Field:
+        """The load (N/m) at the time of some boundary conditions."""
+        return self.load_at(imposed.time)
 
 
 class Manufactured:
@@ -99,8 +109,10 @@ class Manufactured:
         if not log_state:
             interface = _GivenDisplacement(self.friction, exact_w=self.exact_w)
         scheme = BDF(self.body.crossing_time)
-        drive = Drive(self.velocity, self.at, self.load)
-        self.dynamics = Dynamics(self.body, interface, drive, scheme)
+        drive = Drive(self.velocity, self.at, ())
+        self.dynamics = _Loaded(self.body, interface, drive, scheme)
+        self.dynamics.load_at = self.load
+        self.dynamics.condenses = False  # the load has another field at each time
 
     def body_of(self, run: Run) -> Body:
         """Make the elastic body."""
@@ -179,7 +191,8 @@ class Manufactured:
         """The body's motion at a time (s)."""
         displacement = block_field(self.body, self.nodal_exact(time))
         rate = block_field(self.body, self.nodal_exact(time, by_t=1))
-        return Motion(displacement, rate, self.body.momentum_x(rate))
+        momentum = self.body.momentum_x(rate)
+        return Motion(displacement, rate, momentum, np.zeros(1), np.zeros(1))
 
     def exact_state(self, step: float) -> State:
         """The state at t = 0, with exact values at 0, -step and -2 step (s)."""

@@ -191,12 +191,29 @@ class Body:
         load.modes[: first.levels, 0] = per_level[:, None] * per_mode
         return load
 
-    def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """The motion of the body at rest, seen from an edge that moves at a velocity (m/s)."""
+    def at_rest(self, displacement: Field, velocity: float, factors: Array) -> Motion:
+        """The motion of the body at rest, seen from an edge that moves at a velocity (m/s).
+
+        `factors` are those of the loads.
+        """
         rates = self.zero_field()
         ones = self.modes.sine_amplitudes(np.ones(self.modes.n_x))
         rates.modes[: self.layers[0].levels, 0] = -velocity * ones
-        return Motion(displacement, rates, self.momentum_x(rates))
+        return Motion(displacement, rates, self.momentum_x(rates), factors, np.zeros_like(factors))
+
+    def combined(self, loads: Sequence[Field], factors: Array) -> Field:
+        """The sum of some loads (N/m) times their factors."""
+        total = None
+        for load, factor in zip(loads, factors.tolist(), strict=True):
+            if factor != 0.0:
+                part = load if factor == 1.0 else load.times(factor)
+                total = part if total is None else total.plus(part)
+        return self.zero_field() if total is None else total
+
+    def work(self, load: Field, way: Field) -> float:
+        """Work (J/m) of a load (N/m) on a displacement (m)."""
+        of_modes = (load.modes * way.modes).sum(axis=(0, 1))
+        return float(of_modes @ self.modes.norms + load.edge @ way.edge)
 
     def inertia_load(
         self,
@@ -247,8 +264,7 @@ class Body:
             [(1.0, velocity)],
             self.zero_field(),
         )
-        modes = (momentum.modes * velocity.modes).sum(axis=(0, 1)) @ self.modes.norms
-        own = 0.5 * float(modes + momentum.edge @ velocity.edge)
+        own = 0.5 * self.work(momentum, velocity)
         return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
 
     def settled(

@@ -80,10 +80,18 @@ class Field(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``."""
+    """Displacement (m) and velocity (m/s) of a body at one instant, ``u_x = U(t) + w_x``.
+
+    Of a condensed body `modes` of both are w (m) and its rate (m/s) at the nodes 1..n_x.
+    """
 
     displacement: Field
     velocity: Field
     momentum: float  # along x, of that velocity (kg/s per unit depth)
-    excess: float = 0.0  # of the load on the far sides over the steady one, relative,
-    excess_rate: float = 0.0  # 1/s, and its rate by the formula of the step
+    factors: Array  # of the loads on the body,
+    factor_rates: Array  # 1/s, and their rates by the formula of the step
+
+    @property
+    def is_condensed(self) -> bool:
+        """Whether the body is condensed on its interface."""
+        return self.displacement.modes.ndim == 1

@@ -92,6 +92,10 @@ class BlockModes(_Modes):
         weights = [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
         self.edge_weights = self._alternating * np.array(weights)
 
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Values of u_x at the nodes 1..n_x (last axis)."""
+        return fft.idst(amplitudes * self.n_x, 3)
+
     def cosine_amplitudes(self, nodal: Array) -> Array:
         """Amplitudes of values of u_y at the nodes 0..n_x - 1 (last axis)."""
         return fft.dct(nodal, type=3) / self.n_x

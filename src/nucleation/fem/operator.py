@@ -45,12 +45,18 @@ EDGE_FELT = 1e-16  # of a node's own stiffness, squared coupling: 1e-8 in the co
 
 
 @dataclasses.dataclass(frozen=True)
-class Response:
+class Forces:
     """Nodal forces that hold the interface at a given displacement, the bulk in balance."""
 
     w: Array  # m, at the nodes 1..n_x
     tangential: Array  # N/m, at the nodes 1..n_x
     normal: Array  # N/m, at the nodes 0..n_x
+
+
+@dataclasses.dataclass(frozen=True)
+class Response(Forces):
+    """These forces, and from what the bulk follows."""
+
     load: Field  # N/m, of the body
     edge: Array  # m, the edge values
     swept: Array | None = None  # N/m, the load swept down to the interface with these edge values,

@@ -24,21 +24,21 @@ def foreseen_edge(
     motions: Sequence[Motion],
     step: float,
     last_step: float,
-    excess: float,
+    factors: Array,
     per_load: Array,
 ) -> Array:
-    """Edge values (m) after a step (s) to a load of some relative excess.
+    """Edge values (m) after a step (s) to loads of some factors.
 
-    They follow the load at once, by `per_load` (m), and otherwise go on with the acceleration of
-    the last step.
+    They follow the loads at once, by `per_load` (m), (loads, levels), and otherwise go on with the
+    acceleration of the last step.
     """
     now = motions[0]
     before = motions[-1]
-    velocity = now.velocity.edge - now.excess_rate * per_load
-    edge = now.displacement.edge + (excess - now.excess) * per_load + step * velocity
+    velocity = now.velocity.edge - now.factor_rates @ per_load
+    edge = now.displacement.edge + (factors - now.factors) @ per_load + step * velocity
     if last_step == 0.0:
         return edge
-    change = velocity - (before.velocity.edge - before.excess_rate * per_load)
+    change = velocity - (before.velocity.edge - before.factor_rates @ per_load)
     return edge + (0.5 * step**2 / last_step) * change
 
 

@@ -21,7 +21,7 @@ class Imposed(NamedTuple):
     strength: Array | None = None  # factor on the friction coefficient, nodes 0..n_x; None: 1
     state_forcing: Array | None = None  # added to d log(phi)/dt (1/s), nodes 0..n_x; None: 0
     acceleration: float = 0.0  # m/s^2, U''(t) of the driven edge
-    normal_load: float = 1.0  # over the steady one, which it multiplies
+    factors: tuple[float, ...] = (1.0,)  # of the drive's loads
 
 
 class Drive(NamedTuple):
@@ -29,7 +29,7 @@ class Drive(NamedTuple):
 
     velocity: float  # m/s, unperturbed: the scale of slip rates
     at: Callable[[float], Imposed]  # boundary conditions
-    load: Callable[[float], Field]  # N/m, on the body, but for the factor of the normal load
+    loads: tuple[Field, ...]  # N/m, on the body: those times their factors
     moves: bool = True  # an edge is moved, and the driving force is the force on it
 
 
@@ -42,27 +42,29 @@ def steady_drive(velocity: float, load: Field) -> Drive:
             velocity * time,
             velocity,
         ),
-        lambda time: load,
+        (load,),
     )
 
 
-def remote_drive(near: Drive, start: Field, rising: Field) -> Drive:
-    """A far shear load (N/m) that rises, per metre of displacement of an imaginary driven edge.
+def remote_drive(
+    near: Drive,
+    shear: Field,
+    start: float,
+    rising: float,
+) -> Drive:
+    """A far shear load (N/m per Pa) from a stress (Pa) on that rises (Pa/m).
 
-    No edge moves. Where the edge's velocity would fluctuate, the rate of the far load does.
+    It rises per metre of displacement of an imaginary driven edge. No edge moves. Where the edge's
+    velocity would fluctuate, the rate of the far load does.
     """
 
     def at(time: float) -> Imposed:
-        return near.at(time)._replace(
+        imposed = near.at(time)
+        return imposed._replace(
             displacement=0.0,
             velocity=0.0,
             acceleration=0.0,
-            normal_load=1.0,
+            factors=(*imposed.factors, start + rising * imposed.displacement),
         )
 
-    def load(time: float) -> Field:
-        imposed = near.at(time)
-        normal = near.load(time).times(imposed.normal_load)
-        return normal.plus(start).plus(rising.times(imposed.displacement))
-
-    return Drive(near.velocity, at, load, moves=False)
+    return Drive(near.velocity, at, (*near.loads, shear), moves=False)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from ..fem.compiling import compiled
-from ..fem.operator import Operator, Response
+from ..fem.operator import Forces, Operator
 from ..model.friction import Friction
 from ..types import Array
 from . import passes
@@ -133,7 +133,7 @@ class Interface:
     def solve(
         self,
         operator: Operator,
-        response: Response,
+        response: Forces,
         past: Past,
         imposed: Imposed,
         rates: Array,

@@ -225,7 +225,7 @@ def perturbed(run: Run, body: Body, drive: Drive) -> Drive:
 
         def pressed(time: float) -> Imposed:
             factor = 1.0 + strength * series.value(time)
-            return drive.at(time)._replace(normal_load=factor)
+            return drive.at(time)._replace(factors=(factor,))
 
         return drive._replace(at=pressed)
 

@@ -229,10 +229,7 @@ class _Energy:
     """Adds up the works of one run's steps (J/m) by the trapezoidal rule, and compares energies."""
 
     def __init__(self, dynamics: Dynamics) -> None:
-        self._body = dynamics.body
-        self._drive = dynamics.drive
-        levels = [layer.levels for layer in dynamics.body.layers]
-        self._far = np.cumsum(levels) - 1  # levels of the far sides
+        self._dynamics = dynamics
         self._works = np.zeros(2)  # of edge and loads, and of friction on the body
         self._start = np.empty(0)  # elastic and kinetic energy
         self._last: tuple[Array, ...] = ()  # forces (N/m), those of friction last, and ways (m)
@@ -240,38 +237,37 @@ class _Energy:
     def take(self, state: State, report: StepReport) -> None:
         """Take in the initial state or a step."""
         self._state = state
-        grid, modes = self._body.grid, self._body.modes
-        load, field = self._drive.load(state.time), state.displacement
-        imposed = self._drive.at(state.time)
-        moved, factor = imposed.displacement, imposed.normal_load
-        far = self._far
+        dynamics, interface = self._dynamics, report.interface
+        own, modes = dynamics.grid.own, dynamics.body.modes
+        imposed = dynamics.drive.at(state.time)
+        moved = imposed.displacement
         forces = (
-            np.array([-report.driving_force]),
-            factor * load.modes[far] * modes.norms,
-            factor * load.edge[far],
-            report.interface.tangential[grid.own],
+            np.array([-report.driving_force, *imposed.factors]),
+            interface.tangential[own],
         )
-        slip = moved + modes.on_all_nodes(report.interface.w, 0.0)[grid.own]
-        ways = np.array([moved]), field.modes[far], field.edge[far], slip
+        ways = (
+            np.array([moved, *dynamics.works(state.motions[0])]),
+            moved + modes.on_all_nodes(interface.w, 0.0)[own],
+        )
         before, self._last = self._last, (*forces, *ways)
         if not before:
             self._start = self._stored(state)
             return
-        works = []
         for i, (force, way) in enumerate(zip(forces, ways, strict=True)):
-            works.append(0.5 * np.vdot(before[i] + force, way - before[len(ways) + i]))
-        self._works += sum(works[:-1]), works[-1]
+            self._works[i] += 0.5 * np.vdot(before[i] + force, way - before[len(ways) + i])
 
     def _stored(self, state: State) -> Array:
         """Elastic and kinetic energy (J/m)."""
-        body, imposed = self._body, self._drive.at(state.time)
+        dynamics = self._dynamics
+        body, imposed = dynamics.body, dynamics.drive.at(state.time)
+        motion = dynamics.in_form(state, condensed=False).motions[0]
         parts = zip(
             body.layers,
-            body.parts(state.displacement),
+            body.parts(motion.displacement),
             strict=True,
         )
         elastic = sum(elastic_energy(layer, part) for layer, part in parts)
-        return np.array([elastic, body.kinetic_energy(state.velocity, imposed.velocity)])
+        return np.array([elastic, body.kinetic_energy(motion.velocity, imposed.velocity)])
 
     def since_start(self) -> dict[str, float]:
         """:data:`ENERGIES` (J/m) at the present step."""
@@ -289,5 +285,5 @@ class _Energy:
         """The inverse of :meth:`to_arrays`, with the arrays of the state."""
         self._works = arrays["energy_works"].copy()
         self._start = arrays["energy_start"]
-        self._last = tuple(arrays[f"energy_{i}"] for i in range(8))  # four forces, four ways
+        self._last = tuple(arrays[f"energy_{i}"] for i in range(4))  # two forces, two ways
         self._state = State.from_arrays(arrays)

@@ -88,16 +88,16 @@ def composed(run: Run) -> Dynamics:
         drive = perturbed(run, body, drive)
     if run.fault.loading == "remote":
         shear = body.far_load(0.0, 1.0)
-        start = shear.times(run.start.initial_shear_stress)
-        per_displacement = run.start.stress_rate / run.fault.velocity
-        drive = remote_drive(drive, start, shear.times(per_displacement))
+        rising = run.start.stress_rate / run.fault.velocity
+        drive = remote_drive(drive, shear, run.start.initial_shear_stress, rising)
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
 def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest."""
     body = dynamics.body
-    imposed, load = dynamics.driven(0.0)
+    imposed = dynamics.drive.at(0.0)
+    load = dynamics.load(imposed)
     operator = dynamics.operator(0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
@@ -112,8 +112,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     displacement = operator.balance(response, response.w)[0]
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
-    still = body.at_rest(displacement, imposed.velocity)
-    motion = still._replace(excess=imposed.normal_load - 1.0)
+    motion = body.at_rest(displacement, imposed.velocity, dynamics.factors(imposed))
     past = slip_rate[None], log_state[None], response.w[None]
     state = State((motion,), np.zeros(1), *past)
     interface = InterfaceSolution(

@@ -10,14 +10,15 @@ scheme (:mod:`.stepping`).
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
 from ..fem.body import Body
+from ..fem.condensed import CondensedBody
 from ..fem.grid import Field, Motion
-from ..fem.operator import Operator
+from ..fem.operator import Forces, Operator
 from ..fem.right_edge import foreseen_edge
 from ..types import Array, Arrays
 from . import passes
@@ -56,10 +57,10 @@ class State:
     def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
         """The inverse of :meth:`to_arrays`."""
         motions = []
-        for u, u_edge, v, v_edge, *numbers in zip(
+        for u, u_edge, v, v_edge, momentum, *factors in zip(
             *[arrays[name] for name in _OF_MOTIONS], strict=True
         ):
-            motion = Motion(Field(u, u_edge), Field(v, v_edge), *map(float, numbers))
+            motion = Motion(Field(u, u_edge), Field(v, v_edge), float(momentum), *factors)
             motions.append(motion)
         plain = {name: arrays[name] for name in _PLAIN}
         return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
@@ -93,8 +94,8 @@ _OF_MOTIONS = (
     "velocity",
     "velocity_edge",
     "momentum",
-    "excess",
-    "excess_rate",
+    "factors",
+    "factor_rates",
 )
 
 
@@ -140,6 +141,8 @@ class Dynamics:
         self.operator = lru_cache(most)(partial(Operator, body))
         self._slip_distance = float(np.min(interface.friction.slip_distance))
         self._no_forcing = np.zeros(body.modes.n_x + 1)
+        self.loads = (*drive.loads, body.translation_load(1.0))
+        self.condenses = len(body.layers) == 1  # a pair may move as a whole
 
     def advance(
         self,
@@ -150,14 +153,7 @@ class Dynamics:
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
         operator = self.operator(step.s)
-        imposed, external = self.driven(time)
-        inertia = []  # the past part
-        for c, past_motion in zip(step.body.past, state.motions, strict=False):
-            inertia += [
-                (c, past_motion.displacement),
-                (c * step.body.beta, past_motion.velocity),
-            ]
-        load = self.body.inertia_load(step.s, inertia, external)
+        imposed = self.drive.at(time)
         # Above the scale by relative changes, also in an event. After it elastic waves ring in the
         # body. They shake the slip rates but hardly move the interface; the last term lets the
         # steps become longer than these waves.
@@ -176,23 +172,52 @@ class Dynamics:
             least,
         )
         past = Past(past_w, past_log_state, formula.beta, step.first)
-        excess = imposed.normal_load - 1.0
+
+        def solve(response: Forces) -> InterfaceSolution:
+            return self.interface.solve(operator, response, past, imposed, rates)
+
+        follows = step.without_waves and self.condenses
+        state = self.in_form(state, condensed=follows)
+        way = self._follow if follows else self._move
+        solution, motion, error = way(operator, step, state, imposed, w, solve)
+        new = self._pushed(state, time, solution, motion, error)
+        force = self._driving_force(step, state, imposed, solution, motion)
+        rate, psi = solution.slip_rate, solution.log_state
+        distance = passes.distance(scaled, log_state, rate, psi, scale)
+        return new, StepReport(solution, force, step.error(distance))
+
+    def _move(
+        self,
+        operator: Operator,
+        step: Step,
+        state: State,
+        imposed: Imposed,
+        w: Array,
+        solve: Callable[[Forces], InterfaceSolution],
+    ) -> tuple[InterfaceSolution, Motion, float]:
+        """The interface and the body after a step, and the error of the foreseen edge."""
+        inertia = []  # the past part
+        for c, past_motion in zip(step.body.past, state.motions, strict=False):
+            inertia += [
+                (c, past_motion.displacement),
+                (c * step.body.beta, past_motion.velocity),
+            ]
+        load = self.body.inertia_load(step.s, inertia, self.load(imposed))
+        factors = self.factors(imposed)
         foreseen = foreseen_edge(
             state.motions,
             step.length,
             state.last_step,
-            excess,
+            factors,
             self._edge_per_load,
         )
         newest, oldest = state.motions[0], state.motions[-1]
-        c1, c2 = step.body.past
-        beta = step.body.beta
-        before = step.body.past, beta, newest.displacement, oldest.displacement
+        before = step.body.past, step.body.beta, newest.displacement, oldest.displacement
         # far from slip and waves the right edge moves as foreseen, to round-off
         tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
         for edge in tries:
             response = operator.respond(load, w, edge)
-            solution = self.interface.solve(operator, response, past, imposed, rates)
+            solution = solve(response)
             moved, velocity, error = operator.balance(
                 response,
                 solution.w,
@@ -201,39 +226,85 @@ class Dynamics:
             )
             if operator.tolerates(error):
                 break
-        excess_rate = (excess - c1 * newest.excess - c2 * oldest.excess) / beta
-        motion = Motion(
-            moved,
-            velocity,
-            self.body.momentum_x(velocity),
-            excess,
-            excess_rate,
+        rates = step.body.rate(factors, newest.factors, oldest.factors)
+        momentum = self.body.momentum_x(velocity)
+        return solution, Motion(moved, velocity, momentum, factors, rates), error
+
+    def _follow(
+        self,
+        operator: Operator,
+        step: Step,
+        state: State,
+        imposed: Imposed,
+        w: Array,
+        solve: Callable[[Forces], InterfaceSolution],
+    ) -> tuple[InterfaceSolution, Motion, float]:
+        """As :meth:`_move`, of the condensed body."""
+        newest, oldest = state.motions
+        u1, v1, u2, v2 = (
+            field.modes
+            for motion in state.motions
+            for field in (motion.displacement, motion.velocity)
         )
-        new = self._pushed(state, time, solution, motion, error)
-        force = self._driving_force(state, step, imposed, solution, motion)
-        rate, psi = solution.slip_rate, solution.log_state
-        distance = passes.distance(scaled, log_state, rate, psi, scale)
-        return new, StepReport(solution, force, step.error(distance))
+        factors = self.factors(imposed)
+        rule = step.body
+        straight = rule.straight(u1, v1, u2, v2)
+        steady = rule.straight(
+            newest.factors,
+            newest.factor_rates,
+            oldest.factors,
+            oldest.factor_rates,
+        )
+        response = self.condensed_body.respond(operator, w, factors, (straight, steady))
+        solution = solve(response)
+        rate = rule.rate(solution.w, u1, u2)
+        rates = rule.rate(factors, newest.factors, oldest.factors)
+        momentum = -float(self.condensed_body.works(rate, rates)[-1])
+        none = np.empty(0)
+        motion = Motion(Field(solution.w, none), Field(rate, none), momentum, factors, rates)
+        return solution, motion, np.inf
+
+    def in_form(self, state: State, condensed: bool) -> State:
+        """The state with its body condensed or not."""
+        if state.motions[0].is_condensed == condensed:
+            return state
+        body = self.condensed_body
+        change = body.condensed if condensed else body.expanded
+        motions = tuple(map(change, state.motions))
+        return dataclasses.replace(state, motions=motions, edge_error=np.inf)
+
+    def factors(self, imposed: Imposed) -> Array:
+        """Factors of the body's loads; the last one is the acceleration of the frame (m/s^2)."""
+        return np.array([*imposed.factors, imposed.acceleration])
+
+    def load(self, imposed: Imposed) -> Field:
+        """The load (N/m) on the body, with the inertia of the frame."""
+        return self.body.combined(self.loads, self.factors(imposed))
+
+    def works(self, motion: Motion) -> Array:
+        """Work (J/m) of each load of the drive times one on the displacement."""
+        loads = self.drive.loads
+        if motion.is_condensed:
+            found = self.condensed_body.works(motion.displacement.modes, motion.factors)
+            return found[: len(loads)]
+        return np.array([self.body.work(load, motion.displacement) for load in loads])
+
+    @cached_property
+    def condensed_body(self) -> CondensedBody:
+        """The body condensed on its interface."""
+        return CondensedBody(self.body, self.loads, self.operator)
 
     @cached_property
     def _edge_per_load(self) -> Array:
-        """Edge values (m) at rest under the steady load, the interface held."""
+        """Edge values (m) at rest under each load, the interface held, (loads, levels)."""
         nothing = np.zeros(self.body.modes.n_x)
-        return self.operator(0.0).respond(self.drive.load(0.0), nothing).edge
-
-    def driven(self, time: float) -> tuple[Imposed, Field]:
-        """Boundary conditions at a time (s), and the load (N/m) with the inertia of the frame."""
-        imposed, load = self.drive.at(time), self.drive.load(time)
-        if imposed.normal_load != 1.0:
-            load = load.times(imposed.normal_load)
-        if imposed.acceleration != 0.0:
-            load = load.plus(self.body.translation_load(imposed.acceleration))
-        return imposed, load
+        statics = self.operator(0.0)
+        return np.array([statics.respond(load, nothing).edge for load in self.loads])
 
     def _driving_force(
         self,
-        state: State,
         step: Step,
+        state: State,
         imposed: Imposed,
         solution: InterfaceSolution,
         motion: Motion,

@@ -25,7 +25,8 @@ from ..types import Array
 LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step,
 LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
 RUNGS_PER_OCTAVE = 4
-QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
+QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step,
+WITHOUT_WAVES = 20.0  # and within each of three steps, after which no waves are left
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,6 +36,22 @@ class _Formula:
     step: float  # s
     beta: float  # s
     past: tuple[float, ...]
+
+    def rate(self, value: Array, newest: Array, oldest: Array) -> Array:
+        """Rate (1/s) at the end of a BDF2 step."""
+        c1, c2 = self.past
+        return (value - c1 * newest - c2 * oldest) / self.beta
+
+    def straight(
+        self,
+        newest: Array,
+        newest_rate: Array,
+        oldest: Array,
+        oldest_rate: Array,
+    ) -> Array:
+        """The value at the end of a BDF2 step without acceleration."""
+        c1, c2 = self.past
+        return c1 * (newest + self.beta * newest_rate) + c2 * (oldest + self.beta * oldest_rate)
 
     @classmethod
     def bdf2(
@@ -112,6 +129,7 @@ class Step:
     extrapolation: Array  # weights of the interface's past values, newest first, for a first guess
     error_share: float  # local error over the distance between step and guess
     first: bool  # whether the step starts from rest
+    without_waves: bool  # whether the body follows its interface and the loads
 
     @property
     def length(self) -> float:
@@ -162,12 +180,15 @@ class BDF:
         share = error_factor(formula, past_times) if known == self.instants else 0.0
         weights = extrapolation_weights(float(past_times[0]) + formula.step, past_times)
         interface = formula
+        without_waves = False
         if known == 3 and formula.step >= QUASI_STATIC * self.crossing_time:
             now, before, earlier = past_times.tolist()
-            growths = formula.step / (now - before), (now - before) / (before - earlier)
-            if max(growths) <= LARGEST_GROWTH_OF_BDF3:
+            last, second_last = now - before, before - earlier
+            if max(formula.step / last, last / second_last) <= LARGEST_GROWTH_OF_BDF3:
                 interface = _Formula.bdf3(formula.step, past_times)
-        return Step(formula, interface, weights, share, known == 1)
+            shortest = min(formula.step, last, second_last)
+            without_waves = shortest >= WITHOUT_WAVES * self.crossing_time
+        return Step(formula, interface, weights, share, known == 1, without_waves)
 
     def leading_coefficient(
         self,

@@ -74,12 +74,13 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     body = dynamics.body
     n = dynamics.grid.n_x
     velocity = dynamics.drive.velocity
-    load = dynamics.drive.load(0.0)
+    (load,) = dynamics.drive.loads
     operator = Operator(body, 0.0)
     response = operator.respond(load, np.zeros(n))
     displacement = operator.balance(response, response.w)[0]
     # the driving traction moves the block at V: seen from there it is at rest
-    motion = body.at_rest(displacement, 0.0)
+    factors = dynamics.factors(dynamics.drive.at(0.0))
+    motion = body.at_rest(displacement, 0.0, factors)
     rates = np.full(n + 1, velocity)
     steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
