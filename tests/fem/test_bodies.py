@@ -6,9 +6,8 @@ from fem.assembled_problem import Assembled
 
 from benchmarks.nodal import nodal_values
 from nucleation.fem.body import Body
-from nucleation.fem.grid import Field, Grid, Motion
+from nucleation.fem.grid import Grid, Motion
 from nucleation.fem.operator import Operator
-from nucleation.fem.right_edge import foreseen_edge
 from nucleation.model.material import Material
 
 UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
@@ -120,35 +119,6 @@ def test_condensed_operator(body, s):
     assert np.linalg.eigvalsh(d).min() > 0.0
 
 
-LONG = Grid(1.0, 0.1, 40, 6)
-
-
-@pytest.mark.parametrize("bottom", [None, "clamped", "roller"])
-@pytest.mark.parametrize("off", [0.0, 1e-3], ids=["as foreseen", "otherwise"])
-def test_edge_that_moves_as_foreseen_saves_a_solve(off, bottom):
-    """If it does not, the error is known; the field is the one that is solved for without."""
-    body = Body((LONG, UPPER)) if bottom is None else pair_of((LONG, LONG), bottom)
-    rng = np.random.default_rng(6)
-    operator, load = Operator(body, SLOW), random_field(body, rng)
-    near_the_load = np.where(np.arange(LONG.n_x) < 10, 1e-9 * rng.normal(size=LONG.n_x), 0.0)
-    at_rest = operator.respond(load, 0.0 * near_the_load)
-    solved = operator.balance(at_rest, near_the_load)[0]
-    per_load = rng.normal(size=solved.edge.size) * solved.edge  # for a load that rises to 0.5
-    moved = Field(solved.modes, (1.0 + off) * solved.edge - 0.3 * per_load)
-    rate = body.zero_field()._replace(edge=7.0 * per_load)
-    foreseen = foreseen_edge((Motion(moved, rate, 0.0, 0.2, 7.0),), 1e-3, 0.0, 0.5, per_load)
-    response = operator.respond(load, near_the_load, foreseen)
-    found, _, error = operator.balance(response, near_the_load, foreseen=foreseen)
-    assert operator.tolerates(error) == (off == 0.0)
-    assert error == pytest.approx(off, abs=1e-12)
-    response = operator.respond(load, near_the_load)
-    again, _, error = operator.balance(response, near_the_load, foreseen=foreseen)
-    assert error == pytest.approx(off, abs=1e-12)
-    for field in (again, *([] if off else [found])):
-        assert relative(field.modes, solved.modes) < 1e-12
-        assert relative(field.edge, solved.edge) < 1e-12
-
-
 @pytest.mark.parametrize("s", [STATIC, SLOW])
 def test_identical_blocks_do_not_couple_slip_to_normal_stress(s):
     """N = 0 exactly, and D of both is half of that of a block whose face is free: (a - b^2/c)/2."""
@@ -166,7 +136,9 @@ def test_a_translation_that_has_grown_from_rounding_is_taken_out():
     """All nodes of both blocks move by what the corner has risen, at each instant its own."""
     rng, step = np.random.default_rng(3), 0.1
     body = pair_of(PAIRS[0])
-    motions = tuple(Motion(random_field(body, rng), random_field(body, rng), 0.0) for _ in "ab")
+    none = np.zeros(1)
+    fields = [(random_field(body, rng), random_field(body, rng)) for _ in "ab"]
+    motions = tuple(Motion(*pair, 0.0, none, none) for pair in fields)
     rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
     settled = body.settled(motions, step, 1e-3 * abs(rise))
     for age, old, new in zip((0.0, step), motions, settled, strict=True):

@@ -114,7 +114,8 @@ class Accountant:
         return sum(0.5 * q @ getattr(body, name) @ q for body, q in pairs)
 
     def moment(self, instant, past):
-        state, imposed = instant.state, self.dynamics.drive.at(instant.state.time)
+        state = self.dynamics.in_form(instant.state, condensed=False)
+        imposed = self.dynamics.drive.at(state.time)
         u = [body.vector(state.displacement, imposed.displacement) for body in self.bodies]
         v = [body.vector(state.velocity, imposed.velocity) for body in self.bodies]
         relative = [body.vector(state.velocity, 0.0) for body in self.bodies]

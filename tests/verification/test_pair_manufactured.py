@@ -72,7 +72,7 @@ class ManufacturedPair(Manufactured):
             )
             for order in (0, 1)
         )
-        return Motion(u, rate, self.body.momentum_x(rate))
+        return Motion(u, rate, self.body.momentum_x(rate), np.zeros(1), np.zeros(1))
 
     def displacement_error_below(self, state):
         x, y = nodal_values(self.body, state.displacement, 1)

@@ -23,10 +23,7 @@ SMALL = 1e-3  # inertia in units of elasticity
 
 
 class CondensedBody:
-    """One layer on a rigid base, under some loads (N/m) times factors.
-
-    Without slip each load asks for `edge`, the edge values (m), (loads, levels).
-    """
+    """One layer on a rigid base, under some loads (N/m) times factors."""
 
     def __init__(
         self,
@@ -45,7 +42,6 @@ class CondensedBody:
         # of the loads' acceleration (N/m per 1/s^2)
         self._inertia = [(one - other) / s for one, other in zip(moving, self._held, strict=True)]
         fields = [self._field(self._nothing, one) for one in np.eye(len(loads))]
-        self.edge = np.array([field.edge for field in fields])
         works = [[body.work(load, field) for field in fields] for load in loads]
         self._compliance = np.array(works)
 

@@ -142,17 +142,15 @@ def edge_residual(
     field,
     edge,
     load,
-    levels,
 ):
-    """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the lowest edge values.
+    """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the edge values.
 
-    s_0 to s_2 are the :func:`edge_sums` of the field and s_3 the edge values (m). Unless all levels
-    are wanted, the field is given one level further up than the result.
+    s_0 to s_2 are the :func:`edge_sums` of the field and s_3 the edge values (m).
     """
-    given = min(field.shape[0], edge.size)
-    sums = np.empty((4, given))
+    levels = edge.size
+    sums = np.empty((4, levels))
     edge_sums(weights, field, sums)
-    for j in range(given):
+    for j in range(levels):
         sums[3, j] = edge[j]
     out = np.empty(levels)
     for j in range(levels):
@@ -161,7 +159,7 @@ def edge_residual(
             total -= matrices[k, 1, j] * sums[k, j]
             if j > 0:
                 total -= matrices[k, 0, j] * sums[k, j - 1]
-            if j + 1 < given:
+            if j + 1 < levels:
                 total -= matrices[k, 2, j] * sums[k, j + 1]
         out[j] = total
     return out

@@ -66,34 +66,23 @@ class LayerFactors:
         return kernels.products(self._transposed, edge)
 
     def substitute(self, modes: Array) -> None:
-        """Sweep a swept load back from the interface's displacement in level 0, in place.
-
-        At least the two lowest levels are given.
-        """
-        levels = len(modes)
-        kernels.substitute(
-            self.inverse[:levels],
-            self.lower[: levels - 1],
-            modes,
-        )
+        """Sweep a swept load back from the interface's displacement in level 0, in place."""
+        kernels.substitute(self.inverse, self.lower, modes)
 
     def residual(
         self,
         load: Field,
         modes: Array,
         edge: Array,
-        levels: int = 0,
     ) -> Array:
-        """Unbalanced force on the (lowest) edge values (N/m), given those and amplitudes (m)."""
+        """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
         weights = self.layer.modes.edge_weights
-        levels = levels or edge.size
         return edge_kernels.edge_residual(
             self._rows,
             weights,
             modes,
             edge,
             load.edge,
-            levels,
         )
 
     def schur(self) -> Array:

@@ -59,8 +59,6 @@ class Response(Forces):
 
     load: Field  # N/m, of the body
     edge: Array  # m, the edge values
-    swept: Array | None = None  # N/m, the load swept down to the interface with these edge values,
-    start: Array | float = 0.0  # m, and the displacement of a pair's interface under it at w = 0
 
 
 class Operator:
@@ -201,91 +199,49 @@ class Operator:
             )
         return rate
 
-    def respond(
-        self,
-        load: Field,
-        w: Array,
-        edge: Array | None = None,
-    ) -> Response:
-        """The forces that hold the interface at w (m) under a load (N/m), the edge in balance.
-
-        Edge values (m) that are given are assumed to be in balance; this saves half of the work.
-        """
+    def respond(self, load: Field, w: Array) -> Response:
+        """The forces that hold the interface at w (m) under a load (N/m), the edge in balance."""
         amplitudes = self.body.modes.sine_amplitudes(w)
-        given = np.zeros_like(load.edge) if edge is None else edge
-        swept = self.swept_down(load, given)
-        reduced, start = self.reduced(swept)
+        nothing = np.zeros_like(load.edge)
+        modes = self.swept_down(load, nothing)
+        reduced, start = self.reduced(modes)
         tangential, normal = self.body.modes.forces(
             self.modal,
             amplitudes,
             reduced,
         )
         if self.edge is None:
-            return Response(w, tangential, normal, load, given, swept, start)
-        if edge is not None:
-            # the normal force on the corner follows from the two lowest levels alone
-            lowest = swept[:2].copy()
-            lowest[0] = start + self.by_slip * amplitudes
-            self.factors[0].substitute(lowest)
-            above = self.body.parts(load)[0]
-            own = edge[: above.edge.size]
-            normal[-1] = -self.factors[0].residual(
-                above,
-                lowest,
-                own,
-                levels=1,
-            )[0]
-            return Response(w, tangential, normal, load, edge, swept, start)
-        self.substitute_up(swept, amplitudes, start)
-        residual = self.edge.residual(load, swept, given)
-        found = self.edge.compliance @ residual
-        edge_kernels.add_edge(found, self.edge.felt, tangential, normal)
-        normal[-1] = self.edge.schur[0] @ found - residual[0]
-        return Response(w, tangential, normal, load, found)
+            return Response(w, tangential, normal, load, nothing)
+        self.substitute_up(modes, amplitudes, start)
+        residual = self.edge.residual(load, modes)
+        edge = self.edge.compliance @ residual
+        edge_kernels.add_edge(edge, self.edge.felt, tangential, normal)
+        normal[-1] = self.edge.schur[0] @ edge - residual[0]
+        return Response(w, tangential, normal, load, edge)
 
     def balance(
         self,
         response: Response,
         w: Array,
         before: Before | None = None,
-        foreseen: Array | None = None,
-    ) -> tuple[Field, Field, float]:
-        """The body for w (m) after a response, which must not be used again.
+    ) -> tuple[Field, Field]:
+        """The body for w (m) after a response: its displacement (m) and its velocity (m/s).
 
-        Its displacement (m), its velocity (m/s) by the step's formula, zero in statics, and the
-        relative error of edge values that were foreseen.
-        If :meth:`tolerates` denies the error of the edge values (m) that were `foreseen`, a
-        response with these was not accurate enough.
+        The velocity follows from the step's formula; in statics it is zero.
         """
-        given = edge = response.edge
-        if self.edge is not None and w is not response.w:
+        edge = response.edge
+        if self.edge is not None:
             near = self.edge.response_near
-            change = (w - response.w)[-near.shape[1] :]
-            edge = given + near @ change
-        modes, start = response.swept, response.start
-        solved = modes is None
-        if modes is None:
-            modes = self.swept_down(response.load, edge)
-            _, start = self.reduced(modes)
+            edge = edge + near @ (w - response.w)[-near.shape[1] :]
+        modes = self.swept_down(response.load, edge)
+        _, start = self.reduced(modes)
         amplitudes = self.body.modes.sine_amplitudes(w)
         rate = self.substitute_up(modes, amplitudes, start, before)
-        own = edge
-        if self.edge is not None and not solved:
-            residual = self.edge.residual(response.load, modes, given)
-            own = given + self.edge.compliance @ residual
-        error, largest = np.inf, np.abs(own).max()
-        if foreseen is not None and largest > 0.0:
-            apart = np.abs(foreseen - own).max()
-            error = max(apart, np.abs(edge - own).max()) / largest
-        edge_rate = np.zeros_like(own)
+        edge_rate = np.zeros_like(edge)
         if before is not None:
             (c1, c2), beta, newest, oldest = before
-            edge_rate = (own - c1 * newest.edge - c2 * oldest.edge) / beta
-        return Field(modes, own), Field(rate, edge_rate), float(error)
-
-    def tolerates(self, error: float) -> bool:
-        """Whether a relative error of the edge values is round-off."""
-        return self.edge is not None and error < self.edge.round_off
+            edge_rate = (edge - c1 * newest.edge - c2 * oldest.edge) / beta
+        return Field(modes, edge), Field(rate, edge_rate)
 
     def apply(self, w: Array) -> Components:
         """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""

@@ -5,41 +5,16 @@ Their influence on the interface decays exponentially over some heights of the b
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from ..types import Array
 from .body import Body
 from .factors import LayerFactors
-from .grid import Field, Motion
+from .grid import Field
 from .modes import BlockModes
 
-ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
-
-
-def foreseen_edge(
-    motions: Sequence[Motion],
-    step: float,
-    last_step: float,
-    factors: Array,
-    per_load: Array,
-) -> Array:
-    """Edge values (m) after a step (s) to loads of some factors.
-
-    They follow the loads at once, by `per_load` (m), (loads, levels), and otherwise go on with the
-    acceleration of the last step.
-    """
-    now = motions[0]
-    before = motions[-1]
-    velocity = now.velocity.edge - now.factor_rates @ per_load
-    edge = now.displacement.edge + (factors - now.factors) @ per_load + step * velocity
-    if last_step == 0.0:
-        return edge
-    change = velocity - (before.velocity.edge - before.factor_rates @ per_load)
-    return edge + (0.5 * step**2 / last_step) * change
 
 
 class EdgeValues:
@@ -69,9 +44,6 @@ class EdgeValues:
         assert isinstance(body.modes, BlockModes)
         self._body = body
         self._factors = factors
-        grids = [layer.grid for layer in body.layers]
-        condition = max((grid.height / np.diff(grid.y).min()) ** 2 for grid in grids)
-        self.round_off = ROUND_OFF * np.finfo(float).eps * condition  # relative, in any solve
         if series is None:
             modal = factors[0].to_modes()
             self.schur = factors[0].schur()
@@ -141,13 +113,12 @@ class EdgeValues:
         self,
         load: Field,
         modes: Array,
-        edge: Array,
     ) -> Array:
-        """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
+        """Force on the edge values (N/m) where they are zero, given amplitudes (m)."""
         parts = zip(
             self._factors,
             self._body.parts(load),
-            self._body.parts(Field(modes, edge)),
+            self._body.parts(Field(modes, np.zeros_like(load.edge))),
             strict=True,
         )
         found = [

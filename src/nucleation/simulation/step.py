@@ -19,7 +19,6 @@ from ..fem.body import Body
 from ..fem.condensed import CondensedBody
 from ..fem.grid import Field, Motion
 from ..fem.operator import Forces, Operator
-from ..fem.right_edge import foreseen_edge
 from ..types import Array, Arrays
 from . import passes
 from .drive import Drive, Imposed
@@ -43,11 +42,10 @@ class State:
     past_slip_rates: Array  # m/s, (past, nodes 0..n_x)
     past_log_states: Array  # (past, nodes 0..n_x)
     past_w: Array  # m, slip less that of the driven edge, (past, nodes 1..n_x)
-    edge_error: float = np.inf  # relative, of the right edge's values as foreseen
 
     def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
-        arrays = {name: np.asarray(getattr(self, name)) for name in (*_PLAIN, "edge_error")}
+        arrays = {name: np.asarray(getattr(self, name)) for name in _PLAIN}
         motions = [(*one.displacement, *one.velocity, *one[2:]) for one in self.motions]
         for name, values in zip(_OF_MOTIONS, zip(*motions, strict=True), strict=True):
             arrays[name] = np.array(values)
@@ -63,7 +61,7 @@ class State:
             motion = Motion(Field(u, u_edge), Field(v, v_edge), float(momentum), *factors)
             motions.append(motion)
         plain = {name: arrays[name] for name in _PLAIN}
-        return cls(tuple(motions), **plain, edge_error=float(arrays["edge_error"]))
+        return cls(tuple(motions), **plain)
 
     @property
     def time(self) -> float:
@@ -179,8 +177,8 @@ class Dynamics:
         follows = step.without_waves and self.condenses
         state = self.in_form(state, condensed=follows)
         way = self._follow if follows else self._move
-        solution, motion, error = way(operator, step, state, imposed, w, solve)
-        new = self._pushed(state, time, solution, motion, error)
+        solution, motion = way(operator, step, state, imposed, w, solve)
+        new = self._pushed(state, time, solution, motion)
         force = self._driving_force(step, state, imposed, solution, motion)
         rate, psi = solution.slip_rate, solution.log_state
         distance = passes.distance(scaled, log_state, rate, psi, scale)
@@ -194,8 +192,8 @@ class Dynamics:
         imposed: Imposed,
         w: Array,
         solve: Callable[[Forces], InterfaceSolution],
-    ) -> tuple[InterfaceSolution, Motion, float]:
-        """The interface and the body after a step, and the error of the foreseen edge."""
+    ) -> tuple[InterfaceSolution, Motion]:
+        """The interface and the body after a step."""
         inertia = []  # the past part
         for c, past_motion in zip(step.body.past, state.motions, strict=False):
             inertia += [
@@ -204,31 +202,14 @@ class Dynamics:
             ]
         load = self.body.inertia_load(step.s, inertia, self.load(imposed))
         factors = self.factors(imposed)
-        foreseen = foreseen_edge(
-            state.motions,
-            step.length,
-            state.last_step,
-            factors,
-            self._edge_per_load,
-        )
         newest, oldest = state.motions[0], state.motions[-1]
         before = step.body.past, step.body.beta, newest.displacement, oldest.displacement
-        # far from slip and waves the right edge moves as foreseen, to round-off
-        tries = [foreseen, None] if operator.tolerates(state.edge_error) else [None]
-        for edge in tries:
-            response = operator.respond(load, w, edge)
-            solution = solve(response)
-            moved, velocity, error = operator.balance(
-                response,
-                solution.w,
-                before,
-                foreseen,
-            )
-            if operator.tolerates(error):
-                break
+        response = operator.respond(load, w)
+        solution = solve(response)
+        moved, velocity = operator.balance(response, solution.w, before)
         rates = step.body.rate(factors, newest.factors, oldest.factors)
         momentum = self.body.momentum_x(velocity)
-        return solution, Motion(moved, velocity, momentum, factors, rates), error
+        return solution, Motion(moved, velocity, momentum, factors, rates)
 
     def _follow(
         self,
@@ -238,7 +219,7 @@ class Dynamics:
         imposed: Imposed,
         w: Array,
         solve: Callable[[Forces], InterfaceSolution],
-    ) -> tuple[InterfaceSolution, Motion, float]:
+    ) -> tuple[InterfaceSolution, Motion]:
         """As :meth:`_move`, of the condensed body."""
         newest, oldest = state.motions
         u1, v1, u2, v2 = (
@@ -262,7 +243,7 @@ class Dynamics:
         momentum = -float(self.condensed_body.works(rate, rates)[-1])
         none = np.empty(0)
         motion = Motion(Field(solution.w, none), Field(rate, none), momentum, factors, rates)
-        return solution, motion, np.inf
+        return solution, motion
 
     def in_form(self, state: State, condensed: bool) -> State:
         """The state with its body condensed or not."""
@@ -270,8 +251,7 @@ class Dynamics:
             return state
         body = self.condensed_body
         change = body.condensed if condensed else body.expanded
-        motions = tuple(map(change, state.motions))
-        return dataclasses.replace(state, motions=motions, edge_error=np.inf)
+        return dataclasses.replace(state, motions=tuple(map(change, state.motions)))
 
     def factors(self, imposed: Imposed) -> Array:
         """Factors of the body's loads; the last one is the acceleration of the frame (m/s^2)."""
@@ -293,13 +273,6 @@ class Dynamics:
     def condensed_body(self) -> CondensedBody:
         """The body condensed on its interface."""
         return CondensedBody(self.body, self.loads, self.operator)
-
-    @cached_property
-    def _edge_per_load(self) -> Array:
-        """Edge values (m) at rest under each load, the interface held, (loads, levels)."""
-        nothing = np.zeros(self.body.modes.n_x)
-        statics = self.operator(0.0)
-        return np.array([statics.respond(load, nothing).edge for load in self.loads])
 
     def _driving_force(
         self,
@@ -331,7 +304,6 @@ class Dynamics:
         time: float,
         solution: InterfaceSolution,
         motion: Motion,
-        edge_error: float,
     ) -> State:
         """The state with the new values, and the past ones that the scheme still needs."""
         most = self.scheme.instants
@@ -343,5 +315,4 @@ class Dynamics:
             _pushed(solution.slip_rate, state.past_slip_rates, most),
             _pushed(solution.log_state, state.past_log_states, most),
             _pushed(solution.w, state.past_w, most),
-            edge_error,
         )
