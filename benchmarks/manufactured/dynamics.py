@@ -38,7 +38,7 @@ NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
 
 
 @dataclasses.dataclass(frozen=True)
-class _GivenDisplacement(Interface):
+class GivenDisplacement(Interface):
     """An interface with a prescribed displacement, in place of the frictional one."""
 
     exact_w: Callable[[float], Array] = dataclasses.field(kw_only=True)
@@ -107,7 +107,7 @@ class Manufactured:
         self.loads = Loads(self.grid, exact)
         interface = Interface(self.friction, NEWTON_TOLERANCE)
         if not log_state:
-            interface = _GivenDisplacement(self.friction, exact_w=self.exact_w)
+            interface = GivenDisplacement(self.friction, exact_w=self.exact_w)
         scheme = BDF(self.body.crossing_time)
         drive = Drive(self.velocity, self.at, ())
         self.dynamics = _Loaded(self.body, interface, drive, scheme)

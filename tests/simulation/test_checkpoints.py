@@ -86,7 +86,7 @@ def whole():
 @pytest.mark.slow
 def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
     record, stored = whole
-    assert len(stored) == 7
+    assert [arrays["displacement"].ndim for arrays in stored] == [4, 4, 4, 2, 2, 4, 2]  # condensed
     for number, arrays in enumerate(stored):
         one = checkpoint(tmp_path / f"{number}.npz")
         one.keep(lambda arrays=arrays: arrays)

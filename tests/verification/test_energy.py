@@ -81,8 +81,9 @@ class Ledger(NamedTuple):
 class Accountant:
     """Energies from the nodal values of successive states."""
 
-    def __init__(self, parameters, tolerance=None):
+    def __init__(self, parameters, tolerance=None, condenses=False):
         self.parameters, self.dynamics = parameters, composed(parameters)
+        self.dynamics.condenses = condenses
         if tolerance is not None:
             interface = dataclasses.replace(self.dynamics.interface, tolerance=tolerance)
             self.dynamics.interface = interface
@@ -198,6 +199,13 @@ OTHERS = {
     kind: EDGE.replaced(perturbation=kind, strength=0.01, correlation_time=0.5, seed=1)
     for kind in KINDS[1:-1]  # what changes the state does no work
 }
+
+
+@pytest.mark.parametrize("name", ["normal_load", "drive_velocity"])
+def test_energy_balance_with_a_condensed_body(name):
+    """The loads do their work on a static field, without that of inertia."""
+    books = Accountant(OTHERS[name], condenses=True).books(creeps_again)
+    assert abs(books.residual) < 1e-9 * books.recorded["friction_work"]
 
 
 @pytest.mark.parametrize("parameters", OTHERS.values(), ids=OTHERS)

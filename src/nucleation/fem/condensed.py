@@ -19,7 +19,7 @@ from .body import Body
 from .grid import Components, Field, Motion
 from .operator import Forces, Operator
 
-SMALL = 1e-3  # inertia in units of elasticity
+SMALL = 1e-5  # inertia in units of elasticity
 
 
 class CondensedBody:

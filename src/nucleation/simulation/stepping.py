@@ -26,7 +26,7 @@ LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per st
 LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
 RUNGS_PER_OCTAVE = 4
 QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step,
-WITHOUT_WAVES = 20.0  # and within each of three steps, after which no waves are left
+WITHOUT_WAVES = 25.0  # and within each of three steps, after which no waves are left
 
 
 @dataclasses.dataclass(frozen=True)
