@@ -72,9 +72,9 @@ class _Loaded(Dynamics):
 
     load_at: Callable[[float], Field]
 
-    def load(self, imposed: Imposed) -> Field:
-        """The load (N/m) at the time of some boundary conditions."""
-        return self.load_at(imposed.time)
+    def load(self, time: float, factors: Array) -> Field:
+        """The load (N/m) at a time (s)."""
+        return self.load_at(time)
 
 
 class Manufactured:

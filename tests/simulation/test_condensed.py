@@ -58,7 +58,9 @@ def after(body, rung, condenses):
     dynamics.condenses = condenses
     start = np.zeros(body.modes.n_x)
     operator, imposed = Operator(body, 0.0), dynamics.drive.at(0.0)
-    displacement, _ = operator.balance(operator.respond(dynamics.load(imposed), start), start)
+    displacement, _ = operator.balance(
+        operator.respond(dynamics.load(0.0, dynamics.factors(imposed)), start), start
+    )
     motion = body.at_rest(displacement, 0.0, dynamics.factors(imposed))
     nodes = np.zeros(body.grid.n_x + 1)
     state = State((motion,), np.zeros(1), nodes[None], nodes[None], start[None])

@@ -60,17 +60,18 @@ class CondensedBody:
         operator: Operator,
         w: Array,
         factors: Array,
-        straight: tuple[Array, Array],
+        straight: Array,
+        steady: Array,
     ) -> Forces:
         """The forces that hold the interface at w (m) under the loads at the end of a step.
 
-        Without acceleration w (m) and the factors would be `straight`.
+        Without acceleration w would be `straight` (m) and the factors `steady`.
         """
-        acceleration = operator.s * (factors - straight[1])
+        acceleration = operator.s * (factors - steady)
         found = []
         for moved, static, held, inertia in zip(
-            operator.apply(w - straight[0]),
-            self._statics.apply(straight[0]),
+            operator.apply(w - straight),
+            self._statics.apply(straight),
             self._held,
             self._inertia,
             strict=True,

@@ -97,7 +97,8 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     """The static field under the load at rest."""
     body = dynamics.body
     imposed = dynamics.drive.at(0.0)
-    load = dynamics.load(imposed)
+    factors = dynamics.factors(imposed)
+    load = dynamics.load(0.0, factors)
     operator = dynamics.operator(0.0)
     response = operator.respond(load, np.zeros(body.modes.n_x))
     if run.start.initial_stress == "uniform_shear" and run.fault.loading != "remote":
@@ -112,7 +113,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
     displacement = operator.balance(response, response.w)[0]
     slip_rate = body.modes.on_all_nodes(np.zeros(body.modes.n_x), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(run.fault.initial_state))
-    motion = body.at_rest(displacement, imposed.velocity, dynamics.factors(imposed))
+    motion = body.at_rest(displacement, imposed.velocity, factors)
     past = slip_rate[None], log_state[None], response.w[None]
     state = State((motion,), np.zeros(1), *past)
     interface = InterfaceSolution(

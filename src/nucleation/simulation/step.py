@@ -85,6 +85,9 @@ class State:
         return self.motions[0].velocity
 
 
+Solve = Callable[[Operator, Forces], InterfaceSolution]
+"""Function that solves for the interface at the end of a step."""
+
 _PLAIN = ("past_times", "past_slip_rates", "past_log_states", "past_w")
 _OF_MOTIONS = (
     "displacement",
@@ -150,7 +153,6 @@ class Dynamics:
         """Make one step of a rung; raises NewtonFailure if a lower rung may help."""
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
-        operator = self.operator(step.s)
         imposed = self.drive.at(time)
         # Above the scale by relative changes, also in an event. After it elastic waves ring in the
         # body. They shake the slip rates but hardly move the interface; the last term lets the
@@ -170,80 +172,76 @@ class Dynamics:
             least,
         )
         past = Past(past_w, past_log_state, formula.beta, step.first)
-
-        def solve(response: Forces) -> InterfaceSolution:
-            return self.interface.solve(operator, response, past, imposed, rates)
-
+        solve = partial(self.interface.solve, past=past, imposed=imposed, rates=rates)
+        factors = self.factors(imposed)
         follows = step.without_waves and self.condenses
         state = self.in_form(state, condensed=follows)
         way = self._follow if follows else self._move
-        solution, motion = way(operator, step, state, imposed, w, solve)
+        solution, displacement, velocity = way(step, state, factors, w, solve)
+        newest, oldest = state.motions[0], state.motions[-1]
+        factor_rates = step.body.rate(factors, newest.factors, oldest.factors)
+        if follows:
+            momentum = -float(self.condensed_body.works(velocity.modes, factor_rates)[-1])
+        else:
+            momentum = self.body.momentum_x(velocity)
+        force = float(solution.tangential[self.grid.own].sum())
+        if self.drive.moves:  # its force balances friction and the rate of momentum
+            force -= step.body.rate(momentum, newest.momentum, oldest.momentum)
+        force -= self.body.total_mass * imposed.acceleration  # of the frame
+        motion = Motion(displacement, velocity, momentum, factors, factor_rates)
         new = self._pushed(state, time, solution, motion)
-        force = self._driving_force(step, state, imposed, solution, motion)
         rate, psi = solution.slip_rate, solution.log_state
         distance = passes.distance(scaled, log_state, rate, psi, scale)
         return new, StepReport(solution, force, step.error(distance))
 
     def _move(
         self,
-        operator: Operator,
         step: Step,
         state: State,
-        imposed: Imposed,
+        factors: Array,
         w: Array,
-        solve: Callable[[Forces], InterfaceSolution],
-    ) -> tuple[InterfaceSolution, Motion]:
-        """The interface and the body after a step."""
+        solve: Solve,
+    ) -> tuple[InterfaceSolution, Field, Field]:
+        """The interface, displacement (m) and velocity (m/s) after a step."""
         inertia = []  # the past part
         for c, past_motion in zip(step.body.past, state.motions, strict=False):
             inertia += [
                 (c, past_motion.displacement),
                 (c * step.body.beta, past_motion.velocity),
             ]
-        load = self.body.inertia_load(step.s, inertia, self.load(imposed))
-        factors = self.factors(imposed)
+        load = self.load(state.time + step.length, factors)
+        load = self.body.inertia_load(step.s, inertia, load)
         newest, oldest = state.motions[0], state.motions[-1]
         before = step.body.past, step.body.beta, newest.displacement, oldest.displacement
+        operator = self.operator(step.s)
         response = operator.respond(load, w)
-        solution = solve(response)
-        moved, velocity = operator.balance(response, solution.w, before)
-        rates = step.body.rate(factors, newest.factors, oldest.factors)
-        momentum = self.body.momentum_x(velocity)
-        return solution, Motion(moved, velocity, momentum, factors, rates)
+        solution = solve(operator, response)
+        return solution, *operator.balance(response, solution.w, before)
 
     def _follow(
         self,
-        operator: Operator,
         step: Step,
         state: State,
-        imposed: Imposed,
+        factors: Array,
         w: Array,
-        solve: Callable[[Forces], InterfaceSolution],
-    ) -> tuple[InterfaceSolution, Motion]:
+        solve: Solve,
+    ) -> tuple[InterfaceSolution, Field, Field]:
         """As :meth:`_move`, of the condensed body."""
-        newest, oldest = state.motions
-        u1, v1, u2, v2 = (
-            field.modes
-            for motion in state.motions
-            for field in (motion.displacement, motion.velocity)
-        )
-        factors = self.factors(imposed)
         rule = step.body
-        straight = rule.straight(u1, v1, u2, v2)
+        newest, oldest = state.motions
+        u1, u2 = newest.displacement.modes, oldest.displacement.modes
+        straight = rule.straight(u1, newest.velocity.modes, u2, oldest.velocity.modes)
         steady = rule.straight(
             newest.factors,
             newest.factor_rates,
             oldest.factors,
             oldest.factor_rates,
         )
-        response = self.condensed_body.respond(operator, w, factors, (straight, steady))
-        solution = solve(response)
+        operator = self.operator(step.s)
+        forces = self.condensed_body.respond(operator, w, factors, straight, steady)
+        solution = solve(operator, forces)
         rate = rule.rate(solution.w, u1, u2)
-        rates = rule.rate(factors, newest.factors, oldest.factors)
-        momentum = -float(self.condensed_body.works(rate, rates)[-1])
-        none = np.empty(0)
-        motion = Motion(Field(solution.w, none), Field(rate, none), momentum, factors, rates)
-        return solution, motion
+        return solution, Field(solution.w, np.empty(0)), Field(rate, np.empty(0))
 
     def in_form(self, state: State, condensed: bool) -> State:
         """The state with its body condensed or not."""
@@ -257,9 +255,9 @@ class Dynamics:
         """Factors of the body's loads; the last one is the acceleration of the frame (m/s^2)."""
         return np.array([*imposed.factors, imposed.acceleration])
 
-    def load(self, imposed: Imposed) -> Field:
-        """The load (N/m) on the body, with the inertia of the frame."""
-        return self.body.combined(self.loads, self.factors(imposed))
+    def load(self, time: float, factors: Array) -> Field:
+        """The load (N/m) on the body at a time (s), with the inertia of the frame."""
+        return self.body.combined(self.loads, factors)
 
     def works(self, motion: Motion) -> Array:
         """Work (J/m) of each load of the drive times one on the displacement."""
@@ -273,30 +271,6 @@ class Dynamics:
     def condensed_body(self) -> CondensedBody:
         """The body condensed on its interface."""
         return CondensedBody(self.body, self.loads, self.operator)
-
-    def _driving_force(
-        self,
-        step: Step,
-        state: State,
-        imposed: Imposed,
-        solution: InterfaceSolution,
-        motion: Motion,
-    ) -> float:
-        """The driving force f_d (N/m) from the discrete balance along x.
-
-        The force on a moving edge balances friction and the rate of momentum.
-        """
-        force = solution.tangential[self.grid.own].sum()
-        if self.drive.moves:
-            change = motion.momentum
-            for c, past in zip(
-                step.body.past,
-                state.motions,
-                strict=False,
-            ):
-                change -= c * past.momentum
-            force = force - change / step.body.beta
-        return float(force) - self.body.total_mass * imposed.acceleration  # of the frame
 
     def _pushed(
         self,

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import TypeVar
 
 import numpy as np
 
@@ -29,6 +30,9 @@ QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step,
 WITHOUT_WAVES = 25.0  # and within each of three steps, after which no waves are left
 
 
+Values = TypeVar("Values", float, Array)
+
+
 @dataclasses.dataclass(frozen=True)
 class _Formula:
     """Coefficients of one step: ``y = sum_i past_i y_{n-i} + beta dy/dt``, newest value first."""
@@ -37,7 +41,7 @@ class _Formula:
     beta: float  # s
     past: tuple[float, ...]
 
-    def rate(self, value: Array, newest: Array, oldest: Array) -> Array:
+    def rate(self, value: Values, newest: Values, oldest: Values) -> Values:
         """Rate (1/s) at the end of a BDF2 step."""
         c1, c2 = self.past
         return (value - c1 * newest - c2 * oldest) / self.beta
