@@ -27,7 +27,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import Variable, annotate
+from ..datasets.variables import Variable, annotate, declared
 from ..model.friction import Friction
 from ..run.run import Run
 from ..simulation.event import NEAR as NEAR_EDGE
@@ -48,16 +48,21 @@ REFITS = 2  # the second is about the crossing of the first
 FEWEST_NEAR = 4  # instants for a line
 
 FOLLOWED = {
-    "x": RECORDED["x"],
-    "instant_time": Variable("s", "time at which the patch is frozen", "t"),
-    "patch_length": Variable("m", "length of the creep patch", "L(t)"),
-    "growth_rate": Variable("1/s", "fastest growth of the frozen patch", "max Re Lambda"),
     "growth_frequency": Variable("1/s", "angular frequency of that mode", "|Im Lambda|"),
-    "oscillation_growth": Variable("1/s", "growth of the patch's oscillating mode", "Re Lambda"),
-    "oscillation_frequency": Variable("1/s", "angular frequency of that mode", "Im Lambda"),
+    **declared(
+        """
+        x
+        instant_time | s | time at which the patch is frozen | t
+        patch_length | m | length of the creep patch | L(t)
+        growth_rate | 1/s | fastest growth of the frozen patch | max Re Lambda
+        oscillation_growth | 1/s | growth of the patch's oscillating mode | Re Lambda
+        oscillation_frequency | 1/s | angular frequency of that mode | Im Lambda
+        mode_real | 1 | slip in that mode where growth begins, real part
+        mode_imaginary | 1 | slip in that mode where growth begins, imaginary part
+        """,
+        RECORDED,
+    ),
     **FITTED,
-    "mode_real": Variable("1", "slip in that mode where growth begins, real part"),
-    "mode_imaginary": Variable("1", "slip in that mode where growth begins, imaginary part"),
 }
 
 

@@ -54,25 +54,21 @@ ALWAYS = declared("""
 """)
 """Those of :data:`MEASURES` that a run without an event has as well."""
 
-MEASURES = {
-    **ALWAYS,
-    "acceleration_time": Variable(
-        "s", "time in which the fastest slip rate grows from 10 to 100 V"
-    ),
-    "growth_time": Variable("s", "time in which the patch would grow by its length at the onset"),
-    "front_speed": Variable("m/s", "mean speed of the patch's edge before the onset"),
-    "drop_time": Variable("s", "time from the steepest part of the force's drop to its end"),
-    "onset_rate": Variable("m/s", "largest slip rate at the onset"),
-    "patch_rate": Variable("m/s", "median slip rate in the developed patch, and over instants"),
-    "patch_rate_low": Variable("m/s", "smallest of the medians over the patch"),
-    "patch_rate_high": Variable("m/s", "largest of the medians over the patch"),
-    "regular_share": Variable("1", "part of the patch at the onset that slips faster than 10 v0"),
-    "shortest_step": Variable("s", "shortest time step after the onset"),
-    "state_rate_share_patch": Variable(
-        "1", "part of the patch and of time to the onset where v does for w in dphi/dt"
-    ),
-    **BY_DEFINITION,
-}
+_OF_EVENT = declared("""
+    acceleration_time | s | time in which the fastest slip rate grows from 10 to 100 V
+    growth_time | s | time in which the patch would grow by its length at the onset
+    front_speed | m/s | mean speed of the patch's edge before the onset
+    drop_time | s | time from the steepest part of the force's drop to its end
+    onset_rate | m/s | largest slip rate at the onset
+    patch_rate | m/s | median slip rate in the developed patch, and over instants
+    patch_rate_low | m/s | smallest of the medians over the patch
+    patch_rate_high | m/s | largest of the medians over the patch
+    regular_share | 1 | part of the patch at the onset that slips faster than 10 v0
+    shortest_step | s | shortest time step after the onset
+    state_rate_share_patch | 1 | part of patch and time to the onset where v does for w in dphi/dt
+""")
+
+MEASURES = ALWAYS | _OF_EVENT | BY_DEFINITION
 """Results of :func:`measure`; over realisations each is averaged."""
 
 
