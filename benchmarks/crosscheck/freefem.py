@@ -16,7 +16,8 @@ from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.model.settings import IN_TIME
 from nucleation.run.run import Run
 from nucleation.simulation.event import FAST
-from nucleation.simulation.perturbed import Series, Sheet
+from nucleation.simulation.perturbed import BLOCK, SERIES, Series, Sheet, normals
+from nucleation.types import Array
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # Debian's directory; by default the program searches another one
@@ -103,6 +104,15 @@ def arguments(run: Run) -> dict[str, str]:
     return {name: str(value) for name, value in values.items()}
 
 
+def coefficients_of(made: Series | Sheet, seed: int, until: float) -> Array:
+    """The coefficients a_i of the values up to a time (s), a row for each and a column a place."""
+    number = int(until / made.spacing + made.phase) + 4
+    if isinstance(made, Sheet):
+        return np.array([made.row(i) for i in range(number)])
+    blocks = [normals(seed, SERIES, row, BLOCK) for row in range(number // BLOCK + 1)]
+    return np.concatenate(blocks)[:number, None]
+
+
 def realisation(run: Run) -> str:
     """The declared perturbation on its own grid, up to the end of a run, for the script to read.
 
@@ -116,7 +126,8 @@ def realisation(run: Run) -> str:
         x = np.linspace(0.0, run.block.length, run.block.n_x + 1)
         series = Sheet(declared.seed, time, declared.correlation_length, x)
     # the last step ends after the end of the run
-    coefficients = series.coefficients(run.stepping.end_time + run.memory_time)
+    until = run.stepping.end_time + run.memory_time
+    coefficients = coefficients_of(series, declared.seed, until)
     rows = [(series.spacing, series.phase, *coefficients.shape), *coefficients.tolist()]
     return "\n".join(" ".join(map(repr, row)) for row in rows) + "\n"
 

@@ -126,12 +126,6 @@ class Series:
         ]
         return float(np.array(integrals) @ used + before)
 
-    def coefficients(self, until: float) -> Array:
-        """Coefficients ``a_i`` of the values up to a time (s), shape (i, 1)."""
-        self._place(until)
-        first = int(until / self.spacing + self.phase)
-        return self._coefficients[: first + 4, None]
-
     def _place(self, time: float) -> tuple[float, Array, float]:
         """Place in the spacing at a time (s), its four coefficients, and the sum before them."""
         position = time / self.spacing + self.phase
@@ -186,19 +180,14 @@ class Sheet:
             )[0]
         )
         rows = _along_x(seed, correlation_length, x, SHEET)
-        self._row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
+        self.row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
 
     def values(self, time: float) -> Array:
         """``xi`` at a time (s) at all positions, shape (n,)."""
         position = time / self.spacing + self.phase
         first = int(position)
-        rows = np.array([self._row(first + i) for i in range(4)])
+        rows = np.array([self.row(first + i) for i in range(4)])
         return spline(position - first) @ rows / MEAN_SQUARE**0.5
-
-    def coefficients(self, until: float) -> Array:
-        """Coefficients ``a_i(x)`` of the values up to a time (s), shape (i, n)."""
-        first = int(until / self.spacing + self.phase)
-        return np.array([self._row(i) for i in range(first + 4)])
 
 
 def perturbed(run: Run, body: Body, drive: Drive) -> Drive:
