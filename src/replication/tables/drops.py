@@ -136,7 +136,7 @@ def drop_files(
     rows = [
         row | laws[row["fault"]].row(row)
         for measured in (*drops, *quiet)
-        for row in rows_of(measured, names=(*MEASURED, "fault"))
+        for row in rows_of(measured)
         if row["fault"] in laws
     ]
     listed = table(rows, COLUMNS)
@@ -252,11 +252,7 @@ def weakening_files(drops: Iterable[xr.Dataset], runs: Iterable[Row]) -> dict[st
     rows = []
     for lengths in drops:
         complete = lengths.assign(zeta_over_a=lengths["zeta"] / lengths["a"])
-        found = rows_of(
-            complete,
-            names=WEAKENING.keys() - EXPECTED.keys(),
-        )
-        rows += [row | by_fault[row["fault"]] for row in found]
+        rows += [row | by_fault[row["fault"]] for row in rows_of(complete)]
     listed = table(rows, WEAKENING)
     return {".nc": listed.merge(weakening_curves(runs)), ".csv": to_csv(listed)}
 

@@ -43,10 +43,9 @@ NEARLY = 0.98
 """Part of the searched half of the block at which the patch counts as having filled it."""
 
 
-def rows_of(table: xr.Dataset, names: Iterable[str] | None = None) -> list[Row]:
+def rows_of(table: xr.Dataset) -> list[Row]:
     """Rows of a table as dictionaries of plain Python values."""
-    wanted = table.data_vars if names is None else names
-    columns = {str(name): table[name].values.tolist() for name in wanted}
+    columns = {str(name): column.values.tolist() for name, column in table.data_vars.items()}
     rows = zip(*columns.values(), strict=True)
     return [
         dict(
