@@ -12,7 +12,6 @@ from ..fault import Fault
 from ..lengths.answer import TITLES, Answer
 from ..lengths.draws import QUANTILES, Draws, errors_of_quantiles, quantiles, with_never
 from ..theory.status import BEYOND, STABLE
-from ..theory.values import arrays_of
 from . import DONE
 from . import STABLE as CODE_OF_STABLE
 from .given import system_of_fault
@@ -36,7 +35,7 @@ def print_quantiles(
         key: Answer(*(np.broadcast_to(x, (size,)) for x in answer))
         for key, answer in fault.lengths(**options).items()
     }
-    medians = {name: float(np.median(x)) for name, x in arrays_of(fault).items()}
+    medians = {name: float(np.median(x)) for name, x in dict(fault).items() if np.ndim(x)}
     system = system_of_fault(fault.replace(**medians), names, paper)
     statuses = {key: answer.status for key, answer in answers.items()}
     counts = {

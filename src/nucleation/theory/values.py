@@ -193,13 +193,6 @@ def numbers_of(fault: FaultLike) -> dict[str, Any]:
     return {name: value for name, value in found.items() if value is not None}
 
 
-def arrays_of(fault: FaultLike) -> dict[str, Array]:
-    """The arrays without named dimensions among the parameters that follow from no others."""
-    names = fault.keys()
-    arrays = {name: getattr(fault, name) for name in names}
-    return {name: value for name, value in arrays.items() if isinstance(value, np.ndarray)}
-
-
 def named(
     values: Any,
     name: str,
