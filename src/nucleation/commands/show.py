@@ -14,7 +14,6 @@ from ..extraction.extraction import extract, parameters_of
 from ..installed import require
 from ..model.quantities import ParameterError
 from ..theory.critical import critical_length_of
-from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
 from .given import json_option
@@ -91,7 +90,7 @@ def _lines(dataset: xr.Dataset, kind: str) -> list[str]:
     sizes = dataset.sizes
     run = parameters_of(dataset)
     try:
-        theory = critical_length_of(single_system(run.fault))
+        theory = critical_length_of(run.fault)
         theory_text = f"{theory:.4g} m, of the friction law expanded at V"
     except NoLength as error:
         theory = math.nan

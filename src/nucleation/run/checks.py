@@ -76,7 +76,7 @@ def _of_body(run: Run) -> Iterator[str]:
         )
 
 
-def require_uniform_edge(run: Run, computation: str) -> None:
+def require_uniform_edge(run: Run) -> None:
     """Raise a ParameterError unless the fault is uniform and pushed at its edge."""
     for key, value, needed in (
         ("loading", run.fault.loading, "edge"),
@@ -84,7 +84,7 @@ def require_uniform_edge(run: Run, computation: str) -> None:
     ):
         if value != needed:
             raise ParameterError(
-                f"{key} = {value} is not allowed with {computation}, which applies only to a "
+                f"{key} = {value} is not allowed with the law of the drop, which applies only to a "
                 f"uniform fault that is pushed at its edge: it must be {needed}; measure = "
                 "stability gives L_s of other faults, docs/loadings.md"
             )

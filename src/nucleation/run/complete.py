@@ -13,7 +13,7 @@ from ..model.friction.constants import AGE, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
 from ..model.settings import Start
-from ..theory.critical import unstable_modes
+from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from ..theory.stiffness import SATURATION
@@ -100,7 +100,7 @@ def complete(
         fault = fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
     found = dict(values)
     try:
-        critical = float(unstable_modes(single_system(fault)).length[0])
+        critical = critical_length_of(fault)
     except NoLength as error:
         if "block_length" not in found:
             raise ParameterError(

@@ -11,7 +11,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ..theory.critical import critical_length_of
-from ..theory.evaluation import single_system
 from .checks import require_uniform_edge
 from .names import OF_GROUPS
 from .run import Run
@@ -57,12 +56,12 @@ def drop_of_run(run: Run) -> "ExpectedDrop":
     """The expected drop of a uniform run that is pushed at its edge; raises NoLength."""
     from ..drop.expected_drop import expected_drop
 
-    require_uniform_edge(run, "the law of the drop")
+    require_uniform_edge(run)
     fault = run.fault
     return expected_drop(
         run.patches,
         run.perturbation,
-        critical_length_of(single_system(fault)),
+        critical_length_of(fault),
         fault.initial_state,
         run.start.initial_shear_stress / fault.normal_stress,
         (run.block.length, fault.height),

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
-from .evaluation import evaluate
+from .evaluation import evaluate, single_system
 from .roots import roots
 from .spectrum import Systems, marginal_frequencies, marginal_stiffness, stability_margin
 from .status import STABLE, NoLength
@@ -72,9 +72,9 @@ def unstable_modes(systems: Systems) -> CriticalMode:
     return found
 
 
-def critical_length_of(one: Systems) -> float:
-    """L_c (m) of a single system; a NoLength has the reason where there is none."""
-    return float(unstable_modes(one).length[0])
+def critical_length_of(fault: FaultLike) -> float:
+    """L_c (m) of a single fault; a NoLength has the reason where there is none."""
+    return float(unstable_modes(single_system(fault)).length[0])
 
 
 def stability_reason(one: Systems) -> str:
