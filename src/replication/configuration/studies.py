@@ -13,9 +13,8 @@ from nucleation.model.quantities import ParameterError
 from nucleation.run.complete import late_end, rounded
 from nucleation.run.names import parameters
 from nucleation.run.run import Run
-from nucleation.theory.critical import unstable_modes
+from nucleation.theory.critical import stability_reason
 from nucleation.theory.evaluation import single_system
-from nucleation.theory.status import NoLength
 
 from ..tables.curves import main_text
 from .runs import StudyRun, identifier, varied
@@ -142,14 +141,9 @@ def _completed(
     follows: dict[str, Any] = {}
     if "block_length" not in values:
         if math.isnan(critical):
-            try:
-                unstable_modes(single_system(theory))
-                reason = "the theory has no critical length"
-            except NoLength as error:
-                reason = str(error)
             raise ParameterError(
-                f"{reason}; a control run, in which nothing is to nucleate, needs its "
-                "block_length (m)"
+                f"{stability_reason(single_system(theory))}; a control run, in which nothing is to "
+                "nucleate, needs its block_length (m)"
             )
         over_critical = settings.studies[study].length_over_critical
         follows["block_length"] = rounded(over_critical * critical)
