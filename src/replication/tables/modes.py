@@ -113,14 +113,14 @@ def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
     return run.replaced(**changes)
 
 
-def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexArray:
+def measured_rates(run: Run, wavenumber: float) -> ComplexArray:
     """Both growth rates (1/s) of a wavenumber (1/m), the faster growing one first.
 
     Equidistant samples of a sum of two exponentials obey ``A[n+2] = p A[n+1] + q A[n]`` (Prony); p
     and q follow by least squares and the rates from the roots of ``z^2 = p z + q``.
     """
-    dynamics = sliding_period(one_wavelength(run, wavenumber, nodes))
-    phase = 2.0 * np.pi / nodes * np.arange(nodes)
+    dynamics = sliding_period(one_wavelength(run, wavenumber))
+    phase = 2.0 * np.pi / NODES * np.arange(NODES)
     state = sliding_state(dynamics, SEED * np.cos(phase))
     rung = dynamics.scheme.steady_rung(STEP * run.memory_time)
     amplitudes = []
@@ -128,7 +128,7 @@ def measured_rates(run: Run, wavenumber: float, nodes: int = NODES) -> ComplexAr
         state, report = dynamics.advance(state, rung)
         log_rate = np.log(report.interface.slip_rate[1:])
         first_mode = np.fft.rfft(log_rate)[1]
-        amplitudes.append(np.conj(first_mode) * 2.0 / nodes)
+        amplitudes.append(np.conj(first_mode) * 2.0 / NODES)
     samples = np.array(amplitudes[SKIPPED::INTERVAL])
     past = np.stack(
         [samples[1:-1], samples[:-2]],
@@ -259,26 +259,8 @@ def _files(modes: xr.Dataset, columns: list[str]) -> dict[str, Any]:
     }
 
 
-def dispersion(run: Run, heights: Iterable[float], ratios: Iterable[float] = MODES) -> xr.Dataset:
-    """Rates of modes on one layer of each height (m) on a rigid base."""
-    rows = []
-    for height in heights:
-        own = run.replaced(height=height)
-        critical = _critical(own)
-        rows += [
-            {"height": height}
-            | mode_row(
-                own,
-                ratio,
-                critical,
-            )
-            for ratio in ratios
-        ]
-    return _table(rows)
-
-
 def dispersion_files(base: Run) -> dict[str, Any]:
-    """The same for the configuration's fault; its heights have the paper's ratios to the L_c."""
+    """Rates of modes on layers of some heights on a rigid base, with the paper's ratios to L_c."""
     own, papers = (
         on_rigid_base(
             one.fault,
@@ -286,11 +268,15 @@ def dispersion_files(base: Run) -> dict[str, Any]:
         ).critical_length()
         for one in (base, PAPER_RUN)
     )
-    heights = [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
-    found = dispersion(base, heights)
+    rows = []
+    for usual in HEIGHTS:
+        height = float(f"{usual * float(own / papers):.3g}")
+        run = base.replaced(height=height)
+        critical = _critical(run)
+        rows += [{"height": height} | mode_row(run, ratio, critical) for ratio in MODES]
     order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", "measured_growth"]
     order += ["measured_frequency", "theory_growth", "theory_frequency", "disagreement"]
-    return _files(found, order)
+    return _files(_table(rows), order)
 
 
 def pair_modes(
