@@ -68,7 +68,7 @@ def option(
 
     def value_of(text: str) -> Any:
         try:
-            return (parse if entry.worded else read)(key, text, entry)
+            return read(key, text, entry)
         except ParameterError as error:
             raise click.BadParameter(str(error)) from None
 

@@ -205,8 +205,7 @@ def expanding_length(
     D; within the zone the stress decreases by ``sigma0 [(b - a) w + b log W]``. For ``W = 1``, and
     for any W in the limit of infinite slip rate, the length is that of ``rubin_ampuero_crack``.
     """
-    (unbounded,) = (length for length in LENGTHS if length.key == "rubin_ampuero_crack")
-    asymptote = values_of(fault, lengths=[unbounded])["rubin_ampuero_crack"]
+    asymptote = values_of(fault)["rubin_ampuero_crack"]
     acceleration = np.log(slip_rate / far_slip_rate)
     weakening = fault.zeta / nan0(fault.b)
     strength_drop = acceleration + np.log(far_state_ratio)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..quantities import ParameterError, declared
-from . import Friction
+from . import USUAL_LAW, Friction
 
 CONSTANTS = ("friction", "a", "zeta_over_a", "zeta", "b")
 """Constants of the logarithmic law at the imposed velocity, by their names in studies."""
@@ -22,10 +22,9 @@ ZETA_OVER_A = declared(
 )
 
 LAW = "dieterich_ruina"
-PAPERS_LAW = "product"
 OVER_VELOCITY = {
     LAW: {"regularisation_slip_rate": 1e-4, "reference_slip_rate": 1.0},
-    PAPERS_LAW: {"regularisation_slip_rate": 1e-4, "slip_rate_scale": 1e-2},
+    USUAL_LAW: {"regularisation_slip_rate": 1e-4, "slip_rate_scale": 1e-2},
 }
 """Scales of each law, over V."""
 
@@ -111,7 +110,7 @@ def own_law(
 ) -> Friction:
     """The friction law of a fault of its own, with scales that follow from V (m/s) and D (m)."""
     scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY.get(law, {}).items()}
-    if law == PAPERS_LAW:
+    if law == USUAL_LAW:
         scales["state_scale"] = STATE_SCALE * slip_distance / velocity
     return Friction(
         law=law,

@@ -59,7 +59,6 @@ class Advance:
         lengths: ArrayLike,
         initial_state: float,
         initial_stress: float = 0.0,
-        number: int = MORE_MODES,
     ) -> None:
         if patches.loading != "edge":
             raise NoLength(
@@ -71,17 +70,17 @@ class Advance:
         self.distance = self.law.slip_distance
         self.initial_state = initial_state
         self.initial_stress = initial_stress
-        self.modes = mirror_modes(number)
+        self.modes = mirror_modes(MORE_MODES)
         self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
         self.length = length = np.atleast_1d(np.asarray(lengths, dtype=float))
         bodies = [
-            [patches.response(one, number) for one in length * np.exp(step)]
+            [patches.response(one, MORE_MODES) for one in length * np.exp(step)]
             for step in (-STEP, 0.0, STEP)
         ]
         self.bodies = bodies[1]
         self.responses = list(map(joined, bodies))
         steady_friction = self.law.expansion(self.velocity).f0
-        self.friction = np.full((length.size, number), steady_friction)
+        self.friction = np.full((length.size, MORE_MODES), steady_friction)
         self.log_states = np.zeros_like(self.friction)
         self.rates = self.update_slip()
         for _ in range(ROUNDS):
