@@ -75,14 +75,14 @@ def system(upper, lower, interface):
 
 def transfer_functions(k, upper, lower):
     """G1 and G2, shape of k."""
-    k = spectrum.as_wavenumber(k)
+    k = np.asarray(k, dtype=float)
     found = pair(upper, lower).transfer_functions(np.ravel(k))
     return tuple(value.reshape(k.shape)[()] for value in found)
 
 
 def growth_rates(k, upper, lower, interface):
     """Both roots, shape (2,) and that of k."""
-    k = spectrum.as_wavenumber(k)
+    k = np.asarray(k, dtype=float)
     found = system(upper, lower, interface).growth_rates(np.ravel(k))
     return found.reshape(2, *k.shape)
 

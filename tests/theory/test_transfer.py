@@ -4,7 +4,7 @@ import warnings
 import numpy as np
 import pytest
 from layer_problem import reference_stiffness, reference_transfer
-from two_bodies import RIGID, Body, transfer_functions
+from two_bodies import RIGID, Body, Interface, fault_of, transfer_functions
 
 from nucleation.model.material import Material
 from nucleation.theory.stiffness import FAR_SIDES
@@ -86,4 +86,4 @@ def test_errors():
         transfer_functions(1.0, RIGID, RIGID)
     for k in (0.0, np.nan, np.inf):
         with pytest.raises(ValueError, match="wavenumber"):
-            transfer_functions([1.0, k], Body(), RIGID)
+            fault_of(SOFT, Interface()).transfer_functions([1.0, k])

@@ -20,7 +20,7 @@ from ..model.settings import ALONG_X, Perturbation
 from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
 from ..theory.evaluation import bodies_differ, completed, evaluate, require_broadcast
-from ..theory.spectrum import Systems, as_wavenumber
+from ..theory.spectrum import Systems
 from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_of
 from .flat import flat, keywords, read_parameters
 
@@ -399,10 +399,7 @@ class Fault:
             from ..drop.answer import answers_of_drop
 
             if correlation_length is None and perturbation in ALONG_X:
-                modulus = self.single("shear_modulus") / (1.0 - self.single("poisson_ratio"))
-                fall = self.single("b") * self.single("normal_stress")
-                distance = self.single("slip_distance")
-                correlation_length = roughness_length(modulus, distance, fall)
+                correlation_length = roughness_length(self, self.single("b"))
             scale = 1.0 if correlation_length is None else correlation_length
             declared = Perturbation(
                 perturbation,
@@ -466,16 +463,15 @@ class Fault:
         function: Callable[..., Any],
         dtype: type = float,
     ) -> Any:
-        """Two rows of a function of Systems and wavenumbers."""
+        """Two rows of a function of Systems and wavenumbers, which must not be zero."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})
-
-        def at(systems: Systems, k: Any) -> Any:
-            return function(systems, as_wavenumber(k))
-
+        numbers = np.asarray(k, dtype=float)
+        if not np.all(np.isfinite(numbers) & (numbers != 0.0)):
+            raise ValueError("the wavenumber k (1/m) must be finite and different from zero")
         return evaluate(
             self,
-            at,
+            function,
             k,
             rows=2,
             dtype=dtype,

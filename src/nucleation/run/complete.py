@@ -114,9 +114,7 @@ def complete(
     found.setdefault("block_length", rounded(USUAL_LENGTH * critical))
     b = fault.a + fault.zeta
     if "correlation_length" not in found and b > 0.0:
-        modulus = fault.shear_modulus / (1.0 - fault.poisson_ratio)
-        strength = b * fault.normal_stress
-        found["correlation_length"] = roughness_length(modulus, law.slip_distance, strength)
+        found["correlation_length"] = roughness_length(fault, b)
     of_start = {name: found[name] for name in OF_GROUPS["start"] if name in found}
     if "end_time" not in found and not math.isnan(critical):
         found |= late_end(fault, Start(**of_start), critical) | found

@@ -21,7 +21,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..types import Array, ComplexArray
 from .pair import LayerPair
@@ -84,14 +84,6 @@ class Systems(NamedTuple):
             roots[::-1],
         )
         return np.asarray(ordered * self.rate, dtype=complex)
-
-
-def as_wavenumber(wavenumber: ArrayLike) -> Array:
-    """The wavenumber as a float array; raises ValueError unless it is finite and not zero."""
-    k = np.asarray(wavenumber, dtype=float)
-    if not np.all(np.isfinite(k) & (k != 0.0)):
-        raise ValueError("the wavenumber k (1/m) must be finite and different from zero")
-    return k
 
 
 def marginal_stiffness(

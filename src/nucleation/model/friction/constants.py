@@ -131,10 +131,8 @@ def law_of(
     return full_law(law.changed({"slip_distance": slip_distance}), velocity, *constants)
 
 
-def roughness_length(
-    modulus: float,
-    slip_distance: float,
-    strength: float,
-) -> float:
-    """Correlation length (m) of roughness: a fifth of L_b, by mu* (Pa), D (m), b sigma0 (Pa)."""
-    return _ROUGHNESS * modulus * slip_distance / strength
+def roughness_length(fault: Any, b: float) -> float:
+    """Correlation length (m) of roughness along a single fault: a fifth of L_b."""
+    modulus = fault.single("shear_modulus") / (1.0 - fault.single("poisson_ratio"))
+    strength = b * fault.single("normal_stress")
+    return _ROUGHNESS * modulus * fault.single("slip_distance") / strength
