@@ -12,7 +12,11 @@ from nucleation.datasets.variables import annotate, declared
 from nucleation.fault import Fault
 from nucleation.model.friction import Friction
 from nucleation.run.run import Run
-from nucleation.theory.closed_forms import bimaterial_length_ratio, thin_limit_length
+from nucleation.theory.closed_forms import (
+    bimaterial_contrast,
+    bimaterial_length_ratio,
+    thin_limit_length,
+)
 
 from .rows import SHARED
 
@@ -74,6 +78,14 @@ def on_rigid_base(fault: Fault, height: Any) -> Fault:
     )
 
 
+def f_beta(run: Run) -> float:
+    """Friction coefficient times bimaterial contrast; zero on a rigid base."""
+    below = run.below
+    if below is None:
+        return 0.0
+    return run.fault.friction * bimaterial_contrast(run.upper.material, below.material)
+
+
 def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Dataset:
     """All curves of the linear theory, :data:`CURVES`, for the fault of a run.
 
@@ -83,14 +95,14 @@ def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Datas
     """
     import xarray as xr
 
-    f_beta, zeta_over_a, slip_rate, height = (
+    coupling, zeta_over_a, slip_rate, height = (
         np.array(curves[name]) for name in ("f_beta", "zeta_over_a", "slip_rates", "heights")
     )
     law, velocity = base.law, base.fault.velocity
     state = law.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     logarithmic = logarithmic_friction(law, slip_rate, state, velocity)
     expansion = law.expansion(velocity)
-    ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
+    ratio = bimaterial_length_ratio(coupling[None, :], zeta_over_a[:, None])
     fault = main_text(base.fault)
     modes = on_rigid_base(fault, height).critical_mode()
     found = xr.Dataset().assign(
@@ -107,4 +119,4 @@ def theory_dataset(base: Run, curves: Mapping[str, Sequence[float]]) -> xr.Datas
         velocity=velocity,
     )
     found = found.assign_coords(height=height, zeta_over_a=zeta_over_a)
-    return annotate(found.assign_coords(f_beta=f_beta, slip_rate=slip_rate), CURVES)
+    return annotate(found.assign_coords(f_beta=coupling, slip_rate=slip_rate), CURVES)

@@ -27,12 +27,11 @@ from nucleation.simulation.interface import Interface
 from nucleation.simulation.start import layers_of
 from nucleation.simulation.step import Dynamics, State
 from nucleation.simulation.stepping import BDF
-from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from nucleation.types import Array, ComplexArray
 
-from .curves import CURVES, on_rigid_base
+from .curves import CURVES, f_beta, on_rigid_base
 from .rows import SHARED, Row
 
 NODES = 65  # per wavelength, odd
@@ -292,14 +291,12 @@ def pair_modes(
         for ratio in ratios:
             height = DEEP * 2.0 * np.pi / (ratio * critical)
             run = base.replaced(**{"height": height, "second_height": height} | pair)
-            fault, below = run.fault, run.below
-            assert below is not None
-            contrast = bimaterial_contrast(run.upper.material, below.material)
+            fault = run.fault
             described: Row = {
                 "id": name,
-                "far_side": below.far_side,
+                "far_side": fault.second_far_side,
                 **{column: getattr(fault, column) for column in OF_FAULT},
-                "f_beta": fault.friction * contrast,
+                "f_beta": f_beta(run),
             }
             rows.append(described | mode_row(run, ratio, critical))
     return _table(rows)

@@ -15,9 +15,10 @@ from nucleation.extraction.definitions import FITTED, ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.extraction.measures import MEASURED
 from nucleation.run.run import Run
-from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
+from nucleation.theory.closed_forms import bimaterial_length_ratio
 
 from . import lengths
+from .curves import f_beta
 from .lengths import COLUMNS as LENGTHS
 from .lengths import description
 from .rows import SHARED, Row
@@ -212,16 +213,14 @@ def gather_pairs(
         strict=True,
     ):
         parameters = Run.from_dict(run["parameters"])
-        own, below = parameters.fault, parameters.below
-        assert below is not None  # by the role
-        f_beta = own.friction * bimaterial_contrast(parameters.upper.material, below.material)
+        own, coupling = parameters.fault, f_beta(parameters)
         row = description(run) | {
             "friction": own.friction,
-            "f_beta": f_beta,
+            "f_beta": coupling,
             "a": own.a,
             "zeta": own.zeta,
-            "second_n_y": below.n_y,
-            "half_space_ratio": float(bimaterial_length_ratio(f_beta, own.zeta / own.a)),
+            "second_n_y": parameters.block.second_n_y or parameters.block.n_y,
+            "half_space_ratio": float(bimaterial_length_ratio(coupling, own.zeta / own.a)),
         }
         key = row["study"], row["ensemble"]
         if key not in fitted:

@@ -12,11 +12,11 @@ from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import FITTED
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
-from nucleation.theory.closed_forms import bimaterial_contrast
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.status import NoLength
 
+from .curves import f_beta
 from .lengths import COLUMNS as LENGTHS
 from .lengths import description
 from .rows import SHARED, Row
@@ -59,17 +59,14 @@ def theory_table(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> xr.Datase
 def _row(run: Row) -> Row:
     """The columns of one fault by theory, from its first run."""
     parameters = Run.from_dict(run["parameters"])
-    own, below, patches = parameters.fault, parameters.below, parameters.patches
+    own, patches = parameters.fault, parameters.patches
     critical = run["critical_length"]
     row = description(run) | {
         "zeta_over_a": own.zeta / own.a,
-        "f_beta": 0.0,
+        "f_beta": f_beta(parameters),
         "creep_length": math.nan,
         "front_length": math.nan,
     }
-    if below is not None:
-        contrast = bimaterial_contrast(parameters.upper.material, below.material)
-        row["f_beta"] = own.friction * contrast
     stress = parameters.start.initial_shear_stress / own.normal_stress
     with contextlib.suppress(NoLength):
         row["creep_length"] = stability_point(
