@@ -19,7 +19,7 @@ from .body import Body
 from .grid import Components, Field, Motion
 from .operator import Forces, Operator
 
-SMALL = 1e-5  # inertia in units of elasticity
+SMALL = 1e-5  # s times a crossing squared, to which forces are linear in s
 
 
 class CondensedBody:
@@ -39,7 +39,7 @@ class CondensedBody:
         self._held = self._forces(self._statics)
         s = SMALL / (body.crossing_time or 1.0) ** 2  # without density any will do
         moving = self._forces(operator(s))
-        # of the loads' acceleration (N/m per 1/s^2)
+        # of accelerated factors (N/m per 1/s^2)
         self._inertia = [(one - other) / s for one, other in zip(moving, self._held, strict=True)]
         fields = [self._field(self._nothing, one) for one in np.eye(len(loads))]
         works = [[body.work(load, field) for field in fields] for load in loads]
