@@ -22,6 +22,16 @@ from ..types import Array
 RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
 
+MEASURED = declared("""
+    onset_time | s | onset of the event | t
+    onset_time_low | s | earliest onset over the definitions of the drop | t
+    onset_time_high | s | latest onset over the definitions of the drop | t
+    length | m | length at the drop | L
+    length_low | m | smallest length over the definitions | L
+    length_high | m | largest length over the definitions | L
+""")
+"""Results of a run (s, m): onset and length, each with the ends of its error bar."""
+
 FITTED = declared("""
     stability_length | m | patch length where growth begins | L_s
     stability_length_low | m | L_s less the scatter as the front hops | L_s

@@ -17,17 +17,7 @@ from ..datasets import DatasetError
 from ..run.run import Run
 from ..simulation.event import WINDOW, Outcome, long_after, patch_is_fast, patch_lengths
 from ..types import Array
-from .definitions import RUPTURE, ExtractionSettings, Onset, find_onset
-
-READ = (
-    "onset_time",
-    "onset_time_low",
-    "onset_time_high",
-    "length",
-    "length_low",
-    "length_high",
-)
-"""What :func:`extract` returns (s, m), each with the ends of its error bar."""
+from .definitions import MEASURED, RUPTURE, ExtractionSettings, Onset, find_onset
 
 
 def parameters_of(dataset: xr.Dataset) -> Run:
@@ -166,7 +156,7 @@ def extract(
     Returns
     -------
     dict
-        :data:`READ` by name (s, m); all NaN if the run has no event.
+        :data:`.definitions.MEASURED` by name (s, m); all NaN if the run has no event.
 
     Examples
     --------
@@ -191,7 +181,7 @@ def extracted(record: Record) -> dict[str, float]:
                 UserWarning,
                 stacklevel=3,
             )
-        return dict.fromkeys(READ, float("nan"))
+        return dict.fromkeys(MEASURED, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
     values = (
@@ -202,4 +192,4 @@ def extracted(record: Record) -> dict[str, float]:
         edges.min(),
         edges.max(),
     )
-    return dict(zip(READ, map(float, values), strict=True))
+    return dict(zip(MEASURED, map(float, values), strict=True))

@@ -24,16 +24,6 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
-MEASURED = declared("""
-    onset_time | s | onset of the event | t
-    onset_time_low | s | earliest onset over the definitions of the drop | t
-    onset_time_high | s | latest onset over the definitions of the drop | t
-    length | m | length at the drop | L
-    length_low | m | smallest length over the definitions | L
-    length_high | m | largest length over the definitions | L
-""")
-"""Results of :func:`.extraction.extract`."""
-
 EDGES = ("usual", "high", "low")
 INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {

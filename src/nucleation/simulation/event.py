@@ -150,13 +150,7 @@ def slipping_edge(
     been. Slip rates (m/s) have the shape (..., nodes); the position is zero where nothing slips.
     """
     rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)  # in double precision
-    near = int(
-        np.searchsorted(
-            x,
-            NEAR * x[-1],
-            side="right",
-        )
-    )
+    near = np.count_nonzero(x <= NEAR * x[-1])
     faster = rate[..., :near] > threshold
     from_far = faster[..., ::-1]
     inside = near - 1 - from_far.argmax(axis=-1)

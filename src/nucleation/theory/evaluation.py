@@ -26,7 +26,7 @@ _USUAL = np.errstate(
 """NumPy's own settings, whatever the caller's are."""
 
 _OF_BODY = ("shear_modulus", "poisson_ratio")
-_OF_SYSTEMS = (
+OF_SYSTEMS = (
     "shear_modulus",
     "poisson_ratio",
     "height",
@@ -40,6 +40,7 @@ _OF_SYSTEMS = (
     "velocity",
     "normal_stress",
 )
+"""Numbers of a fault that its linear theory depends on."""
 
 
 @_USUAL
@@ -55,7 +56,7 @@ def evaluate(
     The function returns `rows` arrays of length n; the result has the shape ``(rows,) + broadcast
     shape``, and the first dimension of a DataArray is ``row``.
     """
-    names = (*_OF_SYSTEMS, *ZONE) if fault.zone_thickness is not None else _OF_SYSTEMS
+    names = (*OF_SYSTEMS, *ZONE) if fault.zone_thickness is not None else OF_SYSTEMS
     parameters = {name: getattr(fault, name) for name in names}
     for name in names:
         if name.endswith("poisson_ratio"):

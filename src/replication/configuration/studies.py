@@ -14,27 +14,11 @@ from nucleation.run.complete import late_end, rounded
 from nucleation.run.names import parameters
 from nucleation.run.run import Run
 from nucleation.theory.critical import stability_reason
-from nucleation.theory.evaluation import single_system
+from nucleation.theory.evaluation import OF_SYSTEMS, single_system
 
 from ..tables.curves import main_text
 from .runs import StudyRun, identifier, varied
 from .settings import Settings
-
-_ARRAYS = (
-    "shear_modulus",
-    "poisson_ratio",
-    "height",
-    "second_shear_modulus",
-    "second_poisson_ratio",
-    "second_height",
-    "normal_stress",
-    "a",
-    "zeta",
-    "slip_distance",
-    "friction",
-    "velocity",
-)
-"""Parameters of a fault on which L_c depends and that differ among the runs of a study."""
 
 _CURVE_POINTS = 81
 """Values of the varied number in the theory's curve."""
@@ -92,7 +76,7 @@ def critical_lengths(faults: Sequence[Fault]) -> list[float]:
     lengths: dict[Fault, float] = {}
     for (plane, far_side, second_far_side), group in groups.items():
         arrays: dict[str, Any] = {
-            name: np.array([getattr(fault, name) for fault in group]) for name in _ARRAYS
+            name: np.array([getattr(fault, name) for fault in group]) for name in OF_SYSTEMS
         }
         words = {"plane": plane, "far_side": far_side, "second_far_side": second_far_side}
         found = Fault(**arrays, **words).critical_length()

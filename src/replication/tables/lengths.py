@@ -8,9 +8,9 @@ import pandas as pd
 import xarray as xr
 
 from nucleation.datasets.variables import declared, table
-from nucleation.extraction.definitions import ExtractionSettings
+from nucleation.extraction.definitions import MEASURED, ExtractionSettings
 from nucleation.extraction.extraction import Record, extracted
-from nucleation.extraction.measures import MEASURED, MEASURES, measure
+from nucleation.extraction.measures import MEASURES, measure
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.names import parameters as known_parameters
 from nucleation.run.run import Run

@@ -11,9 +11,8 @@ import pandas as pd
 import xarray as xr
 
 from nucleation.datasets.variables import DatasetError, annotate, declared, table, to_csv
-from nucleation.extraction.definitions import FITTED, ExtractionSettings
+from nucleation.extraction.definitions import FITTED, MEASURED, ExtractionSettings
 from nucleation.extraction.extraction import extract
-from nucleation.extraction.measures import MEASURED
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio
 
