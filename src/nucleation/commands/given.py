@@ -243,7 +243,10 @@ def system_of_fault(
     With `paper` the others are the paper's. Those of a second body like the first one's are left
     out. The parameter that is `sought` has no value yet.
     """
-    named = {*given, sought, *(CONSTANTS[2:] if {*CONSTANTS[2:]} & {*given} else ())}
+    named = {*given, sought}
+    weakenings = {*CONSTANTS[2:]}
+    if weakenings & named:
+        named |= weakenings
     texts: dict[bool, list[str]] = {True: [], False: []}
     for name, value in parameters_of(fault).items():
         first = name.removeprefix("second_")

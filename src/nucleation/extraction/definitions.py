@@ -120,7 +120,8 @@ def find_onset(
     if ruptures[start]:
         (slower,) = np.nonzero(~ruptures[:start])
         start = _last_maximum(force, int(slower[-1]))
-    loading_rate = (force[start] - force[0]) / max(time[start] - time[0], 1e-300)
+    elapsed = time[start] - time[0]
+    loading_rate = (force[start] - force[0]) / max(elapsed, 1e-300)
     during = slice(start, end + 1)
     falling = -np.diff(force[during]) / np.diff(time[during])
     steep = end

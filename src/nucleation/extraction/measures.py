@@ -113,7 +113,8 @@ def _patch(record: Record) -> dict[str, float]:
     rate = record.simulation["slip_rate"].values[until]
     state = record.simulation["state"].values[until]
     inside = x <= length[until, None]
-    medians = np.array([np.median(np.abs(rate[i, inside[i]])) for i in developed])
+    slip_speed = np.abs(rate)
+    medians = np.array([np.median(slip_speed[i, inside[i]]) for i in developed])
     first = developed[0]
     growth = length[at] - length[first]
     speed = growth / (times[at] - times[first])

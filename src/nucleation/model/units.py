@@ -81,7 +81,7 @@ def in_si(
     entry: Quantity,
 ) -> Any:
     """A value in SI units that the declaration allows, from a number, a word or a text."""
-    if isinstance(value, str) and not entry.worded:
+    if isinstance(value, str):
         return parse(key, value, entry)
     check(key, value, entry)
     return value

@@ -205,7 +205,8 @@ def _brackets(systems: Systems) -> Array:
 
     before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
     dips = (middle > 0.0) & (middle < before) & (middle < after)
-    owner, place = np.nonzero(dips & (np.arange(POINTS - 2) >= last[:, None]))
+    is_above = np.arange(POINTS - 2) >= last[:, None]
+    owner, place = np.nonzero(dips & is_above)
     above = k[owner, place + 2]
     lowest = _minima(
         systems.at(owner),

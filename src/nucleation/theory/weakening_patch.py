@@ -174,7 +174,8 @@ class WeakeningPatch(NamedTuple):
     ) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
         stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
-        scale = 1.0 + float(np.max(stiffest / np.minimum(self.inside.a, self.outside.a)))
+        least = np.minimum(self.inside.a, self.outside.a)
+        scale = 1.0 + float(np.max(stiffest / least))
         for systems in self:
             scale += float(np.max(np.abs(systems.zeta / systems.a)))
         frequency = np.geomspace(SLOWEST, FASTEST * scale, FREQUENCIES)

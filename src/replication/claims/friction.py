@@ -65,7 +65,8 @@ def _decades_of_agreement(evidence: Evidence) -> float:
 def _slopes(evidence: Evidence) -> list[Any]:
     """g'(1) of both evolution laws, by central differences."""
     step = 1e-5
-    return [(g(1 + step) - g(1 - step)) / (2.0 * step) for g in (aging.growth, slip.growth)]
+    laws = aging.growth, slip.growth
+    return [(g(1 + step) - g(1 - step)) / (2.0 * step) for g in laws]
 
 
 def _friction_perturbation(evidence: Evidence) -> Array:

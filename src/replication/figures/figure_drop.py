@@ -99,7 +99,8 @@ def _draw_law(
 ) -> None:
     """The law's median and range, and its closed form, up to the strongest of some runs."""
     same_fault = table["curve_fault"].values == own["fault"].values[0]
-    cases = np.flatnonzero(same_fault & (table["curve_kind"].values == own["kind"].values[0]))
+    same_kind = table["curve_kind"].values == own["kind"].values[0]
+    cases = np.flatnonzero(same_fault & same_kind)
     if cases.size:
         strongest = own["strength"].values[np.isfinite(own["law_length"].values)].max()
         known = np.flatnonzero(table["curve_strength"].values <= 1.01 * strongest)
