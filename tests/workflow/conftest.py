@@ -67,18 +67,23 @@ class Workflow:
         with tempfile.TemporaryDirectory() as place:
             return warm()(self.arguments(*arguments), self.checkout, Path(place, "printed"))
 
+    def printed(self, *arguments: str) -> str:
+        """What Snakemake prints, if it ends well."""
+        done = self(*arguments)
+        assert done.returncode == 0, done.stdout
+        return done.stdout
+
     def planned(self, *arguments: str) -> dict[str, int]:
         """The jobs that a run would start, by their rules, from a dry run; not the targets' own.
 
         Those whose results a store has are listed, and a run needs no job for them.
         """
-        done = self(*arguments, "--dry-run", "--quiet", "rules")
-        assert done.returncode == 0, done.stdout
-        if "Nothing to be done" in done.stdout:
+        printed = self.printed(*arguments, "--dry-run", "--quiet", "rules")
+        if "Nothing to be done" in printed:
             return {}
-        kept = re.search(r"as a store has their results: (.*)", done.stdout)
-        table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.stdout, re.S)
-        assert table, done.stdout
+        kept = re.search(r"as a store has their results: (.*)", printed)
+        table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", printed, re.S)
+        assert table, printed
         counts = Counter({rule: int(n) for rule, n in map(str.split, table[1].splitlines())})
         for rule, count in re.findall(r"(\w+) (\d+)", kept[1] if kept else ""):
             counts[rule] -= min(int(count), counts[rule])
@@ -123,9 +128,7 @@ def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
 
     def make(directory: Path) -> None:
         directory.mkdir()
-        done = Workflow(directory)()
-        assert done.returncode == 0, done.stdout
-        (directory / "output.txt").write_text(done.stdout)
+        Workflow(directory).printed()
 
     made, own = once(tmp_path_factory, "quick-workflow", make), tmp_path_factory.mktemp("quick")
     shutil.copytree(made, own, symlinks=True, dirs_exist_ok=True)

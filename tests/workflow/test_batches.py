@@ -85,8 +85,7 @@ def batched(workflow_type, tmp_path_factory):
     single = workflow_type(directory / "single").configured(configuration(1))
     assert workflow.planned("lengths")["simulate_and_measure"] == 2
     for one in (workflow, single):
-        done = one("lengths", "--cores", "2")
-        assert done.returncode == 0, done.stdout
+        one.printed("lengths", "--cores", "2")
     return workflow, single
 
 
@@ -128,13 +127,11 @@ def test_what_exists_is_not_made_again(batched):
     before = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
     heights = [0.02, 0.025, 0.03, 0.04]
     more = workflow.configured(configuration(3, heights), "more.yaml")
-    done = more("lengths", "--cores", "1")
-    assert done.returncode == 0, done.stdout
+    more.printed("lengths", "--cores", "1")
     after = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
     assert before.items() <= after.items() and len(after) == 4 and begun(workflow) == 1
     assert list(lengths_of(more)["height"]) == heights
-    checked = more("check", "--cores", "1", "--quiet", "all")
-    assert checked.returncode == 0, checked.stdout
+    more.printed("check", "--cores", "1", "--quiet", "all")
 
 
 def test_a_run_of_two_studies_is_made_once(workflow):
@@ -144,8 +141,7 @@ def test_a_run_of_two_studies_is_made_once(workflow):
     values["studies"]["alone"]["runs"] = [{"height": HEIGHTS[0]}]
     both = workflow.configured(values)
     assert both.planned("lengths").items() >= {"simulate": 1, "simulate_and_measure": 1}.items()
-    done = both("lengths", "--cores", "1")
-    assert done.returncode == 0, done.stdout
+    both.printed("lengths", "--cores", "1")
     assert begun(both) == len(datasets(both)) == 3
     assert both("results/figures/study_alone.png").returncode == 0
     checked = both("check")
@@ -173,8 +169,7 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
     process.communicate(timeout=120)
     kept = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
     assert process.returncode != 0 and 1 <= len(kept) < 3
-    done = slow("lengths", "--cores", "1")
-    assert done.returncode == 0, done.stdout
+    slow.printed("lengths", "--cores", "1")
     after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
     assert kept.items() <= after.items() and len(after) == 3
     _, single = batched
@@ -195,8 +190,7 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     printed, _ = process.communicate(timeout=120)
     left = list((slow.directory / "results/unfinished").glob("*.checkpoint.npz"))
     assert process.returncode != 0 and len(left) == 2 and not datasets(slow), printed
-    done = slow("lengths", *two)
-    assert done.returncode == 0, done.stdout
+    slow.printed("lengths", *two)
     (log,) = (slow.directory / "results/logs/batches").glob("*.log")
     assert log.read_text().count("the run resumes from results/unfinished") == 2
 
@@ -213,8 +207,7 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     quiet = workflow.configured(configuration(2, study_name=READ_ONE_BY_ONE))
     planned = quiet.planned("lengths")
     assert planned["simulate"] == 2
-    done = quiet("lengths", "--cores", "2")
-    assert done.returncode == 0, done.stdout
+    quiet.printed("lengths", "--cores", "2")
     made, (_, single) = datasets(quiet), batched
     assert_same_datasets(quiet, single)
     assert len(made) == begun(quiet) == 3 and quiet.planned("lengths") == {}
@@ -226,8 +219,7 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     shutil.rmtree(lost.parent)
     shutil.rmtree(quiet.directory / "results/logs")
     assert quiet.planned("lengths")["simulate"] == 1
-    done = quiet("lengths", "--cores", "1")
-    assert done.returncode == 0, done.stdout
+    quiet.printed("lengths", "--cores", "1")
     assert lost.is_file() and {path: path.read_bytes() for path in others} == kept
     assert begun(quiet) == 1
     other = workflow.configured(configuration(3, study_name=READ_ONE_BY_ONE), "other.yaml")

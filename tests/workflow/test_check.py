@@ -103,8 +103,7 @@ def test_damage_leftovers_and_strangers_are_found(linked):
     of_these = {"figure_3", "figure_s1", "figure_s2", "claims", "extract"}
     assert linked.planned() == {"simulate": 2, **dict.fromkeys(made | of_these, 1)}
     assert states(linked)[f"store/{run.name}"] == "foreign", "a dry run moves no entry"
-    done = linked()
-    assert done.returncode == 0, done.stdout
+    linked.printed()
     assert (results / "tables" / "table_s1.csv~").read_text() == "my own\n"
     left = {path.split("/")[0] for path in states(linked) if not path.startswith("store/damaged-")}
     assert left == {"simulations", "other.nc", "store", "unfinished", "tables"}
@@ -124,16 +123,14 @@ def of_table_s1(workflow, coefficient, results, target="table_s1"):
          "studies": {"mine": {"runs": [{"height": 0.1}]}}},
         f"{place}-{coefficient}.yaml",
     )  # fmt: skip
-    done = made(target)
-    assert done.returncode == 0, done.stdout
+    made.printed(target)
     return made
 
 
 def pruned(workflow, monkeypatch, remove):
     monkeypatch.setenv("PRUNE", "yes" if remove else "")
-    done = workflow("prune")
-    assert done.returncode == 0, done.stdout
-    return re.findall(r"^(results\S*)  (\S+)$", done.stdout, re.M)
+    printed = workflow.printed("prune")
+    return re.findall(r"^(results\S*)  (\S+)$", printed, re.M)
 
 
 def test_unused_results_alone_are_listed_and_removed_if_that_is_asked_for(workflow, monkeypatch):

@@ -73,5 +73,4 @@ def test_code_edited_after_planning_is_refused(plain):
     assert done.returncode != 0
     assert "have changed since this job was planned" in done.stdout
     assert not list((plain.directory / "new" / "figures").glob("figure_1.*"))
-    done = mine("figure_1")
-    assert done.returncode == 0, done.stdout
+    mine.printed("figure_1")

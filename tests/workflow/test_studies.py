@@ -19,8 +19,7 @@ def studies(tmp_path_factory, workflow_type):
     study = quick["studies"]["convergence_x"] | {"runs": [{"height": 0.1, "n_x": [40, 60]}]}
     made = workflow_type(tmp_path_factory.mktemp("studies"))
     made = made.configured({**quick, "studies": {"convergence_x": study}})
-    done = made(TARGET)
-    assert done.returncode == 0, done.stdout
+    made.printed(TARGET)
     return made
 
 

@@ -16,7 +16,7 @@ RULES = {"simulate", "extract", "lengths", "draw_study"}
 def built(workflow_type, tmp_path_factory):
     """A study of two runs with its lengths and its figure."""
     made = configured(workflow_type(tmp_path_factory.mktemp("switches")), RUN)
-    printed(made)
+    made.printed()
     return made
 
 
@@ -39,13 +39,6 @@ def fresh(built, tmp_path):
     return dataclasses.replace(built, directory=tmp_path)
 
 
-def printed(run, *arguments):
-    """What Snakemake prints, if it ends well."""
-    done = run(*arguments)
-    assert done.returncode == 0, done.stdout
-    return done.stdout
-
-
 def logs(run):
     """What the jobs have written."""
     paths = sorted((run.directory / "results" / "logs").glob("*/*.log"))
@@ -58,31 +51,32 @@ def node_names(graph):
 
 
 def test_summary_lists_every_file(built, fresh):
-    listed = [printed(built, "--summary"), printed(fresh, "-D")]
+    listed = [built.printed("--summary"), fresh.printed("-D")]
     assert all(f"results/{name}\t" in text for name in FILES for text in listed)
     assert "no update" in listed[0] and "update pending" not in listed[0]
 
 
 @pytest.mark.parametrize("switch", ["--dag", "--rulegraph", "--filegraph"])
 def test_graphs_have_every_rule(built, fresh, switch):
-    graph = printed(built if switch == "--dag" else fresh, switch)
+    run = built if switch == "--dag" else fresh
+    graph = run.printed(switch)
     found = set(re.findall(r"\w+", graph)) if switch == "--filegraph" else node_names(graph)
     assert found & RULES == RULES
 
 
 def test_a_forced_rule_computes_again_and_compares(copied):
     before = {path: path.read_bytes() for path in copied.directory.glob("results/simulations/*.nc")}
-    printed(copied, "lengths", "--forcerun", "simulate")
+    copied.printed("lengths", "--forcerun", "simulate")
     assert logs(copied).count(SAME) == 2
     assert all(path.read_bytes() == content for path, content in before.items())
 
 
 def test_a_forced_file_and_all_of_them_compute_again(copied):
     (file, _) = sorted(copied.directory.glob("results/simulations/*.nc"))
-    printed(copied, str(file.relative_to(copied.directory)), "-f")
+    copied.printed(str(file.relative_to(copied.directory)), "-f")
     assert logs(copied).count(SAME) == 1
     assert copied.planned("lengths", "-F") == {"simulate": 2, "extract": 1, "lengths": 1}
-    printed(copied, "lengths", "--forceall")
+    copied.printed("lengths", "--forceall")
     assert logs(copied).count(SAME) == 4, (
         "the file, then both simulations and the lengths of the study"
     )
@@ -91,7 +85,7 @@ def test_a_forced_file_and_all_of_them_compute_again(copied):
 def test_until_and_omit_from_know_the_rules(fresh):
     assert fresh.planned("--until", "simulate") == {"simulate": 2}
     assert fresh.planned("--omit-from", "draw_study").keys() == RULES - {"draw_study"}
-    printed(fresh, "--until", "simulate")
+    fresh.printed("--until", "simulate")
     results = fresh.directory / "results"
     assert len([*results.glob("simulations/*.nc")]) == 2 and not (results / "lengths.csv").exists()
 
@@ -99,13 +93,13 @@ def test_until_and_omit_from_know_the_rules(fresh):
 def test_threads_of_a_rule_can_be_set(fresh):
     """One core is the profile's; a cluster's profile leaves the rule's two."""
     for options, threads in (((), 1), (("--set-threads", "simulate=2"), 2)):
-        commands = printed(fresh, "lengths", "--dry-run", "-p", *options)
+        commands = fresh.printed("lengths", "--dry-run", "-p", *options)
         assert len(re.findall(rf"pipeline\.job \S+ simulate {threads} ", commands)) == 2
 
 
 def test_a_dry_run_changes_no_visible_file(copied):
     listed = {path: path.lstat().st_mtime_ns for path in copied.directory.glob("results/*/*")}
-    assert "Nothing to be done" in printed(copied, "--dry-run")
+    assert "Nothing to be done" in copied.printed("--dry-run")
     changed = configured(copied, {**RUN, "tolerance": 0.2})
     assert changed.planned("lengths")["simulate"] == 2
     for path, time in listed.items():
@@ -131,7 +125,7 @@ def test_lint_misses_no_log(built):
 def test_touch_makes_nothing_stale_or_current(copied, lost):
     if lost:
         shutil.rmtree(copied.directory / ".snakemake")
-    printed(copied, "--touch")
+    copied.printed("--touch")
     assert copied.planned() == {}
     changed = configured(copied, {**RUN, "tolerance": 0.2})
     changed("--touch")
@@ -139,10 +133,10 @@ def test_touch_makes_nothing_stale_or_current(copied, lost):
 
 
 def test_deleted_output_is_shown_again_without_a_job(copied):
-    printed(copied, "--delete-all-output")
+    copied.printed("--delete-all-output")
     results, before = copied.directory / "results", logs(copied)
     assert not any((results / name).exists() for name in FILES)
-    assert "Shown without a job" in printed(copied)
+    assert "Shown without a job" in copied.printed()
     assert all((results / name).is_file() for name in FILES) and logs(copied) == before
 
 
