@@ -56,6 +56,8 @@ def test_common_units_are_those_of_the_units_library():
     ("shear_modulus", "GPa", "it is no number with a unit"),
     ("shear_modulus", "3,1 GPa", "write a decimal point, 3.1 in place of 3,1"),
     ("shear_modulus", " ,5 GPa", "write a decimal point, 0.5 in place of ,5"),
+    ("shear_modulus", "5,0e6", "write a decimal point, 5.0 in place of 5,0"),
+    ("shear_modulus", "-3,5 MPa", "write a decimal point, -3.5 in place of -3,5"),
     ("shear_modulus", "1.234,5 Pa", "without separators of thousands"),
     ("shear_modulus", "1,234,567 Pa", "without separators of thousands"),
     ("poisson_ratio", "1/0", "it is no number"),
