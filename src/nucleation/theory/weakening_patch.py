@@ -86,8 +86,9 @@ def patch_basis(number: int) -> _PatchBasis:
     wavenumber = np.concatenate([wavenumber, beyond])
     weights = np.concatenate([weights, share[:, None] * missing])
     # i^(n - m) is real where n - m is even, and i times a real number where it is odd
-    even = np.where(power % 2 == 0, (-1.0) ** (power // 2), 0.0)
-    odd = np.where(power % 2 == 1, (-1.0) ** (power // 2), 0.0)
+    sign = (-1.0) ** (power // 2)
+    even = np.where(power % 2 == 0, sign, 0.0)
+    odd = np.where(power % 2 == 1, sign, 0.0)
     return _PatchBasis(wavenumber, weights * even.ravel(), weights * odd.ravel())
 
 
@@ -97,7 +98,8 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
 
     begin, end = 2.0**power, 2.0 ** (power + 1)
     nodes, _ = np.polynomial.legendre.leggauss(OCTAVE_POINTS)
-    edges = np.linspace(begin, end, 1 + max(1, round((end - begin) / SPACING)))
+    intervals = round((end - begin) / SPACING)
+    edges = np.linspace(begin, end, 1 + max(1, intervals))
     half = 0.5 * np.diff(edges)[:, None]
     middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
     gauss, share = np.polynomial.legendre.leggauss(GAUSS)  # dense enough for Bessel functions
@@ -112,7 +114,8 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
     bessel = np.sqrt(n + 0.5) * spherical_jn(n, q)
     products = bessel[:, None] * bessel[None]
     weights = products.reshape(-1, q.size) @ (weight[:, None] * interpolation)
-    return 2.0 ** (power + 0.5 * (nodes + 1.0)), 2.0 / np.pi * weights.T
+    places = 2.0 ** (power + 0.5 * (nodes + 1.0))
+    return places, 2.0 / np.pi * weights.T
 
 
 class WeakeningPatch(NamedTuple):
@@ -190,7 +193,8 @@ class WeakeningPatch(NamedTuple):
             between = self.factors(elastic, number, sign * middle)
             frequency = np.insert(frequency, coarse + 1, middle)
             found = np.insert(found, coarse + 1, between, axis=0)
-        return -sign * float(np.angle(found[1:] / found[:-1]).sum())
+        turned = np.angle(found[1:] / found[:-1])
+        return -sign * float(turned.sum())
 
 
 def _integrated(values: ComplexArray, weights: Array) -> ComplexArray:

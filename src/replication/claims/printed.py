@@ -15,7 +15,8 @@ from nucleation.types import Array, ComplexArray
 def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, float]:
     """G1 and G2 of two half-spaces (Eq. 7), with beta and M over the upper modulus (Eq. 8)."""
     compliance = psi * (1.0 - nu1) + (1.0 - nu2)
-    beta = (psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)) / (2.0 * compliance)
+    difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
+    beta = difference / (2.0 * compliance)
     modulus = 2.0 * psi / (1.0 - beta**2) / compliance
     g1 = 0.5 * modulus
     return g1, beta * g1
@@ -25,7 +26,8 @@ def bimaterial_ratio(f_beta: float, z: float) -> float:
     """L_c over L_c^M (Eq. 9), for a zeta/a."""
     square = f_beta**2
     root = math.sqrt((1.0 + z) ** 2 + 4.0 * z / square)
-    return (square * (1.0 + z - root) + 2.0 * z) / (2.0 * z)
+    numerator = square * (1.0 + z - root) + 2.0 * z
+    return numerator / (2.0 * z)
 
 
 def strengthening_threshold(a: float, zeta: float) -> float:
@@ -84,7 +86,8 @@ def block_field(q: float, y: Array, nu: float) -> ComplexArray:
     inner = constant * np.cosh(near)
     u_x = quadratic + linear + outer + inner
 
-    factor = q**2 * y + 4.0 * nu**2 - 6.0 * nu - q**2 + 2.0
+    factor = q**2 * y + 4.0 * nu**2 - 6.0 * nu
+    factor = factor - q**2 + 2.0
     odd = 4.0 * factor * np.sinh(near)
     even = (3.0 - 4.0 * nu) * np.cosh(near) + np.cosh(far)
     u_y = odd - 2.0 * q * y * even

@@ -163,9 +163,11 @@ def theory_curves(runs: list[StudyRun], settings: Settings) -> dict[str, dict[st
         if len(values[kind]) < 2:
             continue
         low, high = min(values[kind]), max(values[kind])
-        x = (np.geomspace if low > 0.0 else np.linspace)(low, high, _CURVE_POINTS).tolist()
+        spaced = np.geomspace if low > 0.0 else np.linspace
+        x = spaced(low, high, _CURVE_POINTS).tolist()
         given = ({**run.given, name: value} for value in x)
-        lengths = critical_lengths([fault_of(run.study, own, settings)[1] for own in given])
+        faults = [fault_of(run.study, own, settings)[1] for own in given]
+        lengths = critical_lengths(faults)
         columns = {"x": x, "length": lengths}
         curves[kind] = {key: [float(f"{n:.8g}") for n in own] for key, own in columns.items()}
     return curves

@@ -144,7 +144,9 @@ def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array,
     phase = np.outer(kappa, np.cos(modes.theta))
     sine, cosine = np.sin(phase), np.cos(phase)
     slip = -bessel * modes.weights * (-1.0) ** np.arange(number + 1)
-    return (kappa, cosine, -sine, slip) if even else (kappa, sine, cosine, slip)
+    if even:
+        return kappa, cosine, -sine, slip
+    return kappa, sine, cosine, slip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -278,8 +280,11 @@ def _resolved(
         kappa, *waves, slip = _tables(number, reach, even)
         used = np.searchsorted(kappa, CUT * slim)
         g1, g2 = pair.transfer_functions(kappa[:used] / length)
-        shear = shear + waves[0][:used].T @ ((g1 - far_g1)[:, None] * slip[:used])
-        normal = normal + waves[1][:used].T @ ((g2 - far_g2)[:, None] * slip[:used])
+        own = slip[:used]
+        of_shear = (g1 - far_g1)[:, None] * own
+        of_normal = (g2 - far_g2)[:, None] * own
+        shear = shear + waves[0][:used].T @ of_shear
+        normal = normal + waves[1][:used].T @ of_normal
     scale = float(one.softness[0]) / length
     return scale * shear, scale * normal
 
