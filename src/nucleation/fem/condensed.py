@@ -6,8 +6,8 @@ past, slip and loads are enough; no field is stored. With ``D(s)`` of ``K + s M`
 
     D(s) w - (D(s) - D(0)) w*,    w* = sum_i c_i (w_i + beta dw_i/dt),
 
-and alike for the loads; without acceleration w would be w*. What is missing is of fourth order in
-the time that a wave needs to cross the body, over that within which w changes.
+and alike for the loads; without acceleration w would be w*. Terms of fourth order are missing, in
+the time that a wave needs to cross the body over that within which w changes.
 """
 
 from collections.abc import Callable, Sequence
