@@ -232,7 +232,8 @@ class Operator:
         edge = response.edge
         if self.edge is not None:
             near = self.edge.response_near
-            edge = edge + near @ (w - response.w)[-near.shape[1] :]
+            change = w - response.w
+            edge = edge + near @ change[-near.shape[1] :]
         modes = self.swept_down(response.load, edge)
         _, start = self.reduced(modes)
         amplitudes = self.body.modes.sine_amplitudes(w)

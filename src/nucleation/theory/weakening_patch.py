@@ -176,7 +176,8 @@ class WeakeningPatch(NamedTuple):
         sign: float,
     ) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
-        stiffest = self.inside.load_and_coupling(np.array([2.0 * number / width]))[0]
+        shortest = np.array([2.0 * number / width])
+        stiffest = self.inside.load_and_coupling(shortest)[0]
         least = np.minimum(self.inside.a, self.outside.a)
         scale = 1.0 + float(np.max(stiffest / least))
         for systems in self:
@@ -210,7 +211,8 @@ def smallest_width(patch: WeakeningPatch, critical: float) -> float:
     """
 
     def grows(width: float) -> bool:
-        polynomials = POLYNOMIALS * math.ceil(max(1.0, 0.5 * (1.0 + width / critical)))
+        longer = max(1.0, 0.5 * (1.0 + width / critical))
+        polynomials = POLYNOMIALS * math.ceil(longer)
         return patch.growing_modes(width, polynomials) > 0
 
     low = NARROWEST * critical

@@ -140,7 +140,8 @@ def _tables(number: int, reach: float, even: bool) -> tuple[Array, Array, Array,
     """kappa; sin(kappa x/L) at theta, or cos; cos, or -sin; weighted ``s_m m J_m(kappa)``."""
     modes = mirror_modes(number, even)
     kappa = _points(reach)[0]
-    bessel = np.stack([_bessel(order, reach) for order in modes.orders.tolist()], axis=1)
+    functions = [_bessel(order, reach) for order in modes.orders.tolist()]
+    bessel = np.stack(functions, axis=1)
     phase = np.outer(kappa, np.cos(modes.theta))
     sine, cosine = np.sin(phase), np.cos(phase)
     slip = -bessel * modes.weights * (-1.0) ** np.arange(number + 1)
@@ -270,8 +271,10 @@ def _resolved(
     A slimmer zone beside the fault is replaced by a thicker one that resists long waves alike.
     """
     thickness = length / SLIMMEST
-    pair = LayerPair(*(body and body.with_zone_at_least(thickness) for body in one.pair))
-    slim = length / min(float(thickness[0]) for thickness in pair.thicknesses)
+    bodies = (body and body.with_zone_at_least(thickness) for body in one.pair)
+    pair = LayerPair(*bodies)
+    thinnest = min(float(thickness[0]) for thickness in pair.thicknesses)
+    slim = length / thinnest
     modes = mirror_modes(number, even)
     far_g1, far_g2 = pair.transfer_functions(SHORT)
     shear, normal = far_g1 * modes.half_space, far_g2 * modes.gradients
