@@ -40,7 +40,14 @@ class CondensedBody:
         s = SMALL / (body.crossing_time or 1.0) ** 2  # without density any will do
         moving = self._forces(operator(s))
         # of accelerated factors (N/m per 1/s^2)
-        self._inertia = [(one - other) / s for one, other in zip(moving, self._held, strict=True)]
+        self._inertia = [
+            (one - other) / s
+            for one, other in zip(
+                moving,
+                self._held,
+                strict=True,
+            )
+        ]
         fields = [self._field(self._nothing, one) for one in np.eye(len(loads))]
         works = [[body.work(load, field) for field in fields] for load in loads]
         self._compliance = np.array(works)
@@ -76,7 +83,8 @@ class CondensedBody:
             self._inertia,
             strict=True,
         ):
-            found.append(moved + static + factors @ held + acceleration @ inertia)
+            of_loads = factors @ held + acceleration @ inertia
+            found.append(moved + static + of_loads)
         return Forces(w, *found)
 
     def condensed(self, motion: Motion) -> Motion:
