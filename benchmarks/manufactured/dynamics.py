@@ -49,14 +49,13 @@ class GivenDisplacement(Interface):
         response: Forces,
         past: Past,
         imposed: Imposed,
-        guess: Array,
+        rates: Array,
     ) -> InterfaceSolution:
         """Find the forces that hold the interface."""
         w = self.exact_w(imposed.time)
         change, change_normal = operator.apply(w - response.w)
         tangential = response.tangential + change
-        rates = (w - past.w) / past.beta
-        v = np.append(guess[:1], rates)
+        v = np.append(rates[:1], (w - past.w) / past.beta)
         return InterfaceSolution(
             v,
             np.zeros_like(v),

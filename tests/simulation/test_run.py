@@ -103,10 +103,10 @@ def test_tension_is_a_named_failure(monkeypatch):
     """However short the step: as in the slip law's event on fine meshes."""
     solved = Interface.solve
 
-    def solve(self, operator, *arguments):
-        if arguments[0].w[0] < -1e-6:  # the foot of the pushed edge lags behind by 1 um
+    def solve(self, operator, forces, **others):
+        if forces.w[0] < -1e-6:  # the foot of the pushed edge lags behind by 1 um
             raise NewtonFailure("the interface is in tension", Outcome.TENSION)
-        return solved(self, operator, *arguments)
+        return solved(self, operator, forces, **others)
 
     monkeypatch.setattr(Interface, "solve", solve)
     dataset = simulate(COARSE)
