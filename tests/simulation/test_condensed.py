@@ -25,9 +25,14 @@ from nucleation.simulation.stepping import (
 )
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
+STIFFER = Material(shear_modulus=9e9, poisson_ratio=0.21, density=2700.0)
 BODIES = {
     "block": Body((Grid(0.8, 0.1, 16, 5, grading=3.0), MATERIAL)),
     "period": Body((Grid(0.8, 0.1, 17, 5, grading=3.0, periodic=True), MATERIAL)),
+    "pair": Body((Grid(0.8, 0.1, 16, 5), MATERIAL), (Grid(0.8, 0.2, 16, 4), STIFFER), "clamped"),
+    "pair on rollers": Body(
+        (Grid(0.8, 0.1, 16, 5), MATERIAL), (Grid(0.8, 0.2, 16, 4), STIFFER), "roller"
+    ),
     "antiplane": Body((Grid(0.8, 0.1, 16, 5), dataclasses.replace(MATERIAL, plane="antiplane"))),
 }
 

@@ -136,6 +136,14 @@ class Body:
         return len(self.layers) == 1 or self.layers[1].held[1]
 
     @property
+    def is_held(self) -> bool:
+        """Whether at given slip no layer can move as a whole."""
+        if len(self.layers) == 1:
+            return True
+        along_x, along_y = self.layers[1].held
+        return along_y and (along_x or self.modes.has_edge)
+
+    @property
     def operator_megabytes(self) -> float:
         """Memory of ``K + s M`` for one s, once all of its parts are in use (MB)."""
         n = self.modes.n_x

@@ -23,7 +23,7 @@ SMALL = 1e-5  # s times a crossing squared, to which forces are linear in s
 
 
 class CondensedBody:
-    """One layer on a rigid base, under some loads (N/m) times factors."""
+    """A body that is held, under some loads (N/m) times factors."""
 
     def __init__(
         self,
@@ -89,10 +89,13 @@ class CondensedBody:
 
     def condensed(self, motion: Motion) -> Motion:
         """The motion of the interface alone."""
-        u, v = motion.displacement.modes, motion.velocity.modes
-        nodal = self._body.modes.sine_values(np.array([u[0, 0], v[0, 0]]))
-        w, rate = (Field(values, np.empty(0)) for values in nodal)
-        return motion._replace(displacement=w, velocity=rate)
+        reduced = []
+        for field in (motion.displacement, motion.velocity):
+            above, *below = (part.modes[0, 0] for part in self._body.parts(field))
+            slip = above - sum(below)
+            reduced.append(Field(self._body.modes.sine_values(slip), np.empty(0)))
+        displacement, velocity = reduced
+        return motion._replace(displacement=displacement, velocity=velocity)
 
     def expanded(self, motion: Motion) -> Motion:
         """The motion of the field that follows that of the interface."""

@@ -143,7 +143,7 @@ class Dynamics:
         self._slip_distance = float(np.min(interface.friction.slip_distance))
         self._no_forcing = np.zeros(body.modes.n_x + 1)
         self.loads = (*drive.loads, body.translation_load(1.0))
-        self.condenses = len(body.layers) == 1  # a pair may move as a whole
+        self.condenses = body.is_held
 
     def advance(
         self,
