@@ -8,7 +8,7 @@ import pytest
 from benchmarks.manufactured.dynamics import GivenDisplacement
 from nucleation.extraction.extraction import extract
 from nucleation.fem.body import Body
-from nucleation.fem.grid import Grid
+from nucleation.fem.grid import Field, Grid, Motion
 from nucleation.fem.operator import Operator
 from nucleation.model.material import Material
 from nucleation.run.run import PAPER_RUN
@@ -94,6 +94,20 @@ def test_what_is_missing_is_of_fourth_order(body):
     np.testing.assert_allclose(of_forces, 4.0, atol=0.2)
     assert of_works == pytest.approx(2.0, abs=0.01)
     assert max(errors[0][:-1]) < 1e-5
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_the_field_that_follows_has_the_slip_and_the_work(body):
+    """The slip that it follows, and by reciprocity the work of each load."""
+    dynamics, rng = driven(body, 1.0), np.random.default_rng(5)
+    w, rate = (Field(1e-6 * rng.normal(size=body.modes.n_x), np.empty(0)) for _ in "ab")
+    factors = rng.normal(size=len(dynamics.loads))
+    motion = Motion(w, rate, 0.0, factors, -factors)
+    field = dynamics.condensed_body.expanded(motion)
+    again = dynamics.condensed_body.condensed(field)
+    np.testing.assert_allclose(again.displacement.modes, w.modes, rtol=0.0, atol=1e-17)
+    np.testing.assert_allclose(again.velocity.modes, rate.modes, rtol=0.0, atol=1e-17)
+    np.testing.assert_allclose(dynamics.works(motion), dynamics.works(field), rtol=1e-8)
 
 
 @pytest.mark.slow
