@@ -211,7 +211,7 @@ class Manufactured:
 
     def displacement_error(self, state: State) -> float:
         """The root mean square over the area of the nodal error (m)."""
-        values = np.array(nodal_values(self.body, state.displacement))
+        values = np.array(nodal_values(self.body, state.motions[0].displacement))
         return self.loads.mean_over_area(values - self.nodal_exact(state.time))
 
     def slip_rate_error(self, state: State) -> float:

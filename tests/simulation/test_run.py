@@ -152,8 +152,8 @@ def test_bodies_meet_at_the_interface():
     dynamics = composed(parameters)
     for instant in itertools.islice(instants(parameters, dynamics=dynamics), 0, 21, 10):
         state = instant.state
-        above_x, above_y = nodal_values(dynamics.body, state.displacement)
-        below_x, below_y = nodal_values(dynamics.body, state.displacement, 1)
+        above_x, above_y = nodal_values(dynamics.body, state.motions[0].displacement)
+        below_x, below_y = nodal_values(dynamics.body, state.motions[0].displacement, 1)
         np.testing.assert_allclose(above_y[0], below_y[0], atol=1e-18)  # no opening
         slip = above_x[0] - below_x[0]
         np.testing.assert_allclose(slip[1:], state.past_w[0], atol=1e-18)

@@ -49,7 +49,7 @@ def test_start_without_shear_is_uniaxial_stress():
     parameters = small().replaced(initial_stress="uniform_shear")
     dynamics = composed(parameters)
     state, report = at_rest(dynamics, parameters)
-    u_x, u_y = nodal_values(dynamics.body, state.displacement)
+    u_x, u_y = nodal_values(dynamics.body, state.motions[0].displacement)
     material, stress = parameters.upper.material, parameters.fault.normal_stress
     x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
     nu, scale = material.poisson_ratio, stress / (2.0 * material.shear_modulus)
@@ -81,12 +81,14 @@ def test_a_step_changes_nothing_and_repeats_exactly():
     state, _ = at_rest(dynamics, small())
     for rung in LADDER[:20]:
         state, _ = dynamics.advance(state, rung)
-    before = state.displacement.modes.copy()
+    before = state.motions[0].displacement.modes.copy()
     first, _ = dynamics.advance(state, -58)
-    np.testing.assert_array_equal(before, state.displacement.modes)
+    np.testing.assert_array_equal(before, state.motions[0].displacement.modes)
     again, _ = composed(small()).advance(state, -58)
     np.testing.assert_array_equal(first.past_slip_rates, again.past_slip_rates)
-    np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
+    np.testing.assert_array_equal(
+        first.motions[0].displacement.modes, again.motions[0].displacement.modes
+    )
 
 
 def test_a_residual_that_is_undefined_at_one_node_is_a_failure():

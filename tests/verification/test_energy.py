@@ -117,9 +117,11 @@ class Accountant:
     def moment(self, instant, past):
         state = self.dynamics.in_form(instant.state, condensed=False)
         imposed = self.dynamics.drive.at(state.time)
-        u = [body.vector(state.displacement, imposed.displacement) for body in self.bodies]
-        v = [body.vector(state.velocity, imposed.velocity) for body in self.bodies]
-        relative = [body.vector(state.velocity, 0.0) for body in self.bodies]
+        u = [
+            body.vector(state.motions[0].displacement, imposed.displacement) for body in self.bodies
+        ]
+        v = [body.vector(state.motions[0].velocity, imposed.velocity) for body in self.bodies]
+        relative = [body.vector(state.motions[0].velocity, 0.0) for body in self.bodies]
         a = self.acceleration(state.last_step, relative, past)
         a[0][self.bodies[0].x] += imposed.acceleration
         return Moment(u, v, relative, a, state.last_step)

@@ -75,7 +75,7 @@ class ManufacturedPair(Manufactured):
         return Motion(u, rate, self.body.momentum_x(rate), np.zeros(1), np.zeros(1))
 
     def displacement_error_below(self, state):
-        x, y = nodal_values(self.body, state.displacement, 1)
+        x, y = nodal_values(self.body, state.motions[0].displacement, 1)
         return self.loads_below.mean_over_area(
             np.array([x, -y]) - self.nodal_exact_below(state.time)
         )

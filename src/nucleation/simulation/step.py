@@ -74,16 +74,6 @@ class State:
         before = min(1, self.past_times.size - 1)
         return float(self.past_times[0] - self.past_times[before])
 
-    @property
-    def displacement(self) -> Field:
-        """(w_x, u_y) of the body (m), with u_x = U(t) + w_x."""
-        return self.motions[0].displacement
-
-    @property
-    def velocity(self) -> Field:
-        """Rate (m/s) of the displacement."""
-        return self.motions[0].velocity
-
 
 Solve = Callable[[Operator, Forces], InterfaceSolution]
 """Function that solves for the interface at the end of a step."""
