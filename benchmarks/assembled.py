@@ -17,11 +17,7 @@ CORNERS = ((0, 0), (1, 0), (0, 1), (1, 1))
 """Nodes of an element along x and y; its unknowns are x and y of each."""
 
 
-def _element_matrices(
-    dx: float,
-    dy: float,
-    material: Material,
-) -> tuple[Array, Array]:
+def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, Array]:
     """Stiffness and consistent mass of one element, (8, 8) each."""
     point = 1.0 / np.sqrt(3.0)
     stiffness = np.zeros((8, 8))
@@ -43,12 +39,7 @@ def _element_matrices(
     return stiffness, mass
 
 
-def _stiffness(
-    by_x: Array,
-    by_y: Array,
-    area: float,
-    material: Material,
-) -> Array:
+def _stiffness(by_x: Array, by_y: Array, area: float, material: Material) -> Array:
     """Stiffness of one element from one Gauss point, by the gradients of the shape functions.
 
     In antiplane shear u_x is the displacement along z, and u_y bears only the load on the top.
@@ -68,22 +59,11 @@ def _stiffness(
     strain[2, 0::2] = by_y
     strain[2, 1::2] = by_x
     stretch = lame + 2 * shear
-    elastic = np.array(
-        [
-            [stretch, lame, 0.0],
-            [lame, stretch, 0.0],
-            [0.0, 0.0, shear],
-        ]
-    )
+    elastic = np.array([[stretch, lame, 0.0], [lame, stretch, 0.0], [0.0, 0.0, shear]])
     return area * strain.T @ elastic @ strain
 
 
-def unknown(
-    grid: Grid,
-    i: ArrayLike,
-    j: ArrayLike,
-    component: int,
-) -> Array:
+def unknown(grid: Grid, i: ArrayLike, j: ArrayLike, component: int) -> Array:
     """Number the unknowns.
 
     Parameters

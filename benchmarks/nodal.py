@@ -8,11 +8,7 @@ from nucleation.fem.body import Body
 from nucleation.fem.grid import Components, Field
 
 
-def nodal_values(
-    body: Body,
-    field: Field,
-    number: int = 0,
-) -> Components:
+def nodal_values(body: Body, field: Field, number: int = 0) -> Components:
     """Nodal w_x and u_y of a layer, by its number, levels from the interface on.
 
     Each has the shape (n_y + 1, n_x + 1).

@@ -172,17 +172,10 @@ def _speedup_over_sparse(parameters: Run, whole: dict[str, float]) -> dict[str, 
     nodes = grid.n_x + 1
     driven = 2 * np.arange(grid.n_y + 1) * nodes
     interface = np.arange(2 * nodes)
-    free = np.setdiff1d(
-        np.arange(stiffness.shape[0]),
-        np.append(driven, interface),
-    )
+    free = np.setdiff1d(np.arange(stiffness.shape[0]), np.append(driven, interface))
     matrix = (stiffness + 1e6 * mass)[free][:, free].tocsc()
     start = time.perf_counter()
-    factors = splu(
-        matrix,
-        permc_spec="MMD_AT_PLUS_A",
-        options={"SymmetricMode": True},
-    )
+    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
     factorisation = time.perf_counter() - start
     right = np.ones(free.size)
     (solve,) = _fastest(lambda: factors.solve(right), blocks=3)
@@ -206,11 +199,7 @@ def _scaling(parameters: Run) -> dict[str, Any]:
     }
 
 
-def _scaling_along(
-    axis: str,
-    numbers: tuple[int, ...],
-    meshes: list[Run],
-) -> dict[str, Any]:
+def _scaling_along(axis: str, numbers: tuple[int, ...], meshes: list[Run]) -> dict[str, Any]:
     """Time per step on some meshes with these numbers of elements along one axis."""
     tasks = [_timed_steps(mesh) for mesh in meshes]
     seconds = np.array(_fastest(*tasks)) / STEPS
@@ -264,14 +253,6 @@ def _precisions(parameters: Run) -> list[dict[str, float]]:
     return rows
 
 
-def _simulated(
-    parameters: Run,
-    tolerance: float,
-    longest_step: float,
-) -> xr.Dataset:
-    values = {
-        "tolerance": tolerance,
-        "longest_step": longest_step,
-        "time_after_event": 0.0,
-    }
+def _simulated(parameters: Run, tolerance: float, longest_step: float) -> xr.Dataset:
+    values = {"tolerance": tolerance, "longest_step": longest_step, "time_after_event": 0.0}
     return simulate(parameters.replaced(**values))

@@ -75,11 +75,7 @@ def _cost(command: list[str], directory: Path) -> _Cost:
             text = output.read().decode(errors="replace")
             raise RuntimeError(f"{' '.join(command)} failed:\n{text[-4000:]}")
     seconds = time.perf_counter() - start
-    return _Cost(
-        seconds,
-        used.ru_utime + used.ru_stime,
-        used.ru_maxrss / 1024.0,
-    )
+    return _Cost(seconds, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0)
 
 
 def snakemake(*arguments: str) -> list[str]:
@@ -127,12 +123,7 @@ def configuration(runs: int, per_job: int) -> dict[str, Any]:
     zeta_over_a: Any = 1.0
     if ratios > 1:
         zeta_over_a = {"start": 1.0, "stop": 2.0, "num": ratios}
-    heights = {
-        "start": 0.005,
-        "stop": 0.1,
-        "num": HEIGHTS,
-        "scale": "log",
-    }
+    heights = {"start": 0.005, "stop": 0.1, "num": HEIGHTS, "scale": "log"}
     study = {
         "description": "short runs, to measure the cost beside them",
         "length_over_critical": 4.0,
@@ -149,11 +140,7 @@ def configuration(runs: int, per_job: int) -> dict[str, Any]:
     return {"stepping": stepping, "studies": {"many": study}}
 
 
-def _planned(
-    runs: int,
-    per_job: int,
-    directory: Path,
-) -> dict[str, float]:
+def _planned(runs: int, per_job: int, directory: Path) -> dict[str, float]:
     """The cost of a dry run of a study; its configuration stays in the directory."""
     text = yaml.safe_dump(configuration(runs, per_job))
     (directory / "config.yaml").write_text(text, encoding="utf-8")
@@ -177,11 +164,7 @@ def _made(directory: Path) -> dict[str, float]:
     }
 
 
-def _study_costs(
-    runs: int,
-    per_job: int,
-    makes: bool,
-) -> dict[str, dict[str, float]]:
+def _study_costs(runs: int, per_job: int, makes: bool) -> dict[str, dict[str, float]]:
     """The costs of one study by command, in a directory that is removed afterwards."""
     with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as name:
         directory = Path(name)

@@ -5,13 +5,22 @@ from nucleation.lengths.in_use import values_of
 from nucleation.run.derived import drop_of_run
 
 ROCK = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
+    "shear_modulus": 30e9,
+    "poisson_ratio": 0.25,
+    "normal_stress": 50e6,
+    "a": 0.010,
+    "b": 0.015,
     "slip_distance": 5e-6,
-}  # fmt: skip
+}
 GRANITE = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 6e6, "a": 0.008, "b": 0.012,
-    "slip_distance": 1e-6, "height": 0.1,
-}  # fmt: skip
+    "shear_modulus": 30e9,
+    "poisson_ratio": 0.25,
+    "normal_stress": 6e6,
+    "a": 0.008,
+    "b": 0.012,
+    "slip_distance": 1e-6,
+    "height": 0.1,
+}
 
 
 def _method(name):

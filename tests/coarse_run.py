@@ -8,11 +8,16 @@ from replication.configuration.load import configure
 from replication.tables import lengths
 
 CONFIG = {
-    "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05,
-                 "longest_step": 0.2},
-    "studies": {"paper": {"role": "paper", "length_over_critical": 4.0, "interface": "main_text",
-                          "runs": [{"height": 0.005, "n_x": 60, "n_y": 6}]}},
-}  # fmt: skip
+    "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05, "longest_step": 0.2},
+    "studies": {
+        "paper": {
+            "role": "paper",
+            "length_over_critical": 4.0,
+            "interface": "main_text",
+            "runs": [{"height": 0.005, "n_x": 60, "n_y": 6}],
+        }
+    },
+}
 
 
 @pytest.fixture(scope="session")

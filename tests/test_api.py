@@ -22,9 +22,15 @@ ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "b": 0.015, "slip_distance": 5e-6}
 FAULT = ROCK | FRICTION
 PAPER = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "a": 0.0068,
-    "zeta": 0.016, "slip_distance": 5e-7, "friction": 0.41, "second_shear_modulus": math.inf,
-}  # fmt: skip
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 1 / 3,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "zeta": 0.016,
+    "slip_distance": 5e-7,
+    "friction": 0.41,
+    "second_shear_modulus": math.inf,
+}
 
 
 @pytest.mark.parametrize(
@@ -47,15 +53,29 @@ def test_layers_of_different_heights_and_far_sides(heights, sides):
 
 @pytest.mark.parametrize(
     "name",
-    ["shear_modulus", "poisson_ratio", "normal_stress", "a", "b", "slip_distance", "friction",
-     "height", "second_shear_modulus", "second_poisson_ratio", "second_height"],
-)  # fmt: skip
+    [
+        "shear_modulus",
+        "poisson_ratio",
+        "normal_stress",
+        "a",
+        "b",
+        "slip_distance",
+        "friction",
+        "height",
+        "second_shear_modulus",
+        "second_poisson_ratio",
+        "second_height",
+    ],
+)
 def test_every_parameter_broadcasts(name):
     """A column of any parameter against a row of heights or of a, each point as if alone."""
     base = FAULT | {
-        "friction": 0.6, "height": 0.5, "second_shear_modulus": 60e9,
-        "second_poisson_ratio": 0.2, "second_height": 2.0,
-    }  # fmt: skip
+        "friction": 0.6,
+        "height": 0.5,
+        "second_shear_modulus": 60e9,
+        "second_poisson_ratio": 0.2,
+        "second_height": 2.0,
+    }
     row = "a" if name == "height" else "height"
     column_values = np.array([1.0, 1.1]) * base[name]
     row_values = np.array([1.0, 0.8, 1.2]) * base[row]
@@ -122,13 +142,16 @@ def test_named_arrays_keep_their_names():
     assert g1.dims == ("height",)
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
-    ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"don't broadcast: a \(3,\), height \(2,\)"),
-    ({"a": True}, "a = True is not allowed"),
-    ({"xyzzy": 1.0}, "unexpected keyword argument 'xyzzy'; known: shear_modulus, "),
-    ({"height": np.ones(2), "a": xr.DataArray([0.01], dims="a")}, "named dimensions"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
+        ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"don't broadcast: a \(3,\), height \(2,\)"),
+        ({"a": True}, "a = True is not allowed"),
+        ({"xyzzy": 1.0}, "unexpected keyword argument 'xyzzy'; known: shear_modulus, "),
+        ({"height": np.ones(2), "a": xr.DataArray([0.01], dims="a")}, "named dimensions"),
+    ],
+)
 def test_bad_parameters(changes, words):
     with pytest.raises(ParameterError, match=words):
         asked.critical_length(**FAULT | changes)

@@ -20,12 +20,17 @@ FAULTS = {
     "two bodies": ROCK | BLOCKS,
     "remote": ROCK | {"height": 0.5, "loading": "remote"},
     "law": {
-        "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "velocity": 1e-5,
-        "friction_law": Friction(law="product"), "height": 0.02, "second_shear_modulus": math.inf
+        "shear_modulus": 3.1e9,
+        "poisson_ratio": 1 / 3,
+        "normal_stress": 1e6,
+        "velocity": 1e-5,
+        "friction_law": Friction(law="product"),
+        "height": 0.02,
+        "second_shear_modulus": math.inf,
     },
     "zone": ROCK | {"zone_thickness": 0.01, "zone_shear_modulus": 5e9},
     "antiplane": ROCK | {"plane": "antiplane", "height": 0.5},
-}  # fmt: skip
+}
 
 
 def equal(found, expected):

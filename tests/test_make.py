@@ -20,10 +20,21 @@ with open("environment", "w") as file:
 """
 
 NAMES = [
-    "$$(touch PWN).yaml", "$(touch PWN).yaml", "$(shell touch PWN).yaml", "`touch PWN`.yaml",
-    "a;touch PWN;.yaml", "a&touch PWN.yaml", "a|touch PWN", "-", 'q"x.yaml', "q'x.yaml",
-    "a b.yaml", "a\\b.yaml", "#a.yaml", "é.yaml",
-]  # fmt: skip
+    "$$(touch PWN).yaml",
+    "$(touch PWN).yaml",
+    "$(shell touch PWN).yaml",
+    "`touch PWN`.yaml",
+    "a;touch PWN;.yaml",
+    "a&touch PWN.yaml",
+    "a|touch PWN",
+    "-",
+    'q"x.yaml',
+    "q'x.yaml",
+    "a b.yaml",
+    "a\\b.yaml",
+    "#a.yaml",
+    "é.yaml",
+]
 
 
 @pytest.fixture
@@ -44,8 +55,11 @@ def make(tmp_path):
         given = [f"{name}={value}" for name, value in {"VENV": "venv", **variables}.items()]
         done = subprocess.run(
             ["make", "-f", ROOT / "Makefile", *arguments, *given],
-            cwd=tmp_path, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            cwd=tmp_path,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         assert done.returncode == 0, done.stdout
         assert not (tmp_path / "PWN").exists()
         return [json.loads(line) for line in (tmp_path / "called").read_text().splitlines()]

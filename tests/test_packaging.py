@@ -43,9 +43,11 @@ def named(requirements):
 CORE = named(PROJECT["dependencies"])
 BEYOND = {
     "nucleation/pictures": "figures",
-    "nucleation/extraction": "solver", "nucleation/fem": "solver",
-    "nucleation/simulation": "solver", "replication": "test",
-}  # fmt: skip
+    "nucleation/extraction": "solver",
+    "nucleation/fem": "solver",
+    "nucleation/simulation": "solver",
+    "replication": "test",
+}
 """Parts of the package that need one of the extras as well."""
 
 
@@ -106,9 +108,14 @@ def test_everything_declared_is_pinned():
 
 def run(*command, code=0, **options):
     done = subprocess.run(
-        [str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, text=True, timeout=600, **options,
-    )  # fmt: skip
+        [str(word) for word in command],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=600,
+        **options,
+    )
     assert done.returncode == code, done.stdout
     return done.stdout
 

@@ -11,14 +11,32 @@ from nucleation.api import Fault, Run, extract, simulate
 
 NOISE = {"perturbation": "normal_load", "strength": 1e-5}
 STRONG = Fault(
-    shear_modulus=3.1e9, poisson_ratio=1 / 3, density=1200.0, normal_stress=1e6, a=0.005, b=0.02,
-    slip_distance=0.5e-6, friction=0.4, velocity=1e-5, height=0.02, second_shear_modulus=math.inf,
-)  # fmt: skip
+    shear_modulus=3.1e9,
+    poisson_ratio=1 / 3,
+    density=1200.0,
+    normal_stress=1e6,
+    a=0.005,
+    b=0.02,
+    slip_distance=0.5e-6,
+    friction=0.4,
+    velocity=1e-5,
+    height=0.02,
+    second_shear_modulus=math.inf,
+)
 WEAK = STRONG.replace(zeta=0.005)
 PLATES = Fault(
-    shear_modulus=3.1e9, poisson_ratio=0.33, density=1200.0, normal_stress=1e6, a=0.0068,
-    zeta=0.0156, slip_distance=0.5e-6, friction=0.41, velocity=1e-5, height=0.1, plane="stress",
-)  # fmt: skip
+    shear_modulus=3.1e9,
+    poisson_ratio=0.33,
+    density=1200.0,
+    normal_stress=1e6,
+    a=0.0068,
+    zeta=0.0156,
+    slip_distance=0.5e-6,
+    friction=0.41,
+    velocity=1e-5,
+    height=0.1,
+    plane="stress",
+)
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::UserWarning")]
 
 

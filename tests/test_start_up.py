@@ -76,9 +76,13 @@ def loaded(code, names, directory):
     """Which of some modules a fresh Python has loaded after some code."""
     code += f"\nimport sys\nprint(*sorted({{*{names!r}}} & {{*sys.modules}}))"
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=directory, text=True, capture_output=True, check=True,
+        [sys.executable, "-c", code],
+        cwd=directory,
+        text=True,
+        capture_output=True,
+        check=True,
         env={"PYTHONPATH": str(ROOT / "src"), "PATH": "/usr/bin:/bin", "HOME": str(directory)},
-    )  # fmt: skip
+    )
     return done.stdout.splitlines()[-1].split()
 
 

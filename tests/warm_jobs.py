@@ -61,8 +61,10 @@ class Job:
         self._socket.connect(address)
         self._talk = self._socket.makefile("rw")
         asked = {
-            "words": words, "directory": os.getcwd(), "environment": {**(environment or os.environ)}
-        }  # fmt: skip
+            "words": words,
+            "directory": os.getcwd(),
+            "environment": {**(environment or os.environ)},
+        }
         print(json.dumps(asked), file=self._talk, flush=True)
         self.pid = int(self._talk.readline())
 

@@ -20,11 +20,28 @@ from pathlib import Path
 from warm_jobs import serve_jobs
 
 PACKAGES = (
-    "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "snakemake.script",
-    "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "click",
-    "numba", "scipy.linalg", "scipy.fft", "netCDF4", "matplotlib.figure", "jinja2",
-    "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "scipy.integrate",
-)  # fmt: skip
+    "snakemake.cli",
+    "snakemake.parser",
+    "snakemake.report",
+    "snakemake.dag",
+    "snakemake.script",
+    "pandas",
+    "pint",
+    "scipy.special",
+    "scipy.optimize",
+    "xarray",
+    "yaml",
+    "click",
+    "numba",
+    "scipy.linalg",
+    "scipy.fft",
+    "netCDF4",
+    "matplotlib.figure",
+    "jinja2",
+    "matplotlib.backends.backend_agg",
+    "matplotlib.backends.backend_pdf",
+    "scipy.integrate",
+)
 """What a call and its jobs would import. One that is missing here costs time, no more."""
 
 
@@ -38,17 +55,25 @@ class Warm:
         atexit.register(self._server.communicate)  # which ends it
 
     def __call__(
-        self, arguments: Sequence[str], directory: Path, output: Path, *, seconds: int = 600,
+        self,
+        arguments: Sequence[str],
+        directory: Path,
+        output: Path,
+        *,
+        seconds: int = 600,
         **environment: str,
-    ) -> subprocess.CompletedProcess:  # fmt: skip
+    ) -> subprocess.CompletedProcess:
         """Snakemake with these arguments, in a directory, with all it prints in a file.
 
         Raises AssertionError if it takes longer than some seconds.
         """
         call = {
-            "arguments": list(arguments), "directory": str(directory), "output": str(output),
-            "environment": {**os.environ, **environment}, "seconds": seconds,
-        }  # fmt: skip
+            "arguments": list(arguments),
+            "directory": str(directory),
+            "output": str(output),
+            "environment": {**os.environ, **environment},
+            "seconds": seconds,
+        }
         print(json.dumps(call), file=self._server.stdin, flush=True)
         code = int(self._server.stdout.readline())
         printed = output.read_text(errors="replace")

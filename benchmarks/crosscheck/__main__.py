@@ -29,11 +29,7 @@ COMMON = FIXED | {
     "n_x": 800,
     "n_y": 8,
 }
-STIFFER = {
-    "second_body": "deformable",
-    "second_far_side": "clamped",
-    "second_shear_modulus": 6.2e9,
-}
+STIFFER = {"second_body": "deformable", "second_far_side": "clamped", "second_shear_modulus": 6.2e9}
 RUNS: dict[str, dict[str, Any]] = {
     "H0.005": {"height": 0.005},
     "H0.05": {"height": 0.05},

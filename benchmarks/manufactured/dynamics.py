@@ -44,12 +44,7 @@ class GivenDisplacement(Interface):
     exact_w: Callable[[float], Array] = dataclasses.field(kw_only=True)
 
     def solve(
-        self,
-        operator: Operator,
-        response: Forces,
-        past: Past,
-        imposed: Imposed,
-        rates: Array,
+        self, operator: Operator, response: Forces, past: Past, imposed: Imposed, rates: Array
     ) -> InterfaceSolution:
         """Find the forces that hold the interface."""
         w = self.exact_w(imposed.time)
@@ -57,12 +52,7 @@ class GivenDisplacement(Interface):
         tangential = response.tangential + change
         v = np.append(rates[:1], (w - past.w) / past.beta)
         return InterfaceSolution(
-            v,
-            np.zeros_like(v),
-            np.append(0.0, tangential),
-            response.normal + change_normal,
-            w,
-            0,
+            v, np.zeros_like(v), np.append(0.0, tangential), response.normal + change_normal, w, 0
         )
 
 
@@ -90,11 +80,7 @@ class Manufactured:
     body: Body
 
     def __init__(
-        self,
-        run: Run,
-        exact: Displacement,
-        log_state: tuple[Term, ...] = (),
-        lumped: bool = True,
+        self, run: Run, exact: Displacement, log_state: tuple[Term, ...] = (), lumped: bool = True
     ) -> None:
         self.log_state = log_state
         self.lumped = lumped
@@ -120,12 +106,7 @@ class Manufactured:
     def at(self, time: float) -> Imposed:
         """The motion of the driven edge and the source of the state at a time (s)."""
         source = self.source(time) if self.log_state else None
-        return Imposed(
-            time,
-            self.velocity * time,
-            self.velocity,
-            state_forcing=source,
-        )
+        return Imposed(time, self.velocity * time, self.velocity, state_forcing=source)
 
     def load(self, time: float) -> Field:
         """The load (N/m) of displacement and applied traction at a time (s)."""
@@ -152,35 +133,14 @@ class Manufactured:
 
     def exact_w(self, time: float) -> Array:
         """The exact w_x (m) at the interface's nodes 1..n_x at a time (s)."""
-        return self.exact.value(
-            0,
-            self.grid.x[1:],
-            np.zeros(self.grid.n_x),
-            time,
-        )
+        return self.exact.value(0, self.grid.x[1:], np.zeros(self.grid.n_x), time)
 
-    def exact_slip_rate(
-        self,
-        x: Array,
-        time: float,
-        by_t: int = 0,
-    ) -> Array:
+    def exact_slip_rate(self, x: Array, time: float, by_t: int = 0) -> Array:
         """The exact slip rate or a derivative in time."""
-        own = self.exact.value(
-            0,
-            x,
-            np.zeros_like(x),
-            time,
-            by_t=1 + by_t,
-        )
+        own = self.exact.value(0, x, np.zeros_like(x), time, by_t=1 + by_t)
         return own if by_t else self.velocity + own
 
-    def exact_log_state(
-        self,
-        x: Array,
-        time: float,
-        by_t: int = 0,
-    ) -> Array:
+    def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
         """The exact psi = log(phi) or a derivative in time."""
         y = np.zeros_like(x)
         terms = (term(x, y, time, by_t=by_t) for term in self.log_state)
@@ -201,13 +161,7 @@ class Manufactured:
         states = np.array([self.exact_log_state(x, t) for t in times])
         w = np.array([self.exact_w(t) for t in times])
         motions = tuple(self.exact_motion(t) for t in times[:2])
-        return State(
-            motions,
-            times,
-            rates,
-            states,
-            w,
-        )
+        return State(motions, times, rates, states, w)
 
     def displacement_error(self, state: State) -> float:
         """The root mean square over the area of the nodal error (m)."""

@@ -51,13 +51,7 @@ class Term:
     t: Factor
 
     def __call__(
-        self,
-        x: Array,
-        y: Array,
-        t: ArrayLike,
-        by_x: int = 0,
-        by_y: int = 0,
-        by_t: int = 0,
+        self, x: Array, y: Array, t: ArrayLike, by_x: int = 0, by_y: int = 0, by_t: int = 0
     ) -> Array:
         """The derivative of the given orders at x, y (m) and t (s)."""
         along_x = self.x(x, by_x)
@@ -77,25 +71,13 @@ class Displacement:
     terms: tuple[Terms, Terms]
     material: Material
 
-    def value(
-        self,
-        component: int,
-        x: Array,
-        y: Array,
-        t: float,
-        **orders: int,
-    ) -> Array:
+    def value(self, component: int, x: Array, y: Array, t: float, **orders: int) -> Array:
         """A component or a derivative of it."""
         terms = (term(x, y, t, **orders) for term in self.terms[component])
         return sum(terms, np.zeros(()))
 
     def stress(
-        self,
-        x: Array,
-        y: Array,
-        t: float,
-        by_x: int = 0,
-        by_y: int = 0,
+        self, x: Array, y: Array, t: float, by_x: int = 0, by_y: int = 0
     ) -> tuple[Array, Array, Array]:
         """The stress or a derivative of it."""
         lame = self.material.lame_modulus
@@ -107,18 +89,9 @@ class Displacement:
         xy = xy + self.value(1, x, y, t, **along_x)
         yy = self.value(1, x, y, t, **along_y)
         trace = lame * (xx + yy)
-        return (
-            trace + 2 * shear * xx,
-            shear * xy,
-            trace + 2 * shear * yy,
-        )
+        return (trace + 2 * shear * xx, shear * xy, trace + 2 * shear * yy)
 
-    def body_force(
-        self,
-        x: Array,
-        y: Array,
-        t: float,
-    ) -> tuple[Array, Array]:
+    def body_force(self, x: Array, y: Array, t: float) -> tuple[Array, Array]:
         """``rho u_tt - div sigma``."""
         density = self.material.density
         xx_by_x, xy_by_x, _ = self.stress(x, y, t, by_x=1)
@@ -179,11 +152,7 @@ class Loads:
 
     def interface_stress(self, t: float) -> tuple[Array, Array]:
         """Sigma_xy and sigma_yy (Pa) at the Gauss points of the interface at t (s)."""
-        _, shear, normal = self.exact.stress(
-            self.x,
-            np.zeros_like(self.x),
-            t,
-        )
+        _, shear, normal = self.exact.stress(self.x, np.zeros_like(self.x), t)
         return shear, normal
 
     def mean_over_area(self, error: Array) -> float:

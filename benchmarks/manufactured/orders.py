@@ -48,12 +48,7 @@ STEP_RUNGS = {
 }
 MOST_STEPS = 48  # of the longest steps
 
-COMPRESSION = Term(
-    -1e-4,
-    power(1.0),
-    power(0.0, 1.0),
-    power(1.0),
-)  # sigma_yy = -1.2 MPa
+COMPRESSION = Term(-1e-4, power(1.0), power(0.0, 1.0), power(1.0))  # sigma_yy = -1.2 MPa
 
 
 class _Fields(NamedTuple):
@@ -93,44 +88,22 @@ FIELDS = {
         QUADRATIC,
         lumped=False,
     ),
-    "step": _Fields(
-        _bilinear(sine(1e4, 0.3), sine(1.5e4, 1.1)),
-        2e-2,
-        sine(1.2e4, 0.5),
-    ),
-    "quasi_static_step": _Fields(
-        _bilinear(sine(4.0, 0.3), sine(6.0, 1.1)),
-        8e-6,
-        sine(5.0, 0.5),
-    ),
+    "step": _Fields(_bilinear(sine(1e4, 0.3), sine(1.5e4, 1.1)), 2e-2, sine(1.2e4, 0.5)),
+    "quasi_static_step": _Fields(_bilinear(sine(4.0, 0.3), sine(6.0, 1.1)), 8e-6, sine(5.0, 0.5)),
     # bilinear and quadratic at once: solved exactly
-    "exact": _Fields(
-        _bilinear(power(1.0, 8e2, 7e5), power(1.0, -5e2, 7e5)),
-        2e-3,
-        QUADRATIC,
-    ),
+    "exact": _Fields(_bilinear(power(1.0, 8e2, 7e5), power(1.0, -5e2, 7e5)), 2e-3, QUADRATIC),
 }
 
 
 def log_state(fields: _Fields, run: Run) -> tuple[Term, Term]:
     """The terms of psi = log(phi): steady sliding, and what varies."""
     constant = power(1.0)
-    steady = Term(
-        np.log(run.memory_time),
-        constant,
-        constant,
-        constant,
-    )
+    steady = Term(np.log(run.memory_time), constant, constant, constant)
     varying = Term(0.5, sine(3.0, 1.0), constant, fields.state)
     return steady, varying
 
 
-def manufactured(
-    problem: str,
-    name: str,
-    rows: int,
-    grading: float = GRADING,
-) -> Manufactured:
+def manufactured(problem: str, name: str, rows: int, grading: float = GRADING) -> Manufactured:
     """The solver with the loads of a problem and of named fields, on 2 rows x rows elements."""
     fields = FIELDS[name]
     alone = problem == "elastodynamics"
@@ -173,11 +146,7 @@ def _mesh_errors(problem: str) -> Array:
     return np.array(found)
 
 
-def step_errors(
-    problem: str,
-    name: str = "step",
-    pattern: ArrayLike = (0,),
-) -> Array:
+def step_errors(problem: str, name: str = "step", pattern: ArrayLike = (0,)) -> Array:
     """Errors of a problem with the steps of :data:`STEP_RUNGS`, (level, 3).
 
     The numbers of `pattern` are added to the rungs of successive steps, repeated.

@@ -74,10 +74,7 @@ def tabulate(function, ends, counts):
 def page():
     """The whole page as HTML, which needs no network; it takes seconds."""
     places = (np.array(HEIGHTS) / CENTRE) ** POWER
-    on_layers = {
-        "place": tuple((places - 1.0) / (places + 1.0)),
-        "zeta_over_a": WEAKENING,
-    }
+    on_layers = {"place": tuple((places - 1.0) / (places + 1.0)), "zeta_over_a": WEAKENING}
     on_base = on_layers | {"nu": POISSON, "f": (0.0, 1.0)}
     spaces = {"zeta_over_a": WEAKENING, "coupling": (-0.5, 0.5)}
     tables = {

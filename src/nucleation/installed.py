@@ -10,10 +10,7 @@ import sys
 DISTRIBUTION = "nucleation-length"
 """The project's name for pip: ``nucleation`` is another project, with a package of that name."""
 
-EXTRAS = {
-    "solver": ("numba", "rocket_fft", "netCDF4", "pandas"),
-    "figures": ("matplotlib",),
-}
+EXTRAS = {"solver": ("numba", "rocket_fft", "netCDF4", "pandas"), "figures": ("matplotlib",)}
 """Modules of each extra."""
 
 ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")

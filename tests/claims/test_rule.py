@@ -33,13 +33,16 @@ def words(expression):
 BELOW, ABOVE = read({"below": 1.0}), read({"above": 1.0})
 
 
-@pytest.mark.parametrize(("printed", "low", "high"), [
-    ("13", 12.5, 13.5),
-    ("0.0156", 0.01555, 0.01565),
-    ("-1", -1.5, -0.5),
-    ("0.40", 0.395, 0.405),
-    ("4e3", 3500.0, 4500.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("printed", "low", "high"),
+    [
+        ("13", 12.5, 13.5),
+        ("0.0156", 0.01555, 0.01565),
+        ("-1", -1.5, -0.5),
+        ("0.40", 0.395, 0.405),
+        ("4e3", 3500.0, 4500.0),
+    ],
+)
 def test_printed_number_allows_half_a_unit_of_its_last_digit(printed, low, high):
     expected = number(printed)
     assert (expected.low, expected.high) == pytest.approx((low, high), rel=1e-12)
@@ -52,18 +55,21 @@ def test_printed_number_allows_half_a_unit_of_its_last_digit(printed, low, high)
 WIDEST = 0.155 + WIDEST_ALLOWANCE * 0.15
 
 
-@pytest.mark.parametrize(("expected", "ours", "held"), [
-    (number("0.15"), (0.160, 0.155, 0.160), True),
-    (number("0.15"), (0.160, 0.156, 0.200), False),  # its upper side is the wrong one
-    (number("0.15"), (0.140, 0.140, 0.146), True),
-    (number("0.15"), (0.140, 0.100, 0.144), False),
-    (number("0.15"), (WIDEST - 1e-9, 0.01, 1.0), True),  # wide uncertainty does not confirm
-    (number("0.15"), (WIDEST + 1e-9, 0.01, 1.0), False),
-    (BELOW, (0.999, 0.5, 2.0), True),
-    (BELOW, (1.0, 1.0, 1.0), False),
-    (ABOVE, (1.001, 1.001, 1.001), True),
-    (ABOVE, (1.0, 1.0, 9.0), False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("expected", "ours", "held"),
+    [
+        (number("0.15"), (0.160, 0.155, 0.160), True),
+        (number("0.15"), (0.160, 0.156, 0.200), False),  # its upper side is the wrong one
+        (number("0.15"), (0.140, 0.140, 0.146), True),
+        (number("0.15"), (0.140, 0.100, 0.144), False),
+        (number("0.15"), (WIDEST - 1e-9, 0.01, 1.0), True),  # wide uncertainty does not confirm
+        (number("0.15"), (WIDEST + 1e-9, 0.01, 1.0), False),
+        (BELOW, (0.999, 0.5, 2.0), True),
+        (BELOW, (1.0, 1.0, 1.0), False),
+        (ABOVE, (1.001, 1.001, 1.001), True),
+        (ABOVE, (1.0, 1.0, 9.0), False),
+    ],
+)
 def test_a_range_widens_a_number_on_its_own_side_and_no_bound(expected, ours, held):
     assert holds(expected, between(*ours)) is held
 
@@ -91,15 +97,18 @@ def test_words_are_intervals_with_a_reading():
         read({"figure": 3})
 
 
-@pytest.mark.parametrize(("expected", "worst", "low", "high"), [
-    (words("computed"), 0.9, 0.9, 1.05),
-    (words("small variation"), 1.05, 0.9, 1.05),
-    (number("1.1"), 0.9, 0.9, 1.05),
-    (formula(1.0), 0.9, 0.9, 0.9),
-    (ABOVE, 0.9, 0.9, 1.05),
-    (BELOW, 1.05, 0.9, 1.05),
-    (read({"reading": "good"}), 0.9, 0.9, 1.05),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("expected", "worst", "low", "high"),
+    [
+        (words("computed"), 0.9, 0.9, 1.05),
+        (words("small variation"), 1.05, 0.9, 1.05),
+        (number("1.1"), 0.9, 0.9, 1.05),
+        (formula(1.0), 0.9, 0.9, 0.9),
+        (ABOVE, 0.9, 0.9, 1.05),
+        (BELOW, 1.05, 0.9, 1.05),
+        (read({"reading": "good"}), 0.9, 0.9, 1.05),
+    ],
+)
 def test_the_least_favourable_of_several_numbers_is_judged(expected, worst, low, high):
     assert least_favourable(expected, [0.9, 1.05, 1.0]) == (worst, low, high)
     assert least_favourable(expected, 0.9) == between(0.9)
@@ -114,22 +123,25 @@ THIRTEEN = number("13")
 GOOD, BAD = 12.8, 18.9
 
 
-@pytest.mark.parametrize(("result", "verdict", "words_of_reason"), [
-    (Result(GOOD), Verdict.REPLICATED, "12.8 is within 12.5 to 13.5."),
-    (Result(between(13.6, 13.4)), Verdict.WIDENED, "outside 12.5 to 13.5, but by less"),
-    (Result(GOOD, papers=BAD), Verdict.REPLICATED, "On its mesh it does not hold, with 18.9"),
-    (Result(BAD), Verdict.NOT_REPLICATED, "18.9 is outside 12.5 to 13.5."),
-    (Result(BAD, papers=GOOD), Verdict.NOT_REPLICATED, "On its mesh it holds, with 12.8"),
-    (Result(BAD, explained=(GOOD, "Why.")), Verdict.EXPLAINED, "Why."),
-    (Result(BAD, explained=(BAD, "Why.")), Verdict.NOT_REPLICATED, "outside"),
-    (Result(GOOD, explained=(BAD, "Why.")), Verdict.REPLICATED, "within"),
-    (Result(math.nan), Verdict.UNCHECKED, "no such event"),
-    (Result(between(0.9, 0.8, 1.1), BELOW), Verdict.REPLICATED, "across the bound, 1."),
-    (Result(between(1.05, 0.9, 1.1), BELOW), Verdict.NOT_REPLICATED, "the bound, 1."),
-    (Result(BAD, explained=(math.nan, "Why.")), Verdict.NOT_REPLICATED, "outside"),
-    (Result(-99.0, words("expected")), Verdict.NOT_SUPPORTED, "within 25 % of one"),
-    (Result(-99.0, words("small variation")), Verdict.NOT_REPLICATED, "10 %"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("result", "verdict", "words_of_reason"),
+    [
+        (Result(GOOD), Verdict.REPLICATED, "12.8 is within 12.5 to 13.5."),
+        (Result(between(13.6, 13.4)), Verdict.WIDENED, "outside 12.5 to 13.5, but by less"),
+        (Result(GOOD, papers=BAD), Verdict.REPLICATED, "On its mesh it does not hold, with 18.9"),
+        (Result(BAD), Verdict.NOT_REPLICATED, "18.9 is outside 12.5 to 13.5."),
+        (Result(BAD, papers=GOOD), Verdict.NOT_REPLICATED, "On its mesh it holds, with 12.8"),
+        (Result(BAD, explained=(GOOD, "Why.")), Verdict.EXPLAINED, "Why."),
+        (Result(BAD, explained=(BAD, "Why.")), Verdict.NOT_REPLICATED, "outside"),
+        (Result(GOOD, explained=(BAD, "Why.")), Verdict.REPLICATED, "within"),
+        (Result(math.nan), Verdict.UNCHECKED, "no such event"),
+        (Result(between(0.9, 0.8, 1.1), BELOW), Verdict.REPLICATED, "across the bound, 1."),
+        (Result(between(1.05, 0.9, 1.1), BELOW), Verdict.NOT_REPLICATED, "the bound, 1."),
+        (Result(BAD, explained=(math.nan, "Why.")), Verdict.NOT_REPLICATED, "outside"),
+        (Result(-99.0, words("expected")), Verdict.NOT_SUPPORTED, "within 25 % of one"),
+        (Result(-99.0, words("small variation")), Verdict.NOT_REPLICATED, "10 %"),
+    ],
+)
 def test_verdicts(result, verdict, words_of_reason):
     found, reason = judge(result.expected or THIRTEEN, result._replace(mesh="its mesh"))
     assert found == verdict

@@ -17,9 +17,14 @@ FOUND = PAIRED["two bodies, simulated"]
 def table(ratio=0.8, slope=-1.0):
     contrast = np.array([0.0, 0.1, 0.3, -0.1, -0.3])
     same = {
-        "strength": 1e-5, "kind": "normal_load", "study": "pairs", "seed": 0,
-        "length": 0.5 * ratio, "stability_ratio": 0.5, "poisson_ratio": 1.0 / 3.0,
-    }  # fmt: skip
+        "strength": 1e-5,
+        "kind": "normal_load",
+        "study": "pairs",
+        "seed": 0,
+        "length": 0.5 * ratio,
+        "stability_ratio": 0.5,
+        "poisson_ratio": 1.0 / 3.0,
+    }
     columns = {name: [value] * 7 for name, value in same.items()} | {
         "role": ["pairs_identical"] * 2 + ["pairs_contrast"] * 5,
         "height": [0.01, *[1.0] * 6],
@@ -57,10 +62,18 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
     same = {
-        "id": name, "shear_modulus": mu, "poisson_ratio": nu[0], "second_poisson_ratio": nu[1],
-        "friction": f, "a": a, "zeta": zeta, "slip_distance": ell, "velocity": v,
-        "normal_stress": sigma0, "mode_wavenumber": k,
-    }  # fmt: skip
+        "id": name,
+        "shear_modulus": mu,
+        "poisson_ratio": nu[0],
+        "second_poisson_ratio": nu[1],
+        "friction": f,
+        "a": a,
+        "zeta": zeta,
+        "slip_distance": ell,
+        "velocity": v,
+        "normal_stress": sigma0,
+        "mode_wavenumber": k,
+    }
     found = {name: ("run", np.array([value] * 2)) for name, value in same.items()}
     found["second_shear_modulus"] = "run", psi * mu
     found["measured_growth"] = ("run", "branch"), rates.real
@@ -73,11 +86,14 @@ def judged(name, table=None, modes_=None):
     return table_of_claims.evaluate_one(name, FOUND[name], evidence)
 
 
-@pytest.mark.parametrize(("factors", "verdict", "reach"), [
-    ((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
-    ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
-    ((0.99, 1.0, 1.01), "replicated", None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("factors", "verdict", "reach"),
+    [
+        ((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
+        ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
+        ((0.99, 1.0, 1.01), "replicated", None),
+    ],
+)
 def test_the_mean_of_the_realisations_decides_for_any_range(factors, verdict, reach):
     row = judged("pairs-half-spaces", repeated(table(0.77), factors))
     assert row["verdict"] == verdict
@@ -102,11 +118,14 @@ def test_contrast_has_to_shorten(slope, verdict):
     assert judged("pairs-smaller", table(1.2, slope=0.2))["verdict"] == "not supported"
 
 
-@pytest.mark.parametrize(("factors", "verdicts"), [
-    ((1.005, 0.995), ("replicated", "replicated")),
-    ((1.02, 1.0), ("not replicated", "replicated")),
-    ((1.0, -1.0), ("replicated", "not replicated")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("factors", "verdicts"),
+    [
+        ((1.005, 0.995), ("replicated", "replicated")),
+        ((1.02, 1.0), ("not replicated", "replicated")),
+        ((1.0, -1.0), ("replicated", "not replicated")),
+    ],
+)
 def test_the_response_of_half_spaces_is_read_from_the_rates(factors, verdicts):
     for name, factor, verdict in zip(("pairs-g1", "pairs-g2"), factors, verdicts, strict=True):
         row = judged(name, modes_=modes(*factors))

@@ -12,9 +12,13 @@ from nucleation.datasets import netcdf
 from nucleation.datasets.variables import annotate
 
 GOOD = {
-    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
-    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um",
-}  # fmt: skip
+    "--shear-modulus": "30GPa",
+    "--poisson-ratio": "0.25",
+    "--normal-stress": "50MPa",
+    "--a": "0.010",
+    "--b": "0.015",
+    "--slip-distance": "5um",
+}
 
 
 def length(**changes):
@@ -86,10 +90,14 @@ def directory(tmp_path_factory):
     """Files that command lines name."""
     folder = tmp_path_factory.mktemp("files")
     texts = {
-        "there.nc": "", "file": "no netCDF", "list.yaml": "- 1\n", "broken.yaml": "a: [1\n",
-        "unknown.yaml": "heigth: 5mm\n", "twice.yaml": "height: 1\nheight: 2\n",
+        "there.nc": "",
+        "file": "no netCDF",
+        "list.yaml": "- 1\n",
+        "broken.yaml": "a: [1\n",
+        "unknown.yaml": "heigth: 5mm\n",
+        "twice.yaml": "height: 1\nheight: 2\n",
         "other.yaml": "xyzzy: 1.0\n",
-    }  # fmt: skip
+    }
     for name, text in texts.items():
         (folder / name).write_text(text)
     curve = ("height", np.ones(2))

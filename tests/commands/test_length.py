@@ -14,9 +14,20 @@ from nucleation.lengths.formulas import TWO_MATERIALS
 from nucleation.lengths.in_use import LENGTHS
 
 WORDS = [
-    "length", "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa",
-    "--a", "0.010", "--b", "0.015", "--slip-distance", "5um",
-]  # fmt: skip
+    "length",
+    "--shear-modulus",
+    "30GPa",
+    "--poisson-ratio",
+    "0.25",
+    "--normal-stress",
+    "50MPa",
+    "--a",
+    "0.010",
+    "--b",
+    "0.015",
+    "--slip-distance",
+    "5um",
+]
 FAULT = asked.ROCK
 
 
@@ -82,14 +93,17 @@ OTHER = {"second_shear_modulus": 60e9, "second_poisson_ratio": 0.3}
 SIDES = {"far_side": "free", "second_far_side": "clamped"}
 
 
-@pytest.mark.parametrize(("options", "own"), [
-    ("--second-body rigid", {"second_shear_modulus": math.inf}),
-    ("--second-shear-modulus 60GPa --second-poisson-ratio 0.3", OTHER),
-    ("--second-body deformable --second-height 20cm", {"second_height": 0.2}),
-    ("--far-side velocity", {"far_side": "velocity"}),
-    ("--far-side free --second-far-side clamped", SIDES),
-    ("--plane stress", {"plane": "stress"}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("options", "own"),
+    [
+        ("--second-body rigid", {"second_shear_modulus": math.inf}),
+        ("--second-shear-modulus 60GPa --second-poisson-ratio 0.3", OTHER),
+        ("--second-body deformable --second-height 20cm", {"second_height": 0.2}),
+        ("--far-side velocity", {"far_side": "velocity"}),
+        ("--far-side free --second-far-side clamped", SIDES),
+        ("--plane stress", {"plane": "stress"}),
+    ],
+)
 def test_faults_of_all_kinds(found, options, own):
     told = found("--friction", "0.6", "--height", "30 cm", *options.split())
     expected = asked.critical_length(**FAULT, friction=0.6, height=0.3, **own)

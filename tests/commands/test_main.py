@@ -39,11 +39,14 @@ def test_completion():
     assert "--shear-modulus" in complete("length", "--sh")
 
 
-@pytest.mark.parametrize(("error", "code", "words"), [
-    (OSError(28, "No space left", "run.nc"), 2, "Error: run.nc: No space left\n"),
-    (MemoryError(), 2, "Error: not enough memory\n"),
-    (KeyboardInterrupt(), commands.INTERRUPTED, "\nInterrupted\n"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        (OSError(28, "No space left", "run.nc"), 2, "Error: run.nc: No space left\n"),
+        (MemoryError(), 2, "Error: not enough memory\n"),
+        (KeyboardInterrupt(), commands.INTERRUPTED, "\nInterrupted\n"),
+    ],
+)
 def test_what_the_system_refuses(nucleation, monkeypatch, error, code, words):
     def failing(*_, **__):
         raise error
@@ -57,8 +60,11 @@ def test_what_the_system_refuses(nucleation, monkeypatch, error, code, words):
 def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
     ended = subprocess.run(
         f"{shlex.join(program)} simulate --help | head -1",
-        shell=True, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        shell=True,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert ended.stdout.startswith("Usage") and ended.stderr == ""
 
 
@@ -96,9 +102,21 @@ def test_exit_codes_of_the_page():
 
 
 GRANITE = (
-    "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--a", "0.010", "--b", "0.015",
-    "--slip-distance", "5um", "--height", "20cm", "--normal-stress", "50MPa",
-)  # fmt: skip
+    "--shear-modulus",
+    "30GPa",
+    "--poisson-ratio",
+    "0.25",
+    "--a",
+    "0.010",
+    "--b",
+    "0.015",
+    "--slip-distance",
+    "5um",
+    "--height",
+    "20cm",
+    "--normal-stress",
+    "50MPa",
+)
 MOVED = ("--velocity", "1mm/yr", "--friction", "0.6")
 RANGE = ("--poisson-ratio", "0.25 (0.2 to 0.3)", "--draws", "20")
 COMMANDS = {

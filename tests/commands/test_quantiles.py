@@ -68,11 +68,14 @@ def test_a_fault_that_is_stable_in_all_draws(nucleation):
     assert "40 of the others stable" in ended.out
 
 
-@pytest.mark.parametrize("words, message", [
-    ([*ROCK, "--poisson-ratio", ".25"], "zeta or b = a . zeta is needed"),
-    ([*WORDS, "--width", "2m"], "width is not allowed beside ranges"),
-    ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        ([*ROCK, "--poisson-ratio", ".25"], "zeta or b = a . zeta is needed"),
+        ([*WORDS, "--width", "2m"], "width is not allowed beside ranges"),
+        ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
+    ],
+)
 def test_what_is_refused(nucleation, words, message):
     ended = nucleation(*words, *DRAWN)
     assert ended.code == 2

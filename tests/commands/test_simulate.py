@@ -18,9 +18,19 @@ from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate
 
 SMALL = [
-    "--height", "5mm", "--block-length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms",
-    "--second-body", "rigid",
-]  # fmt: skip
+    "--height",
+    "5mm",
+    "--block-length",
+    "90cm",
+    "--n-x",
+    "16",
+    "--n-y",
+    "2",
+    "--end-time",
+    "20ms",
+    "--second-body",
+    "rigid",
+]
 PARAMETERS = PAPER_RUN.replaced(height=0.005, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
 
 
@@ -137,8 +147,21 @@ def test_a_specimen_shorter_than_the_theory_s_length_is_simulated(nucleation, tm
 @pytest.mark.slow
 def test_a_run_without_an_end_time_has_its_event(nucleation, tmp_path):
     output = tmp_path / "run.nc"
-    words = ["--height", "5mm", "--n-x", "60", "--n-y", "4", "--tolerance", "0.1",
-             "--longest-step", "0.3", "--json", "--second-body", "rigid"]  # fmt: skip
+    words = [
+        "--height",
+        "5mm",
+        "--n-x",
+        "60",
+        "--n-y",
+        "4",
+        "--tolerance",
+        "0.1",
+        "--longest-step",
+        "0.3",
+        "--json",
+        "--second-body",
+        "rigid",
+    ]
     ended = nucleation("simulate", output, *words)
     told = json.loads(ended.out)
     assert told["status"].startswith("completed: the event")

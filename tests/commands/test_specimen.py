@@ -6,12 +6,33 @@ import asked
 import pytest
 
 WORDS = [
-    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa",
-    "--poisson-ratio", "0.35", "--a", "0.0068", "--zeta", "0.016", "--slip-distance",
-    "0.5um", "--plane", "stress",
-]  # fmt: skip
-FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.0068, "zeta": 0.016,
-         "slip_distance": 5e-7, "plane": "stress"}  # fmt: skip
+    "specimen",
+    "--length",
+    "20cm",
+    "--height",
+    "10cm",
+    "--shear-modulus",
+    "3.1GPa",
+    "--poisson-ratio",
+    "0.35",
+    "--a",
+    "0.0068",
+    "--zeta",
+    "0.016",
+    "--slip-distance",
+    "0.5um",
+    "--plane",
+    "stress",
+]
+FAULT = {
+    "height": 0.1,
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 0.35,
+    "a": 0.0068,
+    "zeta": 0.016,
+    "slip_distance": 5e-7,
+    "plane": "stress",
+}
 
 
 @pytest.mark.slow
@@ -41,10 +62,26 @@ def test_other_unknowns(nucleation):
 
 def test_several_intervals_and_none(nucleation):
     contrast = [
-        "specimen", "--length", "20", "--poisson-ratio", "0.2", "--a", "0.01", "--friction", "0.8",
-        "--slip-distance", "0.01um", "--normal-stress", "100MPa", "--second-shear-modulus", "10GPa",
-        "--find", "shear_modulus", "--shear-modulus", "10GPa",
-    ]  # fmt: skip
+        "specimen",
+        "--length",
+        "20",
+        "--poisson-ratio",
+        "0.2",
+        "--a",
+        "0.01",
+        "--friction",
+        "0.8",
+        "--slip-distance",
+        "0.01um",
+        "--normal-stress",
+        "100MPa",
+        "--second-shear-modulus",
+        "10GPa",
+        "--find",
+        "shear_modulus",
+        "--shear-modulus",
+        "10GPa",
+    ]
     ended = nucleation(*contrast, "--zeta=-1e-4")
     assert ended.code == 0 and "it does not nucleate: sliding is stable" in ended.out
     assert "shear_modulus < 1.952 GPa\n  shear_modulus > 51.24 GPa" in ended.out
@@ -65,19 +102,39 @@ def test_a_specimen_that_is_too_short_at_every_value(nucleation):
 
 
 PLATES = [
-    "--height", "10cm", "--plane", "stress", "--shear-modulus", "3.1GPa",
-    "--poisson-ratio", "0.33", "--a", "0.0068", "--zeta", "0.0156", "--slip-distance", "0.5um",
-    "--normal-stress", "1MPa", "--friction", ".41", "--velocity", "10um/s",
-]  # fmt: skip
+    "--height",
+    "10cm",
+    "--plane",
+    "stress",
+    "--shear-modulus",
+    "3.1GPa",
+    "--poisson-ratio",
+    "0.33",
+    "--a",
+    "0.0068",
+    "--zeta",
+    "0.0156",
+    "--slip-distance",
+    "0.5um",
+    "--normal-stress",
+    "1MPa",
+    "--friction",
+    ".41",
+    "--velocity",
+    "10um/s",
+]
 
 
-@pytest.mark.parametrize(("length", "criterion", "verdict"), [
-    ("25", "critical", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the"),
-    ("20", "critical", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
-    ("15", "critical", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
-    ("15", "stability", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
-    ("12", "critical", "blocks of one simulated fault had events from 0.7 L_s on"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("length", "criterion", "verdict"),
+    [
+        ("25", "critical", "it nucleates: L_s is 0.1675 m, 0.67 of the specimen, and L at the"),
+        ("20", "critical", "it can nucleate: L_s is 0.1675 m, 0.838 of the specimen"),
+        ("15", "critical", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
+        ("15", "stability", "whether it nucleates is not known: L_s is 0.1675 m, 1.12 of the"),
+        ("12", "critical", "blocks of one simulated fault had events from 0.7 L_s on"),
+    ],
+)
 def test_a_simulated_event_is_not_denied(nucleation, length, criterion, verdict):
     """Blocks of these lengths had events of .13 to .36 m/s; L_c, .32 m, denied all of them."""
     ended = nucleation("specimen", "--length", f"{length}cm", *PLATES, "--criterion", criterion)

@@ -9,11 +9,19 @@ from nucleation.api import PAPER
 from nucleation.run.run import PAPER_RUN
 
 FAULT = {
-    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
-    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
-    "--velocity": "10um/s", "--height": "2m", "--second-shear-modulus": "20GPa",
-    "--second-poisson-ratio": "0.3", "--second-height": "3m",
-}  # fmt: skip
+    "--shear-modulus": "30GPa",
+    "--poisson-ratio": "0.25",
+    "--normal-stress": "50MPa",
+    "--a": "0.010",
+    "--b": "0.015",
+    "--slip-distance": "5um",
+    "--friction": "0.6",
+    "--velocity": "10um/s",
+    "--height": "2m",
+    "--second-shear-modulus": "20GPa",
+    "--second-poisson-ratio": "0.3",
+    "--second-height": "3m",
+}
 QUIET = ("--perturbation", "none")  # so that no length at the drop is worked out
 
 
@@ -65,11 +73,21 @@ def test_one_file_for_all_commands(nucleation, tmp_path):
     lines = [f"{k[2:].replace('-', '_')}: {v}" for k, v in FAULT.items()]
     lines += ["second_body: deformable", "friction_law: dieterich_ruina", "n_x: 200"]
     (file := tmp_path / "fault.yaml").write_text("\n".join(lines) + "\n")
-    expected = float(critical_length(
-        shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.01, b=0.015,
-        slip_distance=5e-6, friction=0.6, height=2.0, second_shear_modulus=20e9,
-        second_poisson_ratio=0.3, second_height=3.0,
-    ))  # fmt: skip
+    expected = float(
+        critical_length(
+            shear_modulus=30e9,
+            poisson_ratio=0.25,
+            normal_stress=50e6,
+            a=0.01,
+            b=0.015,
+            slip_distance=5e-6,
+            friction=0.6,
+            height=2.0,
+            second_shear_modulus=20e9,
+            second_poisson_ratio=0.3,
+            second_height=3.0,
+        )
+    )
     for command in (("length", *QUIET), ("simulate", tmp_path / "run.nc", "--dry-run")):
         ended = nucleation(*command, "--parameters", file, "--json")
         assert theory(ended) == pytest.approx(expected, rel=1e-3), ended.err

@@ -67,12 +67,23 @@ def test_round_off_of_steady_sliding_is_no_age():
 )
 def test_a_patch_may_weaken_in_a_fault_that_strengthens(varies, change, warned):
     defaults = {
-        "block_length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
-        "loading": "remote", "stress_rate": 1e-3, "second_body": "deformable",
-        "friction_law": "dieterich_ruina", "friction": 0.4, "a": 0.0068,
-        "zeta": -0.0034, "end_time": 10.0,
-        "heterogeneity": varies, "shape": "step", "width": 1.2, "change": change,
-    }  # fmt: skip
+        "block_length": 12.0,
+        "n_x": 201,
+        "n_y": 16,
+        "grading": 64.0,
+        "loading": "remote",
+        "stress_rate": 1e-3,
+        "second_body": "deformable",
+        "friction_law": "dieterich_ruina",
+        "friction": 0.4,
+        "a": 0.0068,
+        "zeta": -0.0034,
+        "end_time": 10.0,
+        "heterogeneity": varies,
+        "shape": "step",
+        "width": 1.2,
+        "change": change,
+    }
     given = advice({"height": 1.0}, defaults=defaults)
     assert any("nothing will nucleate" in text for text in given) == warned
 

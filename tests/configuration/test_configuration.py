@@ -191,10 +191,16 @@ def test_the_theory_follows_the_friction_law(friction, interface):
     if interface == "main_text":
         friction, a, zeta = (float(f"{value:.2g}") for value in (friction, a, zeta))
     own = Fault(
-        shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio, height=0.005,
-        second_shear_modulus=math.inf, normal_stress=1e6, a=a, zeta=zeta,
-        friction=friction, slip_distance=law.slip_distance,
-    )  # fmt: skip
+        shear_modulus=material.shear_modulus,
+        poisson_ratio=material.poisson_ratio,
+        height=0.005,
+        second_shear_modulus=math.inf,
+        normal_stress=1e6,
+        a=a,
+        zeta=zeta,
+        friction=friction,
+        slip_distance=law.slip_distance,
+    )
     assert run.critical_length == pytest.approx(own.critical_length(), rel=1e-12)
 
 

@@ -47,9 +47,16 @@ def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
     (run,) = runs_of({"height": 0.02, "second_body": "deformable", **own})
     friction = run.run.law.expansion(1e-5)
     expected = Fault(
-        shear_modulus=3.1e9, poisson_ratio=1 / 3, height=0.02, friction=friction.f0, a=friction.a,
-        zeta=friction.zeta, slip_distance=5e-7, normal_stress=1e6, **own,
-    ).critical_length()  # fmt: skip
+        shear_modulus=3.1e9,
+        poisson_ratio=1 / 3,
+        height=0.02,
+        friction=friction.f0,
+        a=friction.a,
+        zeta=friction.zeta,
+        slip_distance=5e-7,
+        normal_stress=1e6,
+        **own,
+    ).critical_length()
     assert run.critical_length == pytest.approx(float(expected), rel=1e-9)
     assert run.run.block.length == pytest.approx(6 * run.critical_length, rel=1e-3)
 
@@ -69,9 +76,14 @@ def test_estimates_go_with_the_softer_body():
 
 
 SI = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "density": 2650.0, "velocity": 1e-6,
-    "height": 0.02, "normal_stress": 5e7, "slip_distance": 5e-6,
-}  # fmt: skip
+    "shear_modulus": 30e9,
+    "poisson_ratio": 0.25,
+    "density": 2650.0,
+    "velocity": 1e-6,
+    "height": 0.02,
+    "normal_stress": 5e7,
+    "slip_distance": 5e-6,
+}
 
 
 def test_units_are_read_wherever_a_parameter_stands(tmp_path):

@@ -62,8 +62,12 @@ def test_files_follow_the_conventions(make, tmp_path):
         str(path), ["cf:1.11"], 0, "normal", output_filename=str(report), output_format="json"
     )
     (found,) = json.loads(report.read_text()).values()
-    messages = [text for part in ("high_priorities", "medium_priorities") for check in found[part]
-                for text in check["msgs"]]  # fmt: skip
+    messages = [
+        text
+        for part in ("high_priorities", "medium_priorities")
+        for check in found[part]
+        for text in check["msgs"]
+    ]
     assert [text for text in messages if not text.startswith(NAMED_BY_CLIMATE)] == []
 
 

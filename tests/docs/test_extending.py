@@ -24,10 +24,15 @@ PAGE = ROOT / "docs" / "extending.md"
 
 def run(arguments, checkout):
     done = subprocess.run(
-        [sys.executable, "-m", *arguments], cwd=checkout, stdin=subprocess.DEVNULL, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=600,
+        [sys.executable, "-m", *arguments],
+        cwd=checkout,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=600,
         env={**os.environ, "PYTHONPATH": str(checkout / "src")},
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stdout
     return done.stdout
 

@@ -27,8 +27,15 @@ def test_numbers_have_a_place_a_unit_and_a_range(name):
     fault = FAULTS[name]
     assert {"title", "material", "source", "read"} <= fault.keys()
     assert not fault.keys() - {
-        "title", "material", "source", "read", "says", "plane", "measured", "assumed",
-    }  # fmt: skip
+        "title",
+        "material",
+        "source",
+        "read",
+        "says",
+        "plane",
+        "measured",
+        "assumed",
+    }
     read = [*fault.get("measured", {}).values(), *fault.get("assumed", {}).values()]
     assert not (read and fault["read"] == "not read")
     for numbers in read:

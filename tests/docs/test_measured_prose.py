@@ -190,9 +190,14 @@ def test_length_of_instability_over_the_weakening():
 def between_half_spaces(weakening, a=0.0068):
     """L_s/L_c of the paper's material between identical half-spaces."""
     fault = {
-        "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "friction": 0.41, "a": a,
-        "b": a * (1.0 + weakening), "slip_distance": 5e-7, "normal_stress": 1e6,
-    }  # fmt: skip
+        "shear_modulus": 3.1e9,
+        "poisson_ratio": 1 / 3,
+        "friction": 0.41,
+        "a": a,
+        "b": a * (1.0 + weakening),
+        "slip_distance": 5e-7,
+        "normal_stress": 1e6,
+    }
     return float(stability_length(**fault)) / float(critical_length(**fault))
 
 
@@ -262,10 +267,13 @@ def test_choices_that_move_the_result():
     widest = (runs["length_low_start"] / runs["length_high_start"] - 1.0).max()
     assert (runs["largest_normal_stress_ever"] / runs["normal_stress"]).max() < -0.63
     block = {
-        "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "slip_distance": 5e-7,
-        "normal_stress": 1e6, "second_shear_modulus": np.inf,
+        "shear_modulus": 3.1e9,
+        "poisson_ratio": 1 / 3,
+        "slip_distance": 5e-7,
+        "normal_stress": 1e6,
+        "second_shear_modulus": np.inf,
         "height": np.sort(runs["height"].unique()),
-    }  # fmt: skip
+    }
     f, a, zeta = Friction(law="product").expansion(1e-5)
     exact = critical_length(**block, friction=f, a=a, zeta=zeta)
     higher = exact / critical_length(**block, friction=0.41, a=0.0068, zeta=0.016) - 1.0

@@ -27,9 +27,15 @@ NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 def run(arguments, **options):
     done = subprocess.run(
-        arguments, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, text=True, timeout=600, **options,
-    )  # fmt: skip
+        arguments,
+        cwd=ROOT,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=600,
+        **options,
+    )
     assert done.returncode == 0, f"{shlex.join(map(str, arguments))}\n{done.stdout}"
     return done.stdout
 
@@ -129,8 +135,21 @@ def test_targets(tmp_path):
     for mine, targets in targets_by_configuration().items():
         config = tmp_path / "my.yaml"
         config.write_text(mine or (ROOT / "config" / "quick.yaml").read_text())
-        run([sys.executable, "-m", "snakemake", *targets, "--dry-run", "--quiet", "rules",
-             "--directory", tmp_path, "--configfile", config])  # fmt: skip
+        run(
+            [
+                sys.executable,
+                "-m",
+                "snakemake",
+                *targets,
+                "--dry-run",
+                "--quiet",
+                "rules",
+                "--directory",
+                tmp_path,
+                "--configfile",
+                config,
+            ]
+        )
 
 
 @pytest.mark.system

@@ -32,9 +32,14 @@ def site(tmp_path_factory):
     built = tmp_path_factory.mktemp("site")
     options = recipe.replace("docs/_build/html", str(built)).split()
     done = subprocess.run(
-        [sys.executable, "-m", "sphinx", *options], cwd=ROOT, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1500,
-    )  # fmt: skip
+        [sys.executable, "-m", "sphinx", *options],
+        cwd=ROOT,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=1500,
+    )
     assert done.returncode == 0, done.stdout
     return built
 
@@ -154,13 +159,15 @@ def random_faults(number, bodies, seed):
     for _ in range(number):
         a = random.uniform(0.002, 0.006)
         fault = {
-            "shear_modulus": 10.0 ** random.uniform(9, 11), "a": a,
+            "shear_modulus": 10.0 ** random.uniform(9, 11),
+            "a": a,
             "b": a * (1.0 + 0.4 * 100.0 ** random.uniform(0.05, 0.95)),
             "poisson_ratio": random.uniform(0.0, 0.49),
-            "normal_stress": 10.0 ** random.uniform(6, 8), "friction": random.uniform(0.05, 0.9),
+            "normal_stress": 10.0 ** random.uniform(6, 8),
+            "friction": random.uniform(0.05, 0.9),
             "slip_distance": 10.0 ** random.uniform(-6, -4),
             "height": random.choice([np.inf, 10.0 ** random.uniform(-2, 2)]),
-        }  # fmt: skip
+        }
         if bodies == "rigid":
             fault["second_shear_modulus"] = np.inf
         if bodies == "other":

@@ -15,9 +15,18 @@ from nucleation.theory.status import NoLength
 THEORY = 0.4509  # m
 FAULT = PAPER_RUN.replaced(height=0.02, block_length=2.7, perturbation="normal_load", strength=1e-5)
 GRANITE = FAULT.replaced(
-    shear_modulus=3e10, poisson_ratio=0.25, density=2700.0, slip_distance=2e-6, friction=0.65,
-    a=0.008, zeta=0.004, normal_stress=5e6, velocity=1e-6, height=1.0, block_length=60.0,
-)  # fmt: skip
+    shear_modulus=3e10,
+    poisson_ratio=0.25,
+    density=2700.0,
+    slip_distance=2e-6,
+    friction=0.65,
+    a=0.008,
+    zeta=0.004,
+    normal_stress=5e6,
+    velocity=1e-6,
+    height=1.0,
+    block_length=60.0,
+)
 
 
 def test_drop_follows_loss_of_stability():
@@ -60,29 +69,29 @@ def test_slow_slip_by_a_law_with_scales_near_the_imposed_velocity():
     assert found.low < 13.7 < found.high
 
 
-@pytest.mark.parametrize(("fault", "said"), [
-    (FAULT.replaced(strength=0.1), "bursts"),
-    (FAULT.replaced(block_length=0.5), "the block's far end"),
-    (FAULT.replaced(strength=1e-60, block_length=20.0), "beyond"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("fault", "said"),
+    [
+        (FAULT.replaced(strength=0.1), "bursts"),
+        (FAULT.replaced(block_length=0.5), "the block's far end"),
+        (FAULT.replaced(strength=1e-60, block_length=20.0), "beyond"),
+    ],
+)
 def test_what_is_not_trusted(fault, said):
     found = expected_drop(fault)
     assert said in found.doubt
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("ratio", "height", "simulated"), [
-    (0.3, 0.02, 1.302),
-    (0.5, 0.02, 1.075),
-    (0.8, 0.02, 0.891),
-    (1.5, 0.02, 0.758),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ratio", "height", "simulated"),
+    [(0.3, 0.02, 1.302), (0.5, 0.02, 1.075), (0.8, 0.02, 0.891), (1.5, 0.02, 0.758)],
+)
 def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulated):
     """Simulations on 600 elements in blocks of 3 L_c, load 1e-4, means of two; lengths over L_c."""
     law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
     fault = with_parts(
-        FAULT.replaced(height=height),
-        law=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio),
+        FAULT.replaced(height=height), law=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
     )
     critical = fault.critical_length
     fault = fault.replaced(block_length=6.0 * critical)
@@ -108,15 +117,18 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     assert "with a mode that could be followed" in found.doubt
 
 
-@pytest.mark.parametrize(("change", "error", "said"), [
-    ({"aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
-    ({"strength": 0.0}, NoLength, "nothing is perturbed"),
-    (
-        {"loading": "remote", "stress_rate": 1e5},
-        ParameterError,
-        "measure = stability gives L_s of other",
-    ),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("change", "error", "said"),
+    [
+        ({"aging_coefficient": 0.0}, NoLength, "friction grows with slip rate"),
+        ({"strength": 0.0}, NoLength, "nothing is perturbed"),
+        (
+            {"loading": "remote", "stress_rate": 1e5},
+            ParameterError,
+            "measure = stability gives L_s of other",
+        ),
+    ],
+)
 def test_what_the_law_does_not_know(change, error, said):
     with pytest.raises(error, match=said):
         expected_drop(FAULT.replaced(**change))

@@ -108,11 +108,14 @@ def test_a_force_that_a_rupture_raises_is_past_its_onset(ruptured):
     assert onset.start <= onset.steep <= onset.end == force.size - 1
 
 
-@pytest.mark.parametrize(("falls", "steep"), [
-    ([0.05, 0.05, 0.15, 0.9], 6),  # the first fall by more than the load has risen in a step
-    ([0.05, 0.05, 0.9], 6),  # the last fall counts
-    ([0.09, 0.09, 0.09, 0.09, 0.9], 4),  # only falls up to the end of the drop count
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("falls", "steep"),
+    [
+        ([0.05, 0.05, 0.15, 0.9], 6),  # the first fall by more than the load has risen in a step
+        ([0.05, 0.05, 0.9], 6),  # the last fall counts
+        ([0.09, 0.09, 0.09, 0.09, 0.9], 4),  # only falls up to the end of the drop count
+    ],
+)
 def test_the_steep_part_falls_faster_than_loading_has_raised_the_force(falls, steep):
     """The force rises by 0.1 in a step up to the maximum, 1.4, which is step 4."""
     rises = 1.0 + 0.1 * np.arange(5)

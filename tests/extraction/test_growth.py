@@ -123,10 +123,18 @@ def test_table_compares_with_the_reference_study():
 LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
 WEAK = Heterogeneity(varies="friction", change=-0.8, width=0.25)
 LOADED = PAPER_RUN.replaced(
-    loading="remote", stress_rate=1e5, initial_state=0.01, initial_stress="uniform_shear",
-    initial_shear_stress=7.5e4, height=0.1, block_length=1.2, n_x=161, n_y=6, grading=4.0,
-    second_body="deformable"
-)  # fmt: skip
+    loading="remote",
+    stress_rate=1e5,
+    initial_state=0.01,
+    initial_stress="uniform_shear",
+    initial_shear_stress=7.5e4,
+    height=0.1,
+    block_length=1.2,
+    n_x=161,
+    n_y=6,
+    grading=4.0,
+    second_body="deformable",
+)
 
 
 def test_a_patch_in_the_interior_turns_unstable_where_theory_says():

@@ -152,11 +152,16 @@ def test_spectrum_equals_that_of_differences(friction, patch):
         p, normal = base + p[nodes - 1], FORCE[nodes] + normal[nodes]
         v = np.array(
             [
-                brentq(lambda v, i=i: p[i] + friction.coefficient(v, np.exp(psi[i])) * normal[i],
-                       1e-14, 1.0, xtol=1e-22, rtol=1e-14)
+                brentq(
+                    lambda v, i=i: p[i] + friction.coefficient(v, np.exp(psi[i])) * normal[i],
+                    1e-14,
+                    1.0,
+                    xtol=1e-22,
+                    rtol=1e-14,
+                )
                 for i in range(n)
             ]
-        )  # fmt: skip
+        )
         return np.append(v, friction.state_rate(v, np.exp(psi)) * np.exp(-psi))
 
     steps = np.append(np.full(n, 1e-12), np.full(n, 1e-6))

@@ -41,12 +41,18 @@ CONFIG = {
     "studies": {
         "faults": {
             "length_over_critical": 4.0,
-            "defaults": {"n_x": 60, "n_y": 4, "grading": 2.0, "time_after_event": 0.01,
-                         "tolerance": 0.1, "longest_step": 0.2},
+            "defaults": {
+                "n_x": 60,
+                "n_y": 4,
+                "grading": 2.0,
+                "time_after_event": 0.01,
+                "tolerance": 0.1,
+                "longest_step": 0.2,
+            },
             "runs": [{"height": [0.02, 0.1]}],
         }
     }
-}  # fmt: skip
+}
 OTHER = {**CONFIG, "friction": {"aging_coefficient": 0.08}}
 """The same runs with other parameters."""
 

@@ -49,9 +49,12 @@ class Running:
     started: ClassVar[list[Running]] = []
 
     def __init__(
-        self, command: list[str], directory: Path, prepare: Callable[[], object] | None = None,
+        self,
+        command: list[str],
+        directory: Path,
+        prepare: Callable[[], object] | None = None,
         **environment: str,
-    ) -> None:  # fmt: skip
+    ) -> None:
         def before() -> None:
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)  # a shell's background job ignores Ctrl-C
@@ -61,10 +64,15 @@ class Running:
         self._output = directory.parent / f"{directory.name}.{time.monotonic_ns()}.output"
         with self._output.open("wb") as output:
             self.process = subprocess.Popen(
-                command, cwd=directory, env={**os.environ, **ENVIRONMENT, **environment},
-                stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                start_new_session=True, preexec_fn=before,
-            )  # fmt: skip
+                command,
+                cwd=directory,
+                env={**os.environ, **ENVIRONMENT, **environment},
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                preexec_fn=before,
+            )
         self.pid = self.process.pid
         self.started.append(self)
 

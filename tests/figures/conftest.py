@@ -58,12 +58,20 @@ def lengths() -> xr.Dataset:
     factor = np.array([0.70] * 8 + [0.66, 0.67, 0.73, np.nan] + [0.83] * 2)
     length = factor * critical_length(height)
     columns = {
-        "id": [f"{s}-{k}" for k, s in enumerate(study)], "study": study, "role": study,
-        "evolution": law, "initial_state": initial_state, "height": height,
-        "ensemble": [f"{i}" for i in range(14)], "strength": [0.0] * 12 + [1e-5] * 2,
-        "onset_time": np.full(14, ONSET), "critical_length": critical_length(height),
-        "length": length, "length_low": 0.95 * length, "length_high": 1.08 * length,
-    }  # fmt: skip
+        "id": [f"{s}-{k}" for k, s in enumerate(study)],
+        "study": study,
+        "role": study,
+        "evolution": law,
+        "initial_state": initial_state,
+        "height": height,
+        "ensemble": [f"{i}" for i in range(14)],
+        "strength": [0.0] * 12 + [1e-5] * 2,
+        "onset_time": np.full(14, ONSET),
+        "critical_length": critical_length(height),
+        "length": length,
+        "length_low": 0.95 * length,
+        "length_high": 1.08 * length,
+    }
     return xr.Dataset({name: ("run", np.asarray(values)) for name, values in columns.items()})
 
 

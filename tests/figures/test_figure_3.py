@@ -23,11 +23,14 @@ def points(axes):
     return {c.get_label(): c for c in axes.containers}
 
 
-@pytest.mark.parametrize(("label", "marker", "colour", "runs"), [
-    ("FEM, aging law", "o", style.AGING, range(8)),
-    ("FEM, slip law", "^", style.SLIP, (8, 9)),
-    (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, (10,)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("label", "marker", "colour", "runs"),
+    [
+        ("FEM, aging law", "o", style.AGING, range(8)),
+        ("FEM, slip law", "^", style.SLIP, (8, 9)),
+        (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, (10,)),
+    ],
+)
 def test_points_and_error_bars(axes, lengths, label, marker, colour, runs):
     expected = lengths.isel(run=list(runs))
     line, _, (bars,) = points(axes)[label]
@@ -118,11 +121,14 @@ def test_every_law_has_a_look_of_its_own():
     assert len({(marker, colour) for *_, (marker, _, colour, _), _ in found}) == 5
 
 
-@pytest.mark.parametrize(("rows", "shown"), [
-    ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
-    ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
-    ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("rows", "shown"),
+    [
+        ([("slip", 1.0), ("aging", 1.0), ("aging", 1e3)], [("aging", 1.0)]),
+        ([("slip", 1.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 1.0)]),
+        ([("slip", 7.0), ("halfway", 1.0), ("slip", 5.0)], [("slip", 7.0), ("slip", 5.0)]),
+    ],
+)
 def test_what_is_shown_where_one_law_is(rows, shown):
     found = figure_patch.shown(table(*rows).assign(role=("run", ["own"] * 3)))
     assert list(zip(found["evolution"].values, found["initial_state"].values, strict=True)) == shown
@@ -236,11 +242,19 @@ def test_a_record_without_an_onset_is_drawn(thin):
 
 @pytest.mark.parametrize(
     ("unit_of", "largest", "shown", "name"),
-    [("force", 7.2e4, 72.0, "kN/m"), ("force", 5.0, 5.0, "N/m"), ("force", 3e7, 30.0, "MN/m"),
-     ("force", 1e-30, 1e-21, "nN/m"), ("force", 0.0, 0.0, "N/m"), ("time", 2e-3, 2.0, "ms"),
-     ("time", 16.0, 16.0, "s"), ("time", 10800.0, 3.0, "h"), ("time", 864000.0, 10.0, "days"),
-     ("time", 3.15576e8, 10.0, "years")],
-)  # fmt: skip
+    [
+        ("force", 7.2e4, 72.0, "kN/m"),
+        ("force", 5.0, 5.0, "N/m"),
+        ("force", 3e7, 30.0, "MN/m"),
+        ("force", 1e-30, 1e-21, "nN/m"),
+        ("force", 0.0, 0.0, "N/m"),
+        ("time", 2e-3, 2.0, "ms"),
+        ("time", 16.0, 16.0, "s"),
+        ("time", 10800.0, 3.0, "h"),
+        ("time", 864000.0, 10.0, "days"),
+        ("time", 3.15576e8, 10.0, "years"),
+    ],
+)
 def test_units_follow_the_size_of_the_data(unit_of, largest, shown, name):
     scale, unit = run.prefixed(largest, "N/m") if unit_of == "force" else run.time_unit(largest)
     assert scale * largest == pytest.approx(shown) and unit == name

@@ -34,10 +34,16 @@ def draw(theory, lengths, thin, thin_row, thick):
 
 
 BLACK = {
-    "figure.facecolor": "black", "axes.facecolor": "black", "savefig.facecolor": "black",
-    "text.color": "white", "axes.grid": True, "font.size": 20, "savefig.bbox": "tight",
-    "pdf.fonttype": 3, "axes.prop_cycle": mpl.cycler(color=["white"]),
-}  # fmt: skip
+    "figure.facecolor": "black",
+    "axes.facecolor": "black",
+    "savefig.facecolor": "black",
+    "text.color": "white",
+    "axes.grid": True,
+    "font.size": 20,
+    "savefig.bbox": "tight",
+    "pdf.fonttype": 3,
+    "axes.prop_cycle": mpl.cycler(color=["white"]),
+}
 
 
 def test_a_failed_write_leaves_the_old_file_alone(tmp_path, monkeypatch):

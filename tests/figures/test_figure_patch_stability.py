@@ -17,12 +17,15 @@ X = np.linspace(0.0, 1.0, 101)
 def table():
     ratio = np.array([0.50] * 5 + [0.55] * 5)
     columns = {
-        "role": ["paper"] * 5 + ["converged"] * 5, "height": HEIGHTS, "critical_length": THEORY,
+        "role": ["paper"] * 5 + ["converged"] * 5,
+        "height": HEIGHTS,
+        "critical_length": THEORY,
         "evolution": ["aging", "aging", "aging", "slip", "aging"] * 2,
-        "initial_state": [1.0, 1.0, 1.0, 1.0, 1e3] * 2, "stability_length": ratio * THEORY,
+        "initial_state": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
+        "stability_length": ratio * THEORY,
         "stability_length_low": (ratio - 0.01) * THEORY,
         "stability_length_high": (ratio + 0.02) * THEORY,
-    }  # fmt: skip
+    }
     return xr.Dataset({name: ("run", np.asarray(values)) for name, values in columns.items()})
 
 

@@ -37,8 +37,17 @@ def test_table_s1_holds_the_papers_values():
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(5e-7, "5×10⁻⁷"), (1e-7, "10⁻⁷"), (3.3e-4, "3.3×10⁻⁴"), (0.075, "0.075"), (5 / 18, "5/18"),
-     (0.2778, "0.2778"), (0.0, "0"), (2e6, "2×10⁶"), (0.005, "0.005")],
-)  # fmt: skip
+    [
+        (5e-7, "5×10⁻⁷"),
+        (1e-7, "10⁻⁷"),
+        (3.3e-4, "3.3×10⁻⁴"),
+        (0.075, "0.075"),
+        (5 / 18, "5/18"),
+        (0.2778, "0.2778"),
+        (0.0, "0"),
+        (2e6, "2×10⁶"),
+        (0.005, "0.005"),
+    ],
+)
 def test_values_are_written_as_in_the_paper(value, text):
     assert figures.value_text(value) == text

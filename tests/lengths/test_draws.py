@@ -102,15 +102,18 @@ def test_invalid_draws_are_left_out_and_counted():
         draw_samples(KNOWN | {"slip_distance": [-1.0, np.nan]})
 
 
-@pytest.mark.parametrize("changed, message", [
-    ({"slip_distance": "5um (6 to 10)"}, "VALUE .LOW to HIGH.*5 and 95 %"),
-    ({"slip_distance": "5um (4MPa to 10)"}, "4MPa.*stress.*m is needed"),
-    ({"slip_distance": "5um (-4 to 10)"}, r"-4e-06 m .*must lie in \[1e-15"),
-    ({"height": "5cm (1 to inf)"}, "finite"),
-    ({"slip_distance": 5e-6}, "no parameter has a range"),
-    ({"slip_distance": [5e-6, 6e-6], "a": [0.01] * 3}, "equal in number.*slip_distance 2"),
-    ({"slip_distance": [[5e-6]]}, "numbers in a row"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "changed, message",
+    [
+        ({"slip_distance": "5um (6 to 10)"}, "VALUE .LOW to HIGH.*5 and 95 %"),
+        ({"slip_distance": "5um (4MPa to 10)"}, "4MPa.*stress.*m is needed"),
+        ({"slip_distance": "5um (-4 to 10)"}, r"-4e-06 m .*must lie in \[1e-15"),
+        ({"height": "5cm (1 to inf)"}, "finite"),
+        ({"slip_distance": 5e-6}, "no parameter has a range"),
+        ({"slip_distance": [5e-6, 6e-6], "a": [0.01] * 3}, "equal in number.*slip_distance 2"),
+        ({"slip_distance": [[5e-6]]}, "numbers in a row"),
+    ],
+)
 def test_what_is_wrong_is_named(changed, message):
     with pytest.raises(ParameterError, match=message):
         draw_samples(KNOWN | changed)

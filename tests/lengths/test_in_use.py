@@ -183,20 +183,23 @@ def test_thin_layer_length():
     assert peak == pytest.approx(2 * 0.0068 / 0.0228)
 
 
-@pytest.mark.parametrize(("key", "inside", "outside"), [
-    ("rubin_ampuero_localised", [0.01, 0.378], [0.3782, 0.9, 1.2]),
-    ("rubin_ampuero_crack", [0.501, 0.999], [0.499, 0.1, 1.001]),
-    ("thin_layer", [0.01, 0.499], [0.501, 1.2]),
-    ("rice_ruina", [0.01, 0.999], [1.0, 1.2]),
-    ("homogeneous_sliding", [0.01, 0.999], [1.0, 1.2]),
-    ("dieterich_shortest", [0.999], [1.0]),
-    ("dieterich_longest", [0.999], [1.0]),
-    ("thin_limit", [0.01, 0.9], [1.0, 1.2]),
-    ("state_evolution", [0.01, 1.2], []),
-    ("uenishi_rice", [0.01, 0.099], [0.101, 0.9, 1.2]),
-    ("creeping_asperity", [0.01, 0.999], [1.0, 1.2]),
-    ("loaded_patch", [0.01, 0.989], [0.991, 1.0, 1.2]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("key", "inside", "outside"),
+    [
+        ("rubin_ampuero_localised", [0.01, 0.378], [0.3782, 0.9, 1.2]),
+        ("rubin_ampuero_crack", [0.501, 0.999], [0.499, 0.1, 1.001]),
+        ("thin_layer", [0.01, 0.499], [0.501, 1.2]),
+        ("rice_ruina", [0.01, 0.999], [1.0, 1.2]),
+        ("homogeneous_sliding", [0.01, 0.999], [1.0, 1.2]),
+        ("dieterich_shortest", [0.999], [1.0]),
+        ("dieterich_longest", [0.999], [1.0]),
+        ("thin_limit", [0.01, 0.9], [1.0, 1.2]),
+        ("state_evolution", [0.01, 1.2], []),
+        ("uenishi_rice", [0.01, 0.099], [0.101, 0.9, 1.2]),
+        ("creeping_asperity", [0.01, 0.999], [1.0, 1.2]),
+        ("loaded_patch", [0.01, 0.989], [0.991, 1.0, 1.2]),
+    ],
+)
 def test_ranges_of_validity_in_a_over_b(key, inside, outside):
     def length(ratio):
         return one(key, a=0.02 * ratio, zeta=0.02 * (1 - ratio), height=1e-5)

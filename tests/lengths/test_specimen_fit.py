@@ -62,8 +62,15 @@ def test_the_creeping_patch_fits_where_it_says(bodies, monkeypatch):
 
 def test_several_answers():
     """With strengthening friction a contrast is needed: moduli near the second one's are stable."""
-    fault = {"poisson_ratio": 0.2, "a": 0.01, "zeta": -1e-4, "friction": 0.8, "slip_distance": 1e-8,
-             "normal_stress": 1e8, "second_shear_modulus": 1e10}  # fmt: skip
+    fault = {
+        "poisson_ratio": 0.2,
+        "a": 0.01,
+        "zeta": -1e-4,
+        "friction": 0.8,
+        "slip_distance": 1e-8,
+        "normal_stress": 1e8,
+        "second_shear_modulus": 1e10,
+    }
     found = specimen_fit("shear_modulus", 1.0, **fault)
     assert len(found.intervals) == 2
     (_, first), (second, _) = found.intervals
@@ -82,16 +89,19 @@ def test_no_answer():
     assert short.intervals == () and short.exists
 
 
-@pytest.mark.parametrize(("changed", "said"), [
-    ({"unknown": "a"}, "unknown = 'a' is not allowed: one of normal_stress, slip_distance"),
-    ({"criterion": "L_c"}, "criterion = 'L_c' is not allowed: one of critical, stability"),
-    ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
-    ({"length": [1.0, 2.0]}, "a specimen is one"),
-    ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
-    ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
-    ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
-    ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"unknown": "a"}, "unknown = 'a' is not allowed: one of normal_stress, slip_distance"),
+        ({"criterion": "L_c"}, "criterion = 'L_c' is not allowed: one of critical, stability"),
+        ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
+        ({"length": [1.0, 2.0]}, "a specimen is one"),
+        ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
+        ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
+        ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
+        ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),
+    ],
+)
 def test_what_is_refused(changed, said):
     usual = {"unknown": "normal_stress", "length": 0.2, **PMMA, **KNOWN}
     with pytest.raises(ParameterError, match=said):

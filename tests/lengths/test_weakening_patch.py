@@ -14,12 +14,17 @@ from nucleation.lengths.weakening_patch import NO_WIDTH, OTHER_A, OTHER_B, patch
 STATE_LENGTH = 40e9 * 5e-6 / (0.015 * 50e6)
 
 
-@pytest.mark.parametrize(("changed", "zone"), [
-    ({}, 0.5 * STATE_LENGTH),
-    ({"second_shear_modulus": math.inf, "friction": 0.6, "height": 1e-4},
-     math.sqrt(2e-4 * STATE_LENGTH)),
-    ({"plane": "antiplane"}, 0.375 * STATE_LENGTH)
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changed", "zone"),
+    [
+        ({}, 0.5 * STATE_LENGTH),
+        (
+            {"second_shear_modulus": math.inf, "friction": 0.6, "height": 1e-4},
+            math.sqrt(2e-4 * STATE_LENGTH),
+        ),
+        ({"plane": "antiplane"}, 0.375 * STATE_LENGTH),
+    ],
+)
 def test_process_zone(changed, zone):
     """By hand: the stiffness of half-spaces is ``mu* k/2``, of a thin layer ``2 mu* H k^2``."""
     assert process_zone(Fault(**ROCK | changed)) == pytest.approx(zone, rel=2e-3)
@@ -88,15 +93,18 @@ def test_nothing_is_promised_beyond_the_simulated_frictions(varies):
     assert patch_outcomes.bounds("b", 1.0, 1.0) is None
 
 
-@pytest.mark.parametrize(("changed", "words"), [
-    ({"plane": "stress"}, "plane stress"),
-    ({"second_shear_modulus": 60e9}, "a fault between different bodies"),
-    ({"zone_thickness": 1.0, "zone_shear_modulus": 20e9}, "a fault between different bodies"),
-    ({"height": 1.0}, "a body lower than 2.6 W"),
-    ({"evolution": "slip"}, "the slip law"),
-    ({"velocity": 1e-3}, "2 a sigma0 c_s/(mu V) = 1.7e+02, outside 7e+02 to 1.4e+08,"),
-    ({"velocity": 1e-10}, "2 a sigma0 c_s/(mu V) = 1.7e+09, outside 7e+02 to 1.4e+08,"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"plane": "stress"}, "plane stress"),
+        ({"second_shear_modulus": 60e9}, "a fault between different bodies"),
+        ({"zone_thickness": 1.0, "zone_shear_modulus": 20e9}, "a fault between different bodies"),
+        ({"height": 1.0}, "a body lower than 2.6 W"),
+        ({"evolution": "slip"}, "the slip law"),
+        ({"velocity": 1e-3}, "2 a sigma0 c_s/(mu V) = 1.7e+02, outside 7e+02 to 1.4e+08,"),
+        ({"velocity": 1e-10}, "2 a sigma0 c_s/(mu V) = 1.7e+09, outside 7e+02 to 1.4e+08,"),
+    ],
+)
 def test_nothing_is_promised_of_other_faults(changed, words):
     fault, around = patch(simulated()[0], **changed)
     assert told(fault, around, 0.9) == "it creeps"
@@ -116,9 +124,13 @@ def test_natural_faults_at_plate_rates_were_tried():
 def test_weak_patch_of_the_report():
     """Slow slip was simulated at 1.41 W_c without inertia, too, an event at 1.8."""
     fault = {
-        "shear_modulus": 3.1e9, "a": 0.0068, "zeta": 0.00136, "slip_distance": 5e-7,
-        "normal_stress": 1e6, "plane": "antiplane",
-    }  # fmt: skip
+        "shear_modulus": 3.1e9,
+        "a": 0.0068,
+        "zeta": 0.00136,
+        "slip_distance": 5e-7,
+        "normal_stress": 1e6,
+        "plane": "antiplane",
+    }
     found = patch_answer(Fault(**fault), -0.00136, width=3.6)
     assert found["width_ratio"] == pytest.approx(1.41, abs=0.01)
     assert found["outcome"].startswith("slow slip")

@@ -70,9 +70,12 @@ def law(**values):
 def test_coefficient_is_the_formula():
     """With values of the SEAS benchmarks, typed in once more."""
     friction = law(
-        reference_friction=0.6, reference_slip_rate=1e-6, log_rate_coefficient=0.010,
-        log_state_coefficient=0.015, slip_distance=0.008,
-    )  # fmt: skip
+        reference_friction=0.6,
+        reference_slip_rate=1e-6,
+        log_rate_coefficient=0.010,
+        log_state_coefficient=0.015,
+        slip_distance=0.008,
+    )
     v, phi = np.meshgrid(np.geomspace(1e-16, 10.0, 9), np.geomspace(1e-3, 1e9, 7))
     exponent = (0.6 + 0.015 * np.log(1e-6 * phi / 0.008)) / 0.010
     expected = 0.010 * np.arcsinh(v / 2e-6 * np.exp(exponent))

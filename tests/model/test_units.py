@@ -19,25 +19,28 @@ from replication.configuration.settings import GROUPS
 DENSITIES = ["kg/m^3", "kg/m3", "kg m-3", "kg⋅m⁻³", "kg m**-3", "mg/cm3"]
 
 
-@pytest.mark.parametrize(("key", "text", "value"), [
-    ("shear_modulus", "30GPa", 30e9),
-    ("shear_modulus", " 3.1E+9 Pa ", 3.1e9),
-    ("shear_modulus", "1e6 psi", 6.894757e9),
-    ("slip_distance", "5um", 5e-6),
-    ("slip_distance", "5 µm", 5e-6),
-    ("slip_distance", "5 μm", 5e-6),
-    ("height", "3ft", 0.9144),
-    ("height", "inf", math.inf),
-    ("velocity", "1 mm/yr", 1e-3 / (365.25 * 86400)),
-    ("poisson_ratio", "25 %", 0.25),
-    ("poisson_ratio", "1/3", 1 / 3),
-    ("height", "1 / 4 m", 0.25),
-    ("velocity", "1 m s-1", 1.0),
-    ("shear_modulus", "3e10 N/m²", 3e10),
-    ("shear_modulus", "3e10 N m-2", 3e10),
-    ("far_side", "velocity", "velocity"),
-    *(("density", f"2700 {unit}", 2700.0) for unit in DENSITIES),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("key", "text", "value"),
+    [
+        ("shear_modulus", "30GPa", 30e9),
+        ("shear_modulus", " 3.1E+9 Pa ", 3.1e9),
+        ("shear_modulus", "1e6 psi", 6.894757e9),
+        ("slip_distance", "5um", 5e-6),
+        ("slip_distance", "5 µm", 5e-6),
+        ("slip_distance", "5 μm", 5e-6),
+        ("height", "3ft", 0.9144),
+        ("height", "inf", math.inf),
+        ("velocity", "1 mm/yr", 1e-3 / (365.25 * 86400)),
+        ("poisson_ratio", "25 %", 0.25),
+        ("poisson_ratio", "1/3", 1 / 3),
+        ("height", "1 / 4 m", 0.25),
+        ("velocity", "1 m s-1", 1.0),
+        ("shear_modulus", "3e10 N/m²", 3e10),
+        ("shear_modulus", "3e10 N m-2", 3e10),
+        ("far_side", "velocity", "velocity"),
+        *(("density", f"2700 {unit}", 2700.0) for unit in DENSITIES),
+    ],
+)
 def test_values_in_si_units(key, text, value):
     found = parse(key, text, parameters()[key] if key == "density" else QUANTITIES[key])
     assert found == value if isinstance(value, str) else found == pytest.approx(value, rel=1e-6)
@@ -50,23 +53,26 @@ def test_common_units_are_those_of_the_units_library():
             assert found.to(declared_unit).magnitude == Decimal(factor)
 
 
-@pytest.mark.parametrize(("key", "text", "words"), [
-    ("shear_modulus", "30 m", "m is a unit of length, but Pa is needed"),
-    ("shear_modulus", "30 GPA", "GPA is not a known unit"),
-    ("shear_modulus", "GPa", "it is no number with a unit"),
-    ("shear_modulus", "3,1 GPa", "write a decimal point, 3.1 in place of 3,1"),
-    ("shear_modulus", " ,5 GPa", "write a decimal point, 0.5 in place of ,5"),
-    ("shear_modulus", "5,0e6", "write a decimal point, 5.0 in place of 5,0"),
-    ("shear_modulus", "-3,5 MPa", "write a decimal point, -3.5 in place of -3,5"),
-    ("shear_modulus", "1.234,5 Pa", "without separators of thousands"),
-    ("shear_modulus", "1,234,567 Pa", "without separators of thousands"),
-    ("poisson_ratio", "1/0", "it is no number"),
-    ("shear_modulus", "inf", r"\[1e-09, 1e\+13\) Pa"),
-    ("shear_modulus", "-30 GPa", "shear_modulus = -30000000000.0 Pa is not allowed"),
-    ("shear_modulus", "30 __import__('os')", "not a known unit"),
-    ("poisson_ratio", "0.25 m", "unit of length, but it has no dimension"),
-    ("far_side", "Velocity", "one of velocity, traction"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("key", "text", "words"),
+    [
+        ("shear_modulus", "30 m", "m is a unit of length, but Pa is needed"),
+        ("shear_modulus", "30 GPA", "GPA is not a known unit"),
+        ("shear_modulus", "GPa", "it is no number with a unit"),
+        ("shear_modulus", "3,1 GPa", "write a decimal point, 3.1 in place of 3,1"),
+        ("shear_modulus", " ,5 GPa", "write a decimal point, 0.5 in place of ,5"),
+        ("shear_modulus", "5,0e6", "write a decimal point, 5.0 in place of 5,0"),
+        ("shear_modulus", "-3,5 MPa", "write a decimal point, -3.5 in place of -3,5"),
+        ("shear_modulus", "1.234,5 Pa", "without separators of thousands"),
+        ("shear_modulus", "1,234,567 Pa", "without separators of thousands"),
+        ("poisson_ratio", "1/0", "it is no number"),
+        ("shear_modulus", "inf", r"\[1e-09, 1e\+13\) Pa"),
+        ("shear_modulus", "-30 GPa", "shear_modulus = -30000000000.0 Pa is not allowed"),
+        ("shear_modulus", "30 __import__('os')", "not a known unit"),
+        ("poisson_ratio", "0.25 m", "unit of length, but it has no dimension"),
+        ("far_side", "Velocity", "one of velocity, traction"),
+    ],
+)
 def test_values_refused(key, text, words):
     with pytest.raises(ParameterError, match=words) as refused:
         parse(key, text, QUANTITIES[key])
@@ -102,16 +108,19 @@ ROW = xr.DataArray([20.0, 30.0], dims="s", coords={"s": [1, 2]}, attrs={"units":
 Q = pint.UnitRegistry().Quantity
 
 
-@pytest.mark.parametrize(("value", "expected"), [
-    (Q(np.array([20.0, 30.0]), "MPa"), [20e6, 30e6]),
-    (Q("0.2 kbar"), 20e6),
-    ([Q(20, "MPa"), Q(300, "bar")], [20e6, 30e6]),
-    (ROW, [20e6, 30e6]),
-    (ROW.assign_attrs(units="N mm-2"), [20e6, 30e6]),
-    (xr.DataArray(Q([20.0, 30.0], "MPa"), dims="s"), [20e6, 30e6]),
-    (20e6, 20e6),
-    (xr.DataArray(5.0), 5.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (Q(np.array([20.0, 30.0]), "MPa"), [20e6, 30e6]),
+        (Q("0.2 kbar"), 20e6),
+        ([Q(20, "MPa"), Q(300, "bar")], [20e6, 30e6]),
+        (ROW, [20e6, 30e6]),
+        (ROW.assign_attrs(units="N mm-2"), [20e6, 30e6]),
+        (xr.DataArray(Q([20.0, 30.0], "MPa"), dims="s"), [20e6, 30e6]),
+        (20e6, 20e6),
+        (xr.DataArray(5.0), 5.0),
+    ],
+)
 def test_arrays_that_carry_a_unit(value, expected):
     found = magnitude("normal_stress", value, STRESS)
     np.testing.assert_array_equal(found, expected)
@@ -132,14 +141,17 @@ def test_units_of_arrays_cost_one_rounding_at_most():
         assert magnitude("a", alone, QUANTITIES["a"]) == 25.0
 
 
-@pytest.mark.parametrize(("value", "words"), [
-    (ROW.assign_attrs(units="mm"), "mm is a unit of length, but Pa is needed"),
-    (ROW.assign_attrs(units="MPA"), "MPA is not a known unit"),
-    (ROW.assign_attrs(units=6), "6, which is no text"),
-    (Q(1, "m"), "meter is a unit of length, but Pa is needed"),
-    ([Q(1, "MPa"), Q(1, "m")], r"normal_stress\[1\].* unit of length"),
-    (SimpleNamespace(unit="MPa", value=3.0), "not known here"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (ROW.assign_attrs(units="mm"), "mm is a unit of length, but Pa is needed"),
+        (ROW.assign_attrs(units="MPA"), "MPA is not a known unit"),
+        (ROW.assign_attrs(units=6), "6, which is no text"),
+        (Q(1, "m"), "meter is a unit of length, but Pa is needed"),
+        ([Q(1, "MPa"), Q(1, "m")], r"normal_stress\[1\].* unit of length"),
+        (SimpleNamespace(unit="MPa", value=3.0), "not known here"),
+    ],
+)
 def test_arrays_refused(value, words):
     with pytest.raises(ParameterError, match=words) as refused:
         magnitude("normal_stress", value, STRESS)
@@ -150,9 +162,14 @@ API = tuple(QUANTITIES)
 OPTIONS = tuple("--" + name.replace("_", "-") for name in API)
 FILE = ("a", "zeta", "slip_distance", "height")
 SYMBOLS = {
-    "Dc": "slip_distance", "D_RS": "slip_distance", "sigma_n": "normal_stress", "f0": "friction",
-    "G": "shear_modulus", "nu": "poisson_ratio", "V_pl": "velocity",
-}  # fmt: skip
+    "Dc": "slip_distance",
+    "D_RS": "slip_distance",
+    "sigma_n": "normal_stress",
+    "f0": "friction",
+    "G": "shear_modulus",
+    "nu": "poisson_ratio",
+    "V_pl": "velocity",
+}
 
 
 @pytest.mark.parametrize(("name", "meant"), SYMBOLS.items())

@@ -45,9 +45,16 @@ def test_bad_file_is_one_message_and_snakemake_is_not_started(content, said, tmp
 
 @pytest.mark.parametrize(
     ("arguments", "refused"),
-    [("--cores 0", True), ("paper -c 0 -n", True), ("-c0", True), ("--cores=-1", True),
-     ("--cores 10", False), ("-c all -n", False), ("--cores 1 --retries 0", False)],
-)  # fmt: skip
+    [
+        ("--cores 0", True),
+        ("paper -c 0 -n", True),
+        ("-c0", True),
+        ("--cores=-1", True),
+        ("--cores 10", False),
+        ("-c all -n", False),
+        ("--cores 1 --retries 0", False),
+    ],
+)
 def test_no_cores_are_refused(arguments, refused):
     """Snakemake would wait forever."""
     assert (launch.problem(arguments.split()) == "--cores must be 1 or more") == refused

@@ -10,19 +10,29 @@ from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import PAPER_RUN, Run
 
 GRANITE = Fault(
-    shear_modulus="30GPa", poisson_ratio=0.25, friction=0.65, a=0.010, b=0.015,
-    slip_distance="5um", normal_stress="50MPa", velocity="1um/s", height="2m",
-)  # fmt: skip
+    shear_modulus="30GPa",
+    poisson_ratio=0.25,
+    friction=0.65,
+    a=0.010,
+    b=0.015,
+    slip_distance="5um",
+    normal_stress="50MPa",
+    velocity="1um/s",
+    height="2m",
+)
 PAIR = PAPER_RUN.replaced(second_body="deformable", second_shear_modulus=6.2e9, second_n_y=9)
 
 
-@pytest.mark.parametrize("run", [
-    PAPER_RUN,
-    PAIR,
-    PAPER_RUN.replaced(loading="remote", stress_rate=1e4, n_x=61, friction_law="product"),
-    PAPER_RUN.replaced(friction_law="dieterich_ruina", a=0.01, zeta_over_a=2.0),
-    Run(GRANITE, perturbation="normal_load", strength=1e-4, seed=1),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "run",
+    [
+        PAPER_RUN,
+        PAIR,
+        PAPER_RUN.replaced(loading="remote", stress_rate=1e4, n_x=61, friction_law="product"),
+        PAPER_RUN.replaced(friction_law="dieterich_ruina", a=0.01, zeta_over_a=2.0),
+        Run(GRANITE, perturbation="normal_load", strength=1e-4, seed=1),
+    ],
+)
 def test_a_run_is_its_flat_values(run):
     again = Run.from_json(run.to_json())
     assert again == run and hash(again) == hash(run)
@@ -47,14 +57,17 @@ def test_constants_change_the_friction_law():
     assert (run.fault.friction, run.fault.a) == pytest.approx((0.6, 0.01))
 
 
-@pytest.mark.parametrize(("values", "message"), [
-    ({"heigth": 0.2}, "there is no parameter heigth; did you mean height"),
-    ({"law": "product"}, "there is no parameter law; did you mean friction_law"),
-    ({"length": 1.0}, "did you mean block_length"),
-    ({"height": -1.0}, "height = -1.0 m is not allowed"),
-    ({"n_x": 7}, r"n_x = 7 is not allowed: .* integer in \[8, 100000\]"),
-    ({"second_height": 0.1}, "second_height = 0.1 is not allowed with second_body = rigid"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"heigth": 0.2}, "there is no parameter heigth; did you mean height"),
+        ({"law": "product"}, "there is no parameter law; did you mean friction_law"),
+        ({"length": 1.0}, "did you mean block_length"),
+        ({"height": -1.0}, "height = -1.0 m is not allowed"),
+        ({"n_x": 7}, r"n_x = 7 is not allowed: .* integer in \[8, 100000\]"),
+        ({"second_height": 0.1}, "second_height = 0.1 is not allowed with second_body = rigid"),
+    ],
+)
 def test_bad_values_are_refused(values, message):
     with pytest.raises(ParameterError, match=message):
         PAPER_RUN.replaced(**values)
@@ -84,13 +97,16 @@ def test_half_spaces_become_high_and_long_blocks():
     assert run.fault.stability_length() == pytest.approx(high.stability_length(), rel=0.03)
 
 
-@pytest.mark.parametrize(("changed", "message"), [
-    ({"velocity": None}, "velocity"),
-    ({"friction": None}, "friction"),
-    ({"height": [0.1, 0.2]}, "height has 2 values"),
-    ({"far_side": "clamped"}, "far_side = 'clamped' is not allowed"),
-    ({"b": 0.009}, "a control run, in which nothing is to nucleate, needs its block_length"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"velocity": None}, "velocity"),
+        ({"friction": None}, "friction"),
+        ({"height": [0.1, 0.2]}, "height has 2 values"),
+        ({"far_side": "clamped"}, "far_side = 'clamped' is not allowed"),
+        ({"b": 0.009}, "a control run, in which nothing is to nucleate, needs its block_length"),
+    ],
+)
 def test_what_is_missing_is_asked_for(changed, message):
     """V and f of the paper were taken in silence (issue 43, point 2)."""
     with pytest.raises(ParameterError, match=message):

@@ -22,13 +22,26 @@ from nucleation.simulation.checkpoints import (
 from nucleation.simulation.run import simulate
 
 COARSE = PAPER_RUN.replaced(
-    height=0.005, block_length=0.9, n_x=60, n_y=6, grading=2.0, end_time=30.0,
-    time_after_event=0.1, tolerance=5e-2, longest_step=0.25
-)  # fmt: skip
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.1,
+    tolerance=5e-2,
+    longest_step=0.25,
+)
 SHORT = PAPER_RUN.replaced(
-    height=0.1, block_length=1.5, n_x=40, n_y=4, grading=2.0, end_time=0.5, tolerance=5e-2,
-    longest_step=0.1
-)  # fmt: skip
+    height=0.1,
+    block_length=1.5,
+    n_x=40,
+    n_y=4,
+    grading=2.0,
+    end_time=0.5,
+    tolerance=5e-2,
+    longest_step=0.1,
+)
 SHAKEN = {"strength": 1e-2, "seed": 7}
 PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 5}
 RUNS = {
@@ -36,12 +49,22 @@ RUNS = {
     "antiplane": {"plane": "antiplane"},
     **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
     **{side: {**PAIR, "second_far_side": side} for side in ("free", "clamped", "roller")},
-    "remote": {"loading": "remote", "stress_rate": 2e5, "height": 0.5, "block_length": 3.0,
-               "n_x": 61, "n_y": 6, "heterogeneity": "normal_stress", "change": -0.1, "width": 0.3,
-               "perturbation": "drive_velocity", "strength": 1e-3},
+    "remote": {
+        "loading": "remote",
+        "stress_rate": 2e5,
+        "height": 0.5,
+        "block_length": 3.0,
+        "n_x": 61,
+        "n_y": 6,
+        "heterogeneity": "normal_stress",
+        "change": -0.1,
+        "width": 0.3,
+        "perturbation": "drive_velocity",
+        "strength": 1e-3,
+    },
     "interface": {"record": "interface"},
     "lengths": {"record": "lengths"},
-}  # fmt: skip
+}
 
 
 def checkpoint(path, fingerprint="this run", every=0.0):

@@ -114,9 +114,17 @@ def test_the_field_that_follows_has_the_slip_and_the_work(body):
 @pytest.mark.parametrize("kind", ["normal_load", "drive_velocity"])
 def test_no_length_depends_on_when_the_body_is_condensed(kind, monkeypatch):
     run = PAPER_RUN.replaced(
-        height=0.02, block_length=1.2, n_x=60, n_y=6, grading=2.0, end_time=30.0,
-        longest_step=0.1, perturbation=kind, strength=1e-4, seed=1
-    )  # fmt: skip
+        height=0.02,
+        block_length=1.2,
+        n_x=60,
+        n_y=6,
+        grading=2.0,
+        end_time=30.0,
+        longest_step=0.1,
+        perturbation=kind,
+        strength=1e-4,
+        seed=1,
+    )
     found = []
     for crossings in (WITHOUT_WAVES, np.inf):
         monkeypatch.setattr(stepping, "WITHOUT_WAVES", crossings)

@@ -114,12 +114,15 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
     assert made.attrs["status"].startswith(Outcome.END_TIME) and record.onset is None
 
 
-@pytest.mark.parametrize(("kind", "time", "position", "expected"), [
-    ("edge", 1.0, 0.1, True),
-    ("edge", 0.04, 0.1, False),  # before D/V
-    ("edge", 1.0, 0.9, False),  # at the far end
-    ("remote", 0.04, 0.9, True),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("kind", "time", "position", "expected"),
+    [
+        ("edge", 1.0, 0.1, True),
+        ("edge", 0.04, 0.1, False),  # before D/V
+        ("edge", 1.0, 0.9, False),  # at the far end
+        ("remote", 0.04, 0.9, True),
+    ],
+)
 def test_whose_burst_it_is(kind, time, position, expected):
     parameters = PAPER_RUN.replaced(loading=kind, stress_rate=1.0 if kind == "remote" else 0.0)
     slow, fast = 9.0 * parameters.fault.velocity, 11.0 * parameters.fault.velocity
@@ -131,9 +134,15 @@ def test_whose_burst_it_is(kind, time, position, expected):
 
 
 COARSE = PAPER_RUN.replaced(
-    height=0.02, block_length=1.84, n_x=60, n_y=6, end_time=30.0, time_after_event=0.0,
-    tolerance=5e-2, longest_step=0.2
-)  # fmt: skip
+    height=0.02,
+    block_length=1.84,
+    n_x=60,
+    n_y=6,
+    end_time=30.0,
+    time_after_event=0.0,
+    tolerance=5e-2,
+    longest_step=0.2,
+)
 """The mesh of docs/extending.md: two elements to the process zone of the aging law."""
 X = np.linspace(0.0, 1.84, 61)
 

@@ -15,9 +15,15 @@ from nucleation.simulation.start import at_rest, composed, grid_of, interface_of
 from nucleation.simulation.step import Dynamics
 
 QUIET = PAPER_RUN.replaced(
-    height=0.005, block_length=0.9, n_x=60, n_y=4, grading=2.0, end_time=1.0, tolerance=5e-2,
-    longest_step=0.1
-)  # fmt: skip
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=4,
+    grading=2.0,
+    end_time=1.0,
+    tolerance=5e-2,
+    longest_step=0.1,
+)
 
 
 def perturbed(kind, strength=1e-2, base=QUIET, **others):

@@ -19,10 +19,20 @@ from nucleation.simulation.step import Dynamics
 
 SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)
 REMOTE = PAPER_RUN.replaced(
-    loading="remote", stress_rate=2e5, height=0.5, block_length=3.0, n_x=61, n_y=6, grading=4.0,
-    end_time=10.0, time_after_event=0.0, longest_step=0.2, heterogeneity="normal_stress",
-    change=-0.1, width=0.3
-)  # fmt: skip
+    loading="remote",
+    stress_rate=2e5,
+    height=0.5,
+    block_length=3.0,
+    n_x=61,
+    n_y=6,
+    grading=4.0,
+    end_time=10.0,
+    time_after_event=0.0,
+    longest_step=0.2,
+    heterogeneity="normal_stress",
+    change=-0.1,
+    width=0.3,
+)
 
 
 def test_a_patch_begins_where_it_is_told():
@@ -72,18 +82,21 @@ def test_constants_along_x_are_those_declared(law, varies):
     assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
 
 
-@pytest.mark.parametrize(("parameters", "change", "words"), [
-    (PAPER_RUN, {"heterogeneity": "zeta", "change": -2e3}, r"lie in \(-1000, 1000\)"),
-    (PAPER_RUN, {"loading": "sideways"}, "must be one of edge, remote"),
-    (PAPER_RUN, {"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with"),
-    (PAPER_RUN, {"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
-    (PAPER_RUN, {"change": 0.1}, "heterogeneity = none: it must be 0"),
-    (PAPER_RUN, {"heterogeneity": "b"}, "it must be different from 0"),
-    (PAPER_RUN, {"heterogeneity": "b", "change": -1.0}, r"lie in \(-1, 1000\)"),
-    (REMOTE, {"n_x": 60}, "n_x = 60 .*: it must be odd"),
-    (REMOTE, {"centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
-    (REMOTE, {"width": 0.01}, r"width = 0.01 m is not allowed"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("parameters", "change", "words"),
+    [
+        (PAPER_RUN, {"heterogeneity": "zeta", "change": -2e3}, r"lie in \(-1000, 1000\)"),
+        (PAPER_RUN, {"loading": "sideways"}, "must be one of edge, remote"),
+        (PAPER_RUN, {"loading": "remote"}, "stress_rate = 0 Pa/s is not allowed with"),
+        (PAPER_RUN, {"stress_rate": 1.0}, "with loading = edge: it must be 0 Pa/s"),
+        (PAPER_RUN, {"change": 0.1}, "heterogeneity = none: it must be 0"),
+        (PAPER_RUN, {"heterogeneity": "b"}, "it must be different from 0"),
+        (PAPER_RUN, {"heterogeneity": "b", "change": -1.0}, r"lie in \(-1, 1000\)"),
+        (REMOTE, {"n_x": 60}, "n_x = 60 .*: it must be odd"),
+        (REMOTE, {"centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
+        (REMOTE, {"width": 0.01}, r"width = 0.01 m is not allowed"),
+    ],
+)
 def test_bad_values_are_refused(parameters, change, words):
     with pytest.raises(ParameterError, match=words):
         composed(parameters.replaced(**change))
@@ -103,9 +116,13 @@ def test_onset_converges_with_mesh_tolerance_and_step(parameters):
 
     def onset(elements=120, tolerance=1e-2, longest_step=0.1):
         made = own.replaced(
-            n_x=elements + odd, n_y=elements // 10, end_time=20.0, time_after_event=0.0,
-            tolerance=tolerance, longest_step=longest_step,
-        )  # fmt: skip
+            n_x=elements + odd,
+            n_y=elements // 10,
+            end_time=20.0,
+            time_after_event=0.0,
+            tolerance=tolerance,
+            longest_step=longest_step,
+        )
         return extract(simulate(made))["onset_time"]
 
     coarse = onset()

@@ -21,9 +21,18 @@ from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import at_rest, composed
 
 ONE = PAPER_RUN.replaced(
-    height=0.02, block_length=1.83, n_x=80, n_y=4, grading=6.0, tolerance=5e-2, longest_step=0.5,
-    time_after_event=0.0, end_time=30.0, strength=1e-3, perturbation="normal_load"
-)  # fmt: skip
+    height=0.02,
+    block_length=1.83,
+    n_x=80,
+    n_y=4,
+    grading=6.0,
+    tolerance=5e-2,
+    longest_step=0.5,
+    time_after_event=0.0,
+    end_time=30.0,
+    strength=1e-3,
+    perturbation="normal_load",
+)
 """A run to its event of a tenth of the usual cost."""
 
 
@@ -89,12 +98,16 @@ def recorded(start, times, rates):
 STEPS = np.arange(100)
 
 
-@pytest.mark.parametrize(("times", "rates", "frames"), [
-    (1e-6 * STEPS, V + 0.0 * STEPS, [0, 40, 80]),  # every forty steps
-    (0.05 * STEPS[:25] * (1 + 1e-9), V + 0.0 * STEPS[:25], [0, 8, 16, 24]),  # 0.4 D/V
-    # a slip rate has changed by half its logarithm: for fast slip asinh(v / V) grows as log(v)
-    (1e-6 * STEPS[:21], 1e4 * V * np.exp(0.1001 * STEPS[:21]), [0, 5, 10, 15, 20]),
-], ids=["steps", "time", "slip rate"])  # fmt: skip
+@pytest.mark.parametrize(
+    ("times", "rates", "frames"),
+    [
+        (1e-6 * STEPS, V + 0.0 * STEPS, [0, 40, 80]),  # every forty steps
+        (0.05 * STEPS[:25] * (1 + 1e-9), V + 0.0 * STEPS[:25], [0, 8, 16, 24]),  # 0.4 D/V
+        # a slip rate has changed by half its logarithm: for fast slip asinh(v / V) grows as log(v)
+        (1e-6 * STEPS[:21], 1e4 * V * np.exp(0.1001 * STEPS[:21]), [0, 5, 10, 15, 20]),
+    ],
+    ids=["steps", "time", "slip rate"],
+)
 def test_when_frames_are_taken(start, times, rates, frames):
     record = recorded(start, MEMORY * times, rates)
     np.testing.assert_array_equal(record["time"], MEMORY * times[frames])
@@ -115,9 +128,16 @@ def test_a_front_within_an_element_and_a_quarter_is_lost(start, monkeypatch, wid
 
 
 COARSE = PAPER_RUN.replaced(
-    height=0.005, block_length=0.9, n_x=60, n_y=6, grading=2.0, end_time=30.0,
-    time_after_event=0.0, tolerance=5e-2, longest_step=0.1
-)  # fmt: skip
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.0,
+    tolerance=5e-2,
+    longest_step=0.1,
+)
 
 
 class Terminal(io.StringIO):

@@ -18,9 +18,16 @@ from nucleation.simulation.start import composed
 from nucleation.simulation.step import Dynamics
 
 COARSE = PAPER_RUN.replaced(
-    height=0.005, block_length=0.9, n_x=60, n_y=6, grading=2.0, end_time=30.0,
-    time_after_event=0.1, tolerance=5e-2, longest_step=0.1
-)  # fmt: skip
+    height=0.005,
+    block_length=0.9,
+    n_x=60,
+    n_y=6,
+    grading=2.0,
+    end_time=30.0,
+    time_after_event=0.1,
+    tolerance=5e-2,
+    longest_step=0.1,
+)
 
 
 @pytest.fixture(scope="module")
@@ -132,9 +139,17 @@ def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
 def test_a_perturbed_patch_grows_under_a_law_that_is_steep_at_rest():
     """Nodes whose strength is exceeded must not count as solved: the fault would open in 2.8 s."""
     parameters = PAPER_RUN.replaced(
-        friction_law="dieterich_ruina", log_state_coefficient=0.0136, height=0.03, end_time=3.0,
-        block_length=3.427, n_x=100, n_y=4, grading=20.0, perturbation="normal_load", strength=1e-4
-    )  # fmt: skip
+        friction_law="dieterich_ruina",
+        log_state_coefficient=0.0136,
+        height=0.03,
+        end_time=3.0,
+        block_length=3.427,
+        n_x=100,
+        n_y=4,
+        grading=20.0,
+        perturbation="normal_load",
+        strength=1e-4,
+    )
     assert parameters.fault.zeta == pytest.approx(parameters.fault.a)
     record = simulate(parameters)
     assert record.attrs["status"] == Outcome.END_TIME

@@ -132,11 +132,14 @@ def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
         np.testing.assert_allclose(some, every, rtol=1e-7, err_msg=name)
 
 
-@pytest.mark.parametrize(("slow", "fastest", "length"), [
-    (1e-2 * 1e-3, 1e-3, 1e9),  # of the imposed velocity, while the patch creeps
-    (1e-3 * 1.0, 1.0, 1e9),  # of the fastest slip rate, in the event
-    (1e-2 * 5e-7 / 1e-6, 1e-3, 1e-6),  # slips by a hundredth of D within a short step
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("slow", "fastest", "length"),
+    [
+        (1e-2 * 1e-3, 1e-3, 1e9),  # of the imposed velocity, while the patch creeps
+        (1e-3 * 1.0, 1.0, 1e9),  # of the fastest slip rate, in the event
+        (1e-2 * 5e-7 / 1e-6, 1e-3, 1e-6),  # slips by a hundredth of D within a short step
+    ],
+)
 def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
     """Where a slip rate begins to be slow, its relative error counts by 1/sqrt(2)."""
     dynamics = composed(small())

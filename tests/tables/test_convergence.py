@@ -15,13 +15,27 @@ from replication.tables.ratios import AXES, MAP, REFINEMENT, map_files, refineme
 
 def row(**values):
     usual = {
-        "id": "run", "height": 0.02, "evolution": "aging", "initial_state": 1.0,
-        "kind": "normal_load", "strength": 1e-5, "correlation_length": 0.0, "seed": 1,
-        "n_x": 400, "n_y": 20,
-        "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3, "fault": "f0.02",
-        "critical_length": 0.5, "block_length": 2.0, "onset_time": 12.0, "steps": 100,
+        "id": "run",
+        "height": 0.02,
+        "evolution": "aging",
+        "initial_state": 1.0,
+        "kind": "normal_load",
+        "strength": 1e-5,
+        "correlation_length": 0.0,
+        "seed": 1,
+        "n_x": 400,
+        "n_y": 20,
+        "grading": 20.0,
+        "longest_step": 0.02,
+        "tolerance": 1e-2,
+        "length": 0.3,
+        "fault": "f0.02",
+        "critical_length": 0.5,
+        "block_length": 2.0,
+        "onset_time": 12.0,
+        "steps": 100,
         "wall_seconds": 1.0,
-    }  # fmt: skip
+    }
     return {**usual, **values}
 
 
@@ -72,10 +86,15 @@ def lengths(missing=()):
     height, weakening, strength, seed = map(np.array, zip(*rows, strict=True))
     theory = height**0.5 / weakening
     columns = {
-        "height": height, "strength": strength, "seed": seed.astype(int), "critical_length": theory,
-        "a": np.full(len(rows), 0.0068), "zeta": 0.0068 * weakening,
-        "length": theory * (0.6 + 0.01 * seed + 10.0 * strength), "stability_length": theory * 0.5,
-    }  # fmt: skip
+        "height": height,
+        "strength": strength,
+        "seed": seed.astype(int),
+        "critical_length": theory,
+        "a": np.full(len(rows), 0.0068),
+        "zeta": 0.0068 * weakening,
+        "length": theory * (0.6 + 0.01 * seed + 10.0 * strength),
+        "stability_length": theory * 0.5,
+    }
     others = {name: np.zeros(len(rows)) for name in MAP if name not in columns}
     return xr.Dataset({name: ("run", values) for name, values in (others | columns).items()})
 

@@ -19,9 +19,17 @@ STIFF = PARAMETERS.replaced(shear_modulus=9.3e9)
 
 
 def drops(**changes):
-    same = {"study": "drop", "role": "drop", "evolution": "aging", "n_x": 800, "n_y": 8,
-            "block_length": 2.7, "longest_step": 0.1, "onset_time": 9.0,
-            "critical_length": 0.45}  # fmt: skip
+    same = {
+        "study": "drop",
+        "role": "drop",
+        "evolution": "aging",
+        "n_x": 800,
+        "n_y": 8,
+        "block_length": 2.7,
+        "longest_step": 0.1,
+        "onset_time": 9.0,
+        "critical_length": 0.45,
+    }
     columns = {name: [value] * 4 for name, value in same.items()} | {
         "id": list("abcd"),
         "height": [0.02, 0.02, 0.02, 0.3],

@@ -24,11 +24,16 @@ from replication.tables.rows import remarked, rows_of, why, without_event
 
 def rows(**changes):
     columns = {
-        "id": ["a-seed1", "b", "a-seed2", "c-seed1"], "study": ["one", "one", "one", "two"],
-        "height": [0.1, 0.2, 0.1, 0.1], "ensemble": ["e1", "e2", "e1", "e1"], "seed": [1, 0, 2, 1],
-        "length": [0.50, 0.7, 0.54, 0.6], "length_low": [0.48, 0.6, 0.46, 0.5],
-        "length_high": [0.55, 0.8, 0.56, 0.7], "steps": [3000, 3, 3001, 3],
-    }  # fmt: skip
+        "id": ["a-seed1", "b", "a-seed2", "c-seed1"],
+        "study": ["one", "one", "one", "two"],
+        "height": [0.1, 0.2, 0.1, 0.1],
+        "ensemble": ["e1", "e2", "e1", "e1"],
+        "seed": [1, 0, 2, 1],
+        "length": [0.50, 0.7, 0.54, 0.6],
+        "length_low": [0.48, 0.6, 0.46, 0.5],
+        "length_high": [0.55, 0.8, 0.56, 0.7],
+        "steps": [3000, 3, 3001, 3],
+    }
     return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
 
 
@@ -94,12 +99,15 @@ def test_a_run_without_an_event_has_the_length_that_it_reached():
 REMOTE = {"loading": "remote", "stress_rate": 1e5}
 
 
-@pytest.mark.parametrize(("given", "known"), [
-    ({}, True),
-    ({"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, True),
-    (REMOTE | {"heterogeneity": "friction", "change": -0.1, "width": 0.3}, True),
-    (REMOTE | {"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("given", "known"),
+    [
+        ({}, True),
+        ({"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, True),
+        (REMOTE | {"heterogeneity": "friction", "change": -0.1, "width": 0.3}, True),
+        (REMOTE | {"heterogeneity": "normal_stress", "change": -0.1, "width": 0.3}, False),
+    ],
+)
 def test_without_an_edge_the_stability_length_needs_a_uniform_interface(given, known):
     parameters = changed(**given)
     simulation = record()
@@ -138,10 +146,16 @@ def test_rows_are_plain():
 
 
 ROW = {
-    "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
-    "zeta": 0.016, "critical_length": 0.5, "reached_length": 0.1,
-    "simulated_time": 5.0, "block_length": 2.0, "loading": "edge",
-}  # fmt: skip
+    "id": "r",
+    "status": "completed: the end time was reached",
+    "onset_time": float("nan"),
+    "zeta": 0.016,
+    "critical_length": 0.5,
+    "reached_length": 0.1,
+    "simulated_time": 5.0,
+    "block_length": 2.0,
+    "loading": "edge",
+}
 
 
 def test_all_are_named_and_counted():
@@ -151,14 +165,17 @@ def test_all_are_named_and_counted():
     assert [line.partition(":")[0] for line in lines[1:]] == ["r", "t"]
 
 
-@pytest.mark.parametrize(("changed", "said"), [
-    ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
-    ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
-    ({"reached_length": 0.999}, "filled the half of the block"),
-    ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
-    ({"critical_length": float("nan"), "zeta": -0.01}, "stable by the theory"),
-    ({"status": "failed: tension"}, "failed: tension"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
+        ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
+        ({"reached_length": 0.999}, "filled the half of the block"),
+        ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
+        ({"critical_length": float("nan"), "zeta": -0.01}, "stable by the theory"),
+        ({"status": "failed: tension"}, "failed: tension"),
+    ],
+)
 def test_reasons(changed, said):
     assert said in why(ROW | changed)
 

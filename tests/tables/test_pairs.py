@@ -11,13 +11,24 @@ from replication.configuration.load import configure
 from replication.tables.ratios import PAIRS, gather_pairs, pairs_over_realisations
 
 STUDY = {
-    "defaults": {"second_body": "deformable", "n_x": 60, "n_y": 3, "end_time": 0.2,
-                 "perturbation": "normal_load", "strength": 1e-4, "seed": 3},
+    "defaults": {
+        "second_body": "deformable",
+        "n_x": 60,
+        "n_y": 3,
+        "end_time": 0.2,
+        "perturbation": "normal_load",
+        "strength": 1e-4,
+        "seed": 3,
+    },
     "runs": [
-        {"height": 0.02, "second_height": 0.03, "second_shear_modulus": 6.2e9,
-         "second_far_side": ["free", "clamped"]}
+        {
+            "height": 0.02,
+            "second_height": 0.03,
+            "second_shear_modulus": 6.2e9,
+            "second_far_side": ["free", "clamped"],
+        }
     ],
-}  # fmt: skip
+}
 
 
 def test_rows_say_what_the_runs_are():

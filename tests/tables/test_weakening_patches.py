@@ -26,9 +26,12 @@ from replication.tables.weakening_patches import (
 FASTEST = {"creep": 1.5, "slow slip": 150.0, "event": 800.0}  # over V
 DYNAMIC = 2.0 * 0.0068 * 1e6 / 3.1e9 * math.sqrt(3.1e9 / 1200.0) / 1e-5
 FAULT = {
-    "shear_modulus": 3.1e9, "normal_stress": 1e6, "a": 0.0068, "slip_distance": 5e-7,
+    "shear_modulus": 3.1e9,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "slip_distance": 5e-7,
     "plane": "antiplane",
-}  # fmt: skip
+}
 
 
 def runs_of(varies, zeta):
@@ -93,16 +96,35 @@ def row(ratio, outcome, velocity=1e-5):
     return {"width_ratio": ratio, "outcome": outcome, "velocity": velocity}
 
 
-@pytest.mark.parametrize(("rows", "bounds"), [
-    ([row(0.9, "creep"), row(1.1, "slow slip"), row(1.3, "event", 1e-9)], (1.1, 1.3)),
-    ([row(1.1, "slow slip"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.1, 1.3)),
-    ([row(1.1, "event"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.0, 1.3)),
-    ([row(1.1, "slow slip"), row(1.2, "event"), row(1.3, "slow slip", 1e-9)], (1.1, math.inf)),
-    ([row(1.1, "slow slip"), row(1.2, "undecided"), row(1.3, "slow slip"),
-      row(1.4, "undecided", 1e-9), row(1.5, "event", 1e-9)], (1.1, 1.5)),
-    ([row(1.1, "slow slip"), row(1.4, "event"), row(1.5, "slow slip"),
-      row(1.6, "event", 1e-9), row(1.8, "event", 1e-9)], (1.1, 1.6)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("rows", "bounds"),
+    [
+        ([row(0.9, "creep"), row(1.1, "slow slip"), row(1.3, "event", 1e-9)], (1.1, 1.3)),
+        ([row(1.1, "slow slip"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.1, 1.3)),
+        ([row(1.1, "event"), row(1.2, "slow slip", 1e-9), row(1.3, "event", 1e-9)], (1.0, 1.3)),
+        ([row(1.1, "slow slip"), row(1.2, "event"), row(1.3, "slow slip", 1e-9)], (1.1, math.inf)),
+        (
+            [
+                row(1.1, "slow slip"),
+                row(1.2, "undecided"),
+                row(1.3, "slow slip"),
+                row(1.4, "undecided", 1e-9),
+                row(1.5, "event", 1e-9),
+            ],
+            (1.1, 1.5),
+        ),
+        (
+            [
+                row(1.1, "slow slip"),
+                row(1.4, "event"),
+                row(1.5, "slow slip"),
+                row(1.6, "event", 1e-9),
+                row(1.8, "event", 1e-9),
+            ],
+            (1.1, 1.6),
+        ),
+    ],
+)
 def test_bounds(rows, bounds):
     """Slow slip ends below the first event at any V, and events begin above the last slow slip."""
     slow, events = bounds

@@ -24,15 +24,25 @@ from nucleation.simulation.start import body_of
 from nucleation.theory.creep.lengths import stability_length_of
 
 BP1 = {
-    "shear_modulus": 32.04e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
-    "slip_distance": 8e-3, "plane": "antiplane",
-}  # fmt: skip
+    "shear_modulus": 32.04e9,
+    "poisson_ratio": 0.25,
+    "normal_stress": 50e6,
+    "a": 0.010,
+    "b": 0.015,
+    "slip_distance": 8e-3,
+    "plane": "antiplane",
+}
 """The benchmark problem 1 of Erickson et al. (2020), at the depth where a is 0.010."""
 
 PMMA = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "normal_stress": 1e6, "a": 0.0068,
-    "zeta": 0.016, "slip_distance": 5e-7, "plane": "antiplane",
-}  # fmt: skip
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 1.0 / 3.0,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "zeta": 0.016,
+    "slip_distance": 5e-7,
+    "plane": "antiplane",
+}
 RIGID = {"second_shear_modulus": math.inf}
 
 
@@ -129,9 +139,14 @@ def test_condensed_stiffness_converges_to_the_theory():
     errors, k, height = [], 2.0 * np.pi / 0.4, 0.1
     for n in (20, 40, 80):
         parameters = PAPER_RUN.replaced(
-            plane="antiplane", height=height, block_length=0.4, n_x=2 * n + 1, n_y=n,
-            loading="remote", stress_rate=1.0,
-        )  # fmt: skip
+            plane="antiplane",
+            height=height,
+            block_length=0.4,
+            n_x=2 * n + 1,
+            n_y=n,
+            loading="remote",
+            stress_rate=1.0,
+        )
         body = body_of(parameters)
         tangential, normal = Operator(body, 0.0).tangent(np.arange(1, 2 * n + 2))
         slip = np.cos(k * body.grid.dx * np.arange(2 * n + 1))
@@ -143,9 +158,16 @@ def test_condensed_stiffness_converges_to_the_theory():
 
 
 RUN = PAPER_RUN.replaced(
-    plane="antiplane", height=0.02, block_length=0.8, n_x=320, n_y=8, end_time=60.0,
-    time_after_event=0.1, perturbation="normal_load", strength=1e-4,
-)  # fmt: skip
+    plane="antiplane",
+    height=0.02,
+    block_length=0.8,
+    n_x=320,
+    n_y=8,
+    end_time=60.0,
+    time_after_event=0.1,
+    perturbation="normal_load",
+    strength=1e-4,
+)
 
 
 @pytest.mark.slow

@@ -137,9 +137,13 @@ bodies = st.builds(Body, materials, heights, st.sampled_from(sorted(FAR_SIDES)))
 wavenumbers = powers(-3, 5)
 interfaces = st.builds(
     Interface,
-    friction=st.floats(0.0, 0.9), a=powers(-3, -1), zeta=powers(-3, -1), slip_length=powers(-7, -2),
-    velocity=powers(-12, 0), normal_stress=powers(4, 9),
-)  # fmt: skip
+    friction=st.floats(0.0, 0.9),
+    a=powers(-3, -1),
+    zeta=powers(-3, -1),
+    slip_length=powers(-7, -2),
+    velocity=powers(-12, 0),
+    normal_stress=powers(4, 9),
+)
 
 
 @given(wavenumbers, bodies, bodies)

@@ -162,16 +162,19 @@ def test_narrow_unstable_band_is_found(excess, scale):
     assert k[scan[1]] <= point.wavenumber <= k[scan[1] + 1]
 
 
-@pytest.mark.parametrize(("upper", "lower", "changes", "said"), [
-    (Body(), Body(), {"zeta": -0.001}, "does not weaken"),
-    (Body(), Body(), {"zeta": 0.0}, "does not weaken"),
-    (Body(), RIGID, {"zeta": -0.005}, "zeta = -0.005"),
-    (Body(), RIGID, {"zeta": -0.0068}, "a + zeta = 0 is not positive"),
-    (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.01}, "is not positive"),
-    (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.003}, "does not weaken"),
-    (Body(height=0.01), RIGID, {}, "although friction weakens"),
-    (Body(height=0.01, far_side="clamped"), RIGID, {}, "the far side clamped (H = 0.01 m)"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("upper", "lower", "changes", "said"),
+    [
+        (Body(), Body(), {"zeta": -0.001}, "does not weaken"),
+        (Body(), Body(), {"zeta": 0.0}, "does not weaken"),
+        (Body(), RIGID, {"zeta": -0.005}, "zeta = -0.005"),
+        (Body(), RIGID, {"zeta": -0.0068}, "a + zeta = 0 is not positive"),
+        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.01}, "is not positive"),
+        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.003}, "does not weaken"),
+        (Body(height=0.01), RIGID, {}, "although friction weakens"),
+        (Body(height=0.01, far_side="clamped"), RIGID, {}, "the far side clamped (H = 0.01 m)"),
+    ],
+)
 def test_no_instability(upper, lower, changes, said):
     with pytest.raises(NoLength, match=re.escape(said)):
         critical_wavenumber(upper, lower, dataclasses.replace(MAIN_TEXT, **changes))

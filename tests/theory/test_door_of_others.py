@@ -26,12 +26,15 @@ def test_numbers_of_python(value):
     assert Fault(**ROCK | {"a": value}).critical_length() == PLAIN
 
 
-@pytest.mark.parametrize(("text", "meant"), [
-    ("6d6", "write the exponent with e, 6e6"),
-    ("6.0D+6Pa", "write the exponent with e, 6.0e+6Pa"),
-    ("6.0*MPa", "write the unit without *, 6.0 MPa"),
-    ("6.0 * MPa", "write the unit without *, 6.0 MPa"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("6d6", "write the exponent with e, 6e6"),
+        ("6.0D+6Pa", "write the exponent with e, 6.0e+6Pa"),
+        ("6.0*MPa", "write the unit without *, 6.0 MPa"),
+        ("6.0 * MPa", "write the unit without *, 6.0 MPa"),
+    ],
+)
 def test_what_is_meant(text, meant):
     with pytest.raises(ParameterError) as refused:
         Fault(**ROCK | {"normal_stress": text})

@@ -16,9 +16,13 @@ from nucleation.theory import weakening_patch
 
 A = 0.01
 FAULT = {
-    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": A,
-    "slip_distance": 5e-6, "friction": 0.6,
-}  # fmt: skip
+    "shear_modulus": 30e9,
+    "poisson_ratio": 0.25,
+    "normal_stress": 50e6,
+    "a": A,
+    "slip_distance": 5e-6,
+    "friction": 0.6,
+}
 OTHER = {"second_shear_modulus": 90e9}
 BASE = {"second_shear_modulus": math.inf, "height": 0.05}
 
@@ -66,12 +70,15 @@ def largest_growth(width, period, number, ratio, strengthening, outside_a, fault
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("ratio", "strengthening", "outside_a", "changed"), [
-    (0.5, 1.0, A, BASE),
-    (2.288, 0.43, A, BASE),
-    (0.5, 1.0, 2.0 * A, BASE),
-    (0.5, 1.0, A, {**OTHER, "height": 0.1, "second_height": 0.2}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ratio", "strengthening", "outside_a", "changed"),
+    [
+        (0.5, 1.0, A, BASE),
+        (2.288, 0.43, A, BASE),
+        (0.5, 1.0, 2.0 * A, BASE),
+        (0.5, 1.0, A, {**OTHER, "height": 0.1, "second_height": 0.2}),
+    ],
+)
 def test_fourier_modes_of_a_period_agree(ratio, strengthening, outside_a, changed):
     """All modes of a long period in thin layers, whose interaction falls off exponentially.
 
@@ -133,16 +140,19 @@ def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("module", "name", "value"), [
-    (weakening_patch, "POLYNOMIALS", 24),
-    (weakening_patch, "FREQUENCIES", 200),
-    (weakening_patch, "SLOWEST", 1e-7),
-    (weakening_patch, "TURN", 0.3),
-    (weakening_patch, "FACTOR", 1.1),
-    (weakening_patch, "PRECISION", 1e-7),
-    (weakening_patch, "OCTAVE_POINTS", 14),
-    (weakening_patch, "OCTAVES", (-28, 13)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("module", "name", "value"),
+    [
+        (weakening_patch, "POLYNOMIALS", 24),
+        (weakening_patch, "FREQUENCIES", 200),
+        (weakening_patch, "SLOWEST", 1e-7),
+        (weakening_patch, "TURN", 0.3),
+        (weakening_patch, "FACTOR", 1.1),
+        (weakening_patch, "PRECISION", 1e-7),
+        (weakening_patch, "OCTAVE_POINTS", 14),
+        (weakening_patch, "OCTAVES", (-28, 13)),
+    ],
+)
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
     before = usual(0.5, 0.7, **OTHER, height=0.8)
     weakening_patch.patch_basis.cache_clear()

@@ -11,8 +11,15 @@ from nucleation.run.derived import fault
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
 
-PMMA = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "a": 0.0068, "zeta": 0.016,
-        "slip_distance": 5e-7, "friction": 0.41, "velocity": 1e-5}  # fmt: skip
+PMMA = {
+    "shear_modulus": 3.1e9,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "zeta": 0.016,
+    "slip_distance": 5e-7,
+    "friction": 0.41,
+    "velocity": 1e-5,
+}
 NU, NU2 = 0.35, 0.25
 SETTINGS = {
     "half-spaces": {},

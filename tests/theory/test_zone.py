@@ -101,15 +101,25 @@ def test_a_gouge_between_rigid_walls_has_a_stiffness_of_its_own():
 
 @settings(max_examples=40)
 @given(
-    st.floats(0.02, 30.0), st.floats(1e-3, 10.0), st.floats(0.02, 20.0), st.booleans(),
+    st.floats(0.02, 30.0),
+    st.floats(1e-3, 10.0),
+    st.floats(0.02, 20.0),
+    st.booleans(),
     st.floats(0.3, 5.0),
-)  # fmt: skip
+)
 def test_nothing_grows_beyond_the_critical_wavenumber(contrast, thickness, height, rigid, ratio):
     """Against the growth rates on a fine grid of wavenumbers."""
-    fault = ROCK | (RIGID if rigid else {"friction": 0.6}) | {
-        "zone_shear_modulus": 30e9 * contrast, "zone_thickness": thickness, "height": height,
-        "velocity": 1e-6, "zeta": ratio * 0.01,
-    }  # fmt: skip
+    fault = (
+        ROCK
+        | (RIGID if rigid else {"friction": 0.6})
+        | {
+            "zone_shear_modulus": 30e9 * contrast,
+            "zone_thickness": thickness,
+            "height": height,
+            "velocity": 1e-6,
+            "zeta": ratio * 0.01,
+        }
+    )
     del fault["b"]
     critical = 2.0 * math.pi / float(critical_length(**fault))
     k = critical * np.geomspace(1e-3, 100.0, 4001)

@@ -34,13 +34,16 @@ AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
 BELOW = Material(9.0e9, 0.21, 2700.0)
 
 
-@pytest.mark.parametrize(("layer_number", "bottom", "bound"), [
-    (0.1, None, 1.5e-4),
-    (1.0, None, 1.5e-4),
-    (3.0, None, 3e-4),
-    (10.0, None, 5e-3),
-    *((1.0, bottom, 5e-4) for bottom in ("free", "clamped", "roller")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("layer_number", "bottom", "bound"),
+    [
+        (0.1, None, 1.5e-4),
+        (1.0, None, 1.5e-4),
+        (3.0, None, 3e-4),
+        (10.0, None, 5e-3),
+        *((1.0, bottom, 5e-4) for bottom in ("free", "clamped", "roller")),
+    ],
+)
 def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, bottom, bound):
     """Per mode ``D = mu k G1 dx`` and ``N = mu k G2 dx``, with second order in h."""
     errors, k = [], 1.5 * np.pi  # of the mode m = 1 of a block of 1 m
@@ -73,11 +76,9 @@ SETTINGS = {
 }
 
 
-@pytest.mark.parametrize(("setting", "ratio"), [
-    ("slip law", 0.9),
-    ("antiplane", 0.9),
-    ("antiplane", 1.2),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("setting", "ratio"), [("slip law", 0.9), ("antiplane", 0.9), ("antiplane", 1.2)]
+)
 def test_modes_grow_as_the_theory_says(setting, ratio):
     parameters = SETTINGS[setting]
     k, expected = theory(parameters, ratio)
@@ -87,11 +88,14 @@ def test_modes_grow_as_the_theory_says(setting, ratio):
     assert (found.real.max() > 0.0) == (ratio < 1.0)
 
 
-@pytest.mark.parametrize(("height", "ratio"), [
-    (0.1, 0.97),
-    (0.1, 1.25),
-    *(pytest.param(h, 1.03, marks=pytest.mark.slow) for h in (0.005, 0.5)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("height", "ratio"),
+    [
+        (0.1, 0.97),
+        (0.1, 1.25),
+        *(pytest.param(h, 1.03, marks=pytest.mark.slow) for h in (0.005, 0.5)),
+    ],
+)
 def test_table_of_modes_is_that_of_the_reference_and_the_theorys(monkeypatch, height, ratio):
     monkeypatch.setattr(tables, "HEIGHTS", [height])
     monkeypatch.setattr(tables, "MODES", [ratio])

@@ -38,11 +38,14 @@ def test_both_solvers_agree_on_the_block(tmp_path):
         np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"perturbation": "strength"}, "perturbation = none, drive_velocity"),
-    ({"evolution": "slip"}, "evolution = aging only"),
-    ({"second_body": "deformable", "second_grading": 4.0}, "second_grading = 1.0 only"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"perturbation": "strength"}, "perturbation = none, drive_velocity"),
+        ({"evolution": "slip"}, "evolution = aging only"),
+        ({"second_body": "deformable", "second_grading": 4.0}, "second_grading = 1.0 only"),
+    ],
+)
 def test_what_the_other_solver_lacks_is_refused(changes, words):
     with pytest.raises(FreeFemError, match=words):
         arguments(PARAMETERS.replaced(**changes))

@@ -188,9 +188,14 @@ def test_a_record_closes_its_balance():
 def pair(bottom, thick):
     """Ten times as thin, blocks that nothing holds bend by a thousand times the slip: 3e-9."""
     return EDGE.replaced(
-        height=0.005 * thick, second_body="deformable", second_far_side=bottom, second_n_y=5,
-        second_shear_modulus=6.2e9, second_density=2400.0, second_height=0.008 * thick,
-    )  # fmt: skip
+        height=0.005 * thick,
+        second_body="deformable",
+        second_far_side=bottom,
+        second_n_y=5,
+        second_shear_modulus=6.2e9,
+        second_density=2400.0,
+        second_height=0.008 * thick,
+    )
 
 
 OTHERS = {

@@ -42,10 +42,16 @@ class Workflow:
     def arguments(self, *arguments: str) -> list[str]:
         """What Snakemake is told: targets before options."""
         return [
-            *arguments, "--snakefile", str(self.checkout / "Snakefile"),
-            "--workflow-profile", str(self.checkout / "profiles" / self.profile),
-            "--directory", str(self.directory), "--configfile", str(self.config),
-        ]  # fmt: skip
+            *arguments,
+            "--snakefile",
+            str(self.checkout / "Snakefile"),
+            "--workflow-profile",
+            str(self.checkout / "profiles" / self.profile),
+            "--directory",
+            str(self.directory),
+            "--configfile",
+            str(self.config),
+        ]
 
     def start(self, *arguments: str, until: Callable = lambda: True) -> subprocess.Popen:
         """Start snakemake, which leads a group of processes, and wait for a moment in its run.
@@ -54,9 +60,13 @@ class Workflow:
         """
         process = subprocess.Popen(
             [sys.executable, "-m", "snakemake", *self.arguments(*arguments)],
-            cwd=self.checkout, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True, start_new_session=True,
-        )  # fmt: skip
+            cwd=self.checkout,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
         while not until():
             time.sleep(0.02)
             assert process.poll() is None

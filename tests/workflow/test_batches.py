@@ -12,9 +12,13 @@ from nucleation.datasets import netcdf
 from replication.configuration.load import configure
 
 SHORT = {
-    "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0,
+    "n_x": 40,
+    "n_y": 3,
+    "longest_step": 0.5,
+    "tolerance": 5.0e-2,
+    "end_time": 1.0,
     "record": "lengths",
-}  # fmt: skip
+}
 HEIGHTS = (0.02, 0.03, 0.04)
 
 

@@ -119,10 +119,13 @@ def of_table_s1(workflow, coefficient, results, target="table_s1"):
     """A configuration that has made a target that needs no simulation."""
     place = results.replace("/", "-")
     made = workflow.configured(
-        {"results": results, "friction": {"aging_coefficient": coefficient},
-         "studies": {"mine": {"runs": [{"height": 0.1}]}}},
+        {
+            "results": results,
+            "friction": {"aging_coefficient": coefficient},
+            "studies": {"mine": {"runs": [{"height": 0.1}]}},
+        },
         f"{place}-{coefficient}.yaml",
-    )  # fmt: skip
+    )
     made.printed(target)
     return made
 

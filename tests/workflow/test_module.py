@@ -65,8 +65,11 @@ def configure(directory, x):
 
 def jobs(host):
     """The rules that a dry run lists."""
-    return {line.split()[0] for line in host("--dry-run", "--quiet", "rules").stdout.splitlines()
-            if line.startswith(("own ", "copy ", "fault_"))}  # fmt: skip
+    return {
+        line.split()[0]
+        for line in host("--dry-run", "--quiet", "rules").stdout.splitlines()
+        if line.startswith(("own ", "copy ", "fault_"))
+    }
 
 
 def test_parameters_and_inputs_of_the_host_count(host):

@@ -43,12 +43,23 @@ def test_default_target_is_the_whole_paper(paper):
         ("simulations", {"simulate": 6}),
         ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "lengths": 1, "figure_3": 1}),
         ("figure_s2", {"simulate": 5, "extract": 1, "figure_s2": 1}),
-        ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
-                    "claims": 1}),
-        ("results/quick/figures/study_drop.png",
-         {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
+        (
+            "claims",
+            {
+                "theory": 1,
+                "dispersion": 1,
+                "simulate": 6,
+                "extract": 2,
+                "follow_patches": 1,
+                "claims": 1,
+            },
+        ),
+        (
+            "results/quick/figures/study_drop.png",
+            {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1},
+        ),
     ],
-)  # fmt: skip
+)
 def test_targets(workflow, target, expected):
     assert workflow.planned(*target.split()) == expected
 

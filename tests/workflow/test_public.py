@@ -10,9 +10,14 @@ PYTHON = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rgl
 IMPORTED = {"exceptions import WorkflowError", "logging import logger", "utils import min_version"}
 OF_THE_WORKFLOW = {"current_basedir", "execution_settings", "is_main_process"}
 OF_THE_PLAN = {
-    "is_main_process", "executor_plugin", "dryrun", "touch", "dag_settings", "persistence",
+    "is_main_process",
+    "executor_plugin",
+    "dryrun",
+    "touch",
+    "dag_settings",
+    "persistence",
     "iocache",
-}  # fmt: skip
+}
 
 
 def asked(pattern: str, paths: list[Path]) -> set[str]:

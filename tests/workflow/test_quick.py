@@ -76,13 +76,19 @@ def test_table_of_lengths(quick, results):
 @pytest.mark.parametrize(
     ("section", "values", "expected"),
     [
-        ("extraction", {"edge_threshold": 0.2}, {"extract", "lengths", "figure_3",
-                                                 "figure_s2", "follow_patches", *CLAIMING}),
-        ("curves", {"zeta_over_a": [1.0]}, {"theory", "figure_2", "figure_3",
-                                           "figure_s1", *CLAIMING}),
+        (
+            "extraction",
+            {"edge_threshold": 0.2},
+            {"extract", "lengths", "figure_3", "figure_s2", "follow_patches", *CLAIMING},
+        ),
+        (
+            "curves",
+            {"zeta_over_a": [1.0]},
+            {"theory", "figure_2", "figure_3", "figure_s1", *CLAIMING},
+        ),
         ("limits", {"memory": 1999.0}, set()),
     ],
-)  # fmt: skip
+)
 def test_change_of_a_setting_reruns_what_depends_on_it(quick, section, values, expected):
     config = read_yaml(quick.config)
     config[section] = {**config.get(section, {}), **values}

@@ -64,10 +64,14 @@ def test_new_law_makes_nothing_stale(plain):
 
 def test_code_edited_after_planning_is_refused(plain):
     """The edit is made by the first job itself, between planning and the figure."""
-    edit(plain, "src/replication/pipeline/job.py", "    began = time.monotonic()\n",
-         "    began = time.monotonic()\n"
-         "    _f = Path(__file__).parents[1] / 'figures' / 'figure_1.py'\n"
-         "    _f.write_text(_f.read_text().removesuffix('X = 1') + 'X = 1')\n")  # fmt: skip
+    edit(
+        plain,
+        "src/replication/pipeline/job.py",
+        "    began = time.monotonic()\n",
+        "    began = time.monotonic()\n"
+        "    _f = Path(__file__).parents[1] / 'figures' / 'figure_1.py'\n"
+        "    _f.write_text(_f.read_text().removesuffix('X = 1') + 'X = 1')\n",
+    )
     mine = plain.configured({**read_yaml(plain.config), "results": "new"}, "edited.yaml")
     done = mine("table_s1", "figure_1", "--cores", "1", "--prioritize", "table_s1")
     assert done.returncode != 0

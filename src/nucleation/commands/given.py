@@ -109,12 +109,7 @@ def together(*options: Decorator) -> Decorator:
     return with_options
 
 
-json_option = click.option(
-    "--json",
-    "as_json",
-    is_flag=True,
-    help="print JSON, in SI units",
-)
+json_option = click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 
 source_options = together(
     click.option(
@@ -150,9 +145,7 @@ def _given(
 
 
 def given_fault(
-    options: Mapping[str, Any],
-    draws: int = 0,
-    sought: Mapping[str, float] = {},
+    options: Mapping[str, Any], draws: int = 0, sought: Mapping[str, float] = {}
 ) -> tuple[Fault, frozenset[str], Draws | None]:
     """The fault that options define (None: not given), names of what is given, and its draws.
 

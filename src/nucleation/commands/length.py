@@ -45,10 +45,7 @@ _BEGINS = {"edge": "pushed at its edge", "remote": "begun in the interior"}
 """Where the creeping patch begins, by ``--loading``."""
 
 _PERTURBED = declarations(Perturbation)
-_OF_PERTURBATION = {
-    "perturbation": _PERTURBED["kind"],
-    "strength": _PERTURBED["strength"],
-}
+_OF_PERTURBATION = {"perturbation": _PERTURBED["kind"], "strength": _PERTURBED["strength"]}
 """The perturbation of the length at the drop, the arguments of ``Fault.lengths``."""
 
 _OF_PATCH = {
@@ -86,12 +83,7 @@ _CREEPING = {
     parse_range,
 )
 @options_of(_OF_PATCH, _NOTES)
-@option(
-    "draws",
-    DRAWS,
-    "of uncertain parameters; default 200",
-    default="200",
-)
+@option("draws", DRAWS, "of uncertain parameters; default 200", default="200")
 @json_option
 def command(as_json: bool, draws: int, **options: Any) -> int:
     """Nucleation lengths of a fault: the theory's, the one at the drop, and others in use.
@@ -120,13 +112,7 @@ def command(as_json: bool, draws: int, **options: Any) -> int:
             rate = drawn.values.get("weakening_rate", options["weakening_rate"])
             perturbed = perturbed or {"perturbation": "none"}
             return print_quantiles(
-                fault,
-                names,
-                drawn,
-                options["paper"],
-                as_json,
-                **perturbed,
-                weakening_rate=rate,
+                fault, names, drawn, options["paper"], as_json, **perturbed, weakening_rate=rate
             )
         found = fault.lengths(**perturbed, weakening_rate=options["weakening_rate"])
         patch = None
@@ -198,11 +184,7 @@ def _moduli(fault: Fault) -> str:
     return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
 
 
-def _mode_lines(
-    fault: Fault,
-    critical: Answer,
-    mode: Mapping[str, Any],
-) -> list[str]:
+def _mode_lines(fault: Fault, critical: Answer, mode: Mapping[str, Any]) -> list[str]:
     """Length, wavenumber and frequency of the critical mode."""
     meaning = "angular frequency of the critical mode"
     frequency, unit = mode["critical_frequency"], "rad/s"
@@ -251,12 +233,7 @@ def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
     of_system: dict[str, list[Row]] = {}
     for length in LENGTHS:
         if length.key in found:
-            rows = _length_rows(
-                length,
-                found[length.key],
-                fault,
-                critical,
-            )
+            rows = _length_rows(length, found[length.key], fault, critical)
             of_system.setdefault(length.system, []).extend(rows)
     lines = []
     for system in sorted(of_system, key=lambda system: system != TWO_MATERIALS):
@@ -264,12 +241,7 @@ def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
     return lines
 
 
-def _length_rows(
-    length: Length,
-    answer: Answer,
-    fault: Fault,
-    critical: float,
-) -> list[Row]:
+def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) -> list[Row]:
     """One length of the literature: value and formula, source, validity."""
     value = float(answer.value)
     text = f"{value:.4g} m"
@@ -292,11 +264,7 @@ def _length_rows(
     return rows
 
 
-def _patch_lines(
-    patch: dict[str, Any],
-    width: float | None,
-    critical: float,
-) -> list[str]:
+def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) -> list[str]:
     """The smallest width W_c, and the behaviour of a patch of a width (m)."""
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch["smallest_width"]

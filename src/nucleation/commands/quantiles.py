@@ -22,12 +22,7 @@ _REASONS = 3  # of those why draws lack a length, that are named
 
 
 def print_quantiles(
-    fault: Fault,
-    names: Collection[str],
-    drawn: Draws,
-    paper: bool,
-    as_json: bool,
-    **options: Any,
+    fault: Fault, names: Collection[str], drawn: Draws, paper: bool, as_json: bool, **options: Any
 ) -> int:
     """Print the quantiles of all lengths of the draws of a fault; returns the exit code."""
     size = max(np.size(x) for x in drawn.values.values())
@@ -60,20 +55,8 @@ def _described(key: str, answer: Answer) -> dict[str, Any]:
     return {
         "key": key,
         "title": TITLES[key],
-        "quantiles": dict(
-            zip(
-                labels,
-                quantiles(counted).tolist(),
-                strict=True,
-            )
-        ),
-        "errors": dict(
-            zip(
-                labels,
-                errors_of_quantiles(counted).tolist(),
-                strict=True,
-            )
-        ),
+        "quantiles": dict(zip(labels, quantiles(counted).tolist(), strict=True)),
+        "errors": dict(zip(labels, errors_of_quantiles(counted).tolist(), strict=True)),
         "share": float(there.mean()),
         "why_not": "; ".join(list(reasons)[:_REASONS]),
         "units": "m",
@@ -94,22 +77,10 @@ def _lines(found: Mapping[str, Any]) -> list[str]:
         if not length["share"]:
             nowhere.append(length["title"])
             continue
-        pairs = zip(
-            length["quantiles"].values(),
-            length["errors"].values(),
-            strict=True,
-        )
+        pairs = zip(length["quantiles"].values(), length["errors"].values(), strict=True)
         numbers = [as_sure(value, error) for value, error in pairs]
         rows.append([length["title"], *numbers, f"{length['share']:.1%}"])
-    lines = [
-        *wrapped(
-            *found["system"],
-            "",
-            text,
-            "",
-        ),
-        *table(rows, range(1, len(_HEAD))),
-    ]
+    lines = [*wrapped(*found["system"], "", text, ""), *table(rows, range(1, len(_HEAD)))]
     if nowhere:
         lines += wrapped("", f"without a value in any draw: {'; '.join(nowhere)}")
     remark = (

@@ -33,12 +33,7 @@ _OF_SIMULATION = ("slip_rate", "driving_force", "step_time")
 )
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
 @json_option
-def command(
-    file: Path,
-    plot: Path | None,
-    force: bool,
-    as_json: bool,
-) -> int:
+def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     """Summarise a dataset of the project: its kind, origin and variables.
 
     \b

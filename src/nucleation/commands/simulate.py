@@ -58,12 +58,7 @@ _NOTES["correlation_length"] = "a fifth of L_b if left out"
 @click.option("--dry-run", is_flag=True, help="check everything, describe the run, and stop")
 @json_option
 def command(
-    output: Path,
-    force: bool,
-    dry_run: bool,
-    as_json: bool,
-    memory: float | None,
-    **options: Any,
+    output: Path, force: bool, dry_run: bool, as_json: bool, memory: float | None, **options: Any
 ) -> int:
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 
@@ -110,12 +105,7 @@ def command(
         return DONE
     require("solver")
     click.echo("\n".join(wrapped(*lines, err=as_json)), err=as_json)
-    return _simulate(
-        run,
-        output,
-        as_json,
-        described,
-    )
+    return _simulate(run, output, as_json, described)
 
 
 def _plan_lines(run: Run) -> list[str]:
@@ -135,12 +125,7 @@ def _plan_lines(run: Run) -> list[str]:
     return [*lines, until, f"memory: about {estimated_megabytes(run):.0f} MB"]
 
 
-def _simulate(
-    run: Run,
-    output: Path,
-    as_json: bool,
-    described: dict[str, Any],
-) -> int:
+def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) -> int:
     """Run and write the record, into a file beside the output if the simulation fails."""
     from ..datasets import netcdf, provenance
     from ..extraction.extraction import extract

@@ -67,12 +67,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
         fit = fault.specimen(unknown, length, criterion)
         is_given = unknown in names
         found = fault.lengths() if is_given else None
-    system = system_of_fault(
-        fault,
-        names,
-        options["paper"],
-        "" if is_given else unknown,
-    )
+    system = system_of_fault(fault, names, options["paper"], "" if is_given else unknown)
     lines = [*system, ""]
     judged = None
     if found is not None:

@@ -31,11 +31,7 @@ _ENGINEERING_UNITS = {
 """Engineering units by SI unit, each with its size in that unit, the smallest first."""
 
 
-def in_unit(
-    value: float,
-    unit: str,
-    digits: int = 4,
-) -> str:
+def in_unit(value: float, unit: str, digits: int = 4) -> str:
     """A number of an SI unit ("1": a pure number) in its engineering unit.
 
     >>> in_unit(3.1e9, "Pa"), in_unit(5e-7, "m"), in_unit(0.2, "1")
@@ -88,11 +84,7 @@ def wrapped(*texts: str, err: bool = False, indent: int | None = None) -> list[s
     return lines
 
 
-def show(
-    as_json: bool,
-    found: Mapping[str, Any],
-    lines: Iterable[str],
-) -> None:
+def show(as_json: bool, found: Mapping[str, Any], lines: Iterable[str]) -> None:
     """Print the answer of a command: as JSON (null for NaN, text for infinity), or its lines."""
     click.echo(json.dumps(_plain(found), indent=2) if as_json else "\n".join(lines))
 

@@ -34,7 +34,7 @@ _UNUSED = {
         "nucleation.drop",
         "nucleation.theory.creep",
         "nucleation.theory.weakening_patch",
-    ),
+    )
 }
 """Answers of a fault that a simulation, which has one, never computes; a test runs it without."""
 
@@ -172,11 +172,7 @@ def _file(module: str) -> Path | None:
     return None
 
 
-def _collect(
-    node: object,
-    words: list[str],
-    imports: list[tuple[int, str, str]],
-) -> None:
+def _collect(node: object, words: list[str], imports: list[tuple[int, str, str]]) -> None:
     """Add the words of a syntax tree, or of a value in one, and its imports to two lists."""
     match node:
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):

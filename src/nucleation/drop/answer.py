@@ -38,11 +38,7 @@ def answers_of_drop(fault: FaultLike, declared: Perturbation) -> dict[str, Answe
     age = np.nan if fault.initial_state is None else fault.initial_state
 
     def answer(
-        one: Systems,
-        critical: float,
-        velocity: float,
-        distance: float,
-        age: float,
+        one: Systems, critical: float, velocity: float, distance: float, age: float
     ) -> tuple[Any, ...]:
         phi0 = AGE * distance / velocity if math.isnan(age) else age
         patches = Patches(one, evolution=fault.evolution)
@@ -68,13 +64,7 @@ def _answer(rows: Any) -> Answer:
 
 
 def _none(status: str, reason: str) -> Answer:
-    return Answer(
-        math.nan,
-        math.nan,
-        math.nan,
-        status,
-        reason,
-    )
+    return Answer(math.nan, math.nan, math.nan, status, reason)
 
 
 def _runaway(found: Runaway) -> Answer:
@@ -101,11 +91,4 @@ def _drop(known: ExpectedDrop) -> Answer:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    return Answer(
-        known.length,
-        known.low,
-        known.high,
-        VALUE,
-        "",
-        "; ".join(doubts),
-    )
+    return Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts))

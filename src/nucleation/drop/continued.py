@@ -43,17 +43,12 @@ def trend(history: ModeHistory, values: Array) -> Callable[[Array], Array]:
 
 
 def complex_trend(
-    history: ModeHistory,
-    values: ComplexArray,
+    history: ModeHistory, values: ComplexArray
 ) -> Callable[[Array | float], ComplexArray]:
     """Complex values as a function of patch length (m): a polynomial, continued as a constant."""
     last = history.length[-1]
     powers = np.vander(history.length / last - 1.0, DEGREE + 1)
-    fitted, *_ = np.linalg.lstsq(
-        powers.astype(complex),
-        values,
-        rcond=None,
-    )
+    fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
 
     def at(lengths: Array | float) -> ComplexArray:
         within = np.atleast_1d(np.minimum(lengths, last))
@@ -71,15 +66,9 @@ def continued(history: ModeHistory) -> CreepPath:
     growth = trend(history, history.rate.real)(lengths)
     frequency = trend(history, history.rate.imag)(lengths)
     rates = (growth + 1j * frequency).astype(complex)
-    even = np.linspace(
-        times[0],
-        times[-1],
-        FINE,
-    )
+    even = np.linspace(times[0], times[-1], FINE)
     return CreepPath(
-        time=even,
-        length=np.interp(even, times, lengths),
-        rate=np.interp(even, times, rates),
+        time=even, length=np.interp(even, times, lengths), rate=np.interp(even, times, rates)
     )
 
 
@@ -87,19 +76,11 @@ def exponent_of(path: CreepPath) -> ComplexArray:
     """``int Lambda dt`` from the first time on."""
     from scipy.integrate import cumulative_trapezoid  # slow to load, and few processes need it
 
-    return np.asarray(
-        cumulative_trapezoid(
-            path.rate,
-            path.time,
-            initial=0,
-        )
-    )
+    return np.asarray(cumulative_trapezoid(path.rate, path.time, initial=0))
 
 
 def roughness_weights(
-    history: ModeHistory,
-    path: CreepPath,
-    x: Array,
+    history: ModeHistory, path: CreepPath, x: Array
 ) -> Iterator[tuple[float, ComplexArray]]:
     """Weights of the roughness at positions x (m) in the amplitude A, as time advances."""
     exponent = exponent_of(path)
@@ -138,29 +119,13 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     longest = history.length[-1] * BEYOND
     behind = np.arange(-longest, 4.0 * dx, 0.5 * dx)
     rows = [
-        np.interp(
-            behind + length,
-            history.x,
-            weights,
-            left=0.0,
-            right=0.0,
-        )
-        for length, weights in zip(
-            history.length,
-            history.strength,
-            strict=True,
-        )
+        np.interp(behind + length, history.x, weights, left=0.0, right=0.0)
+        for length, weights in zip(history.length, history.strength, strict=True)
     ]
     fitted = complex_trend(history, np.array(rows))
 
     def at(length: float, x: Array) -> ComplexArray:
         weights = fitted(length)
-        return np.interp(
-            x - length,
-            behind,
-            weights,
-            left=0.0,
-            right=0.0,
-        )
+        return np.interp(x - length, behind, weights, left=0.0, right=0.0)
 
     return at

@@ -75,11 +75,7 @@ class Growth:
         if reached.all() or not reached[-1]:
             return Drop(np.nan, np.nan, np.nan)
         parts = self._dropped(strength)
-        lengths = np.interp(
-            (MEDIAN, EARLY, LATE),
-            parts,
-            self.length,
-        )
+        lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)
         return Drop(*lengths.tolist())
 
     def _dropped(self, strength: float) -> Array:
@@ -107,11 +103,7 @@ class Growth:
         at = np.interp(length, self.length, self.log_amplitude)
         return float(np.exp(-at) / ROOT_OF_MEDIAN)
 
-    def closed_form(
-        self,
-        history: ModeHistory,
-        strength: float,
-    ) -> ClosedForm:
+    def closed_form(self, history: ModeHistory, strength: float) -> ClosedForm:
         """The median drop in one line.
 
         Returns: The median length at the drop, and the numbers that it depends on.
@@ -135,10 +127,7 @@ class Growth:
         return ClosedForm(start, start + float(delay), effective)
 
 
-def growth(
-    history: ModeHistory,
-    declared: Perturbation,
-) -> Growth:
+def growth(history: ModeHistory, declared: Perturbation) -> Growth:
     """Growth of the mode along the creep under a declared forcing, in the mean square.
 
     The creep is continued by the trends of L(t) and Lambda(L).
@@ -156,10 +145,7 @@ def growth(
     return grown(path, 0.5 * (exponent + np.logaddexp.accumulate(terms)))
 
 
-def _power(
-    history: ModeHistory,
-    declared: Perturbation,
-) -> Array:
+def _power(history: ModeHistory, declared: Perturbation) -> Array:
     """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
     memory = history.patches.memory
     omega = history.rate.imag
@@ -174,27 +160,16 @@ def _power(
         distances = history.x[:, None] - history.x
         covariance = correlation(distances, declared.correlation_length)
         weights = history.state
-        shares = np.einsum(
-            "ix,xy,iy->i",
-            weights,
-            covariance,
-            weights.conj(),
-        ).real
+        shares = np.einsum("ix,xy,iy->i", weights, covariance, weights.conj()).real
         return shares / memory**2 * spectrum
     raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
 
 
 def _log_amplitude_of_roughness(
-    history: ModeHistory,
-    path: CreepPath,
-    declared: Perturbation,
+    history: ModeHistory, path: CreepPath, declared: Perturbation
 ) -> Array:
     """log(sigma / eps) under roughness of the strength, as the front passes over it."""
-    x = np.arange(
-        0.0,
-        path.length[-1],
-        declared.correlation_length / SAMPLED,
-    )
+    x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
     covariance = correlation(x[:, None] - x, declared.correlation_length)
     log_factors = []
     rows = []
@@ -211,10 +186,7 @@ def _log_amplitude_of_roughness(
     return np.array(log_factors) + 0.5 * np.log(np.maximum(squares, TINY))
 
 
-def grown(
-    path: CreepPath,
-    log_amplitude: Array,
-) -> Growth:
+def grown(path: CreepPath, log_amplitude: Array) -> Growth:
     """The growth along a path.
 
     Returns: At all times of the path.

@@ -124,10 +124,7 @@ def _doubts_of_runaway(patches: Patches) -> Iterator[str]:
 
 
 def _doubts_of_law(
-    history: ModeHistory,
-    drop: Drop,
-    closed: ClosedForm,
-    critical: float,
+    history: ModeHistory, drop: Drop, closed: ClosedForm, critical: float
 ) -> Iterator[str]:
     """Why the law of the drop is uncertain."""
     longest = history.length[-1]

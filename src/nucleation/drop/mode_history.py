@@ -60,10 +60,7 @@ class ModeHistory:
 
 @lru_cache(maxsize=4)  # which perturbations of one fault share
 def mode_history(
-    patches: Patches,
-    critical_length: float,
-    initial_state: float,
-    initial_stress: float = 0.0,
+    patches: Patches, critical_length: float, initial_state: float, initial_stress: float = 0.0
 ) -> ModeHistory:
     """The mode of a fault's creep, at the instants at which it can be followed.
 
@@ -105,11 +102,7 @@ def mode_history(
     )
 
 
-def _narrower(
-    lengths: Array,
-    known: NDArray[np.intp],
-    stable: float,
-) -> Array:
+def _narrower(lengths: Array, known: NDArray[np.intp], stable: float) -> Array:
     """Lengths (m) over the narrower range in which the mode is known, or around L_s."""
     middle = int(np.searchsorted(lengths, stable))
     first, last = middle, middle - 1
@@ -120,11 +113,7 @@ def _narrower(
     return np.linspace(low, high, INSTANTS)
 
 
-def followed(
-    length: Array,
-    rates: ComplexArray,
-    stable: float,
-) -> NDArray[np.intp]:
+def followed(length: Array, rates: ComplexArray, stable: float) -> NDArray[np.intp]:
     """Indices of the lengths at which a rate belongs to the mode that begins to grow at L_s.
 
     The mode is followed from L_s to either side, until it no longer oscillates or the rate jumps:
@@ -157,11 +146,7 @@ def _continues(rates: ComplexArray) -> bool:
 
 
 def _weights(
-    patches: Patches,
-    found: Advance,
-    i: int,
-    rate: complex,
-    x: Array,
+    patches: Patches, found: Advance, i: int, rate: complex, x: Array
 ) -> tuple[complex, complex, ComplexArray, ComplexArray]:
     """The weights of a :class:`ModeHistory`, time in D/V."""
     patch, creep, friction = found.patches[i], found.creeps[i], found.frictions[i]

@@ -33,9 +33,7 @@ class Record:
     """
 
     def __init__(
-        self,
-        simulation: xr.Dataset,
-        settings: ExtractionSettings = ExtractionSettings(),
+        self, simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
     ) -> None:
         self.simulation = simulation
         self.settings = settings
@@ -62,12 +60,7 @@ class Record:
     @cached_property
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
-        long = long_after(
-            self.run,
-            self.x,
-            self.time,
-            self.simulation["slip_rate"].values,
-        )
+        long = long_after(self.run, self.x, self.time, self.simulation["slip_rate"].values)
         ruptures = self.fastest > RUPTURE * self.velocity
         return find_onset(
             self.step_time,
@@ -88,13 +81,7 @@ class Record:
         found = [False]
         # lists, as numbers of arrays take four times as long
         for step in np.transpose([self.step_time, self.fastest, places]).tolist():
-            found.append(
-                patch_is_fast(
-                    self.run,
-                    found[-1],
-                    *step,
-                )
-            )
+            found.append(patch_is_fast(self.run, found[-1], *step))
         return np.array(found[1:])
 
     @property
@@ -138,8 +125,7 @@ class Record:
 
 
 def extract(
-    simulation: xr.Dataset,
-    settings: ExtractionSettings = ExtractionSettings(),
+    simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
 ) -> dict[str, float]:
     """Read onset and critical length from one simulation.
 
@@ -184,12 +170,5 @@ def extracted(record: Record) -> dict[str, float]:
         return dict.fromkeys(MEASURED, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
-    values = (
-        instants[0],
-        instants.min(),
-        instants.max(),
-        edges[0, 0],
-        edges.min(),
-        edges.max(),
-    )
+    values = (instants[0], instants.min(), instants.max(), edges[0, 0], edges.min(), edges.max())
     return dict(zip(MEASURED, map(float, values), strict=True))

@@ -131,10 +131,7 @@ def freezer(run: Run, threshold: float) -> Freezer:
     return frozen
 
 
-def follow_patch(
-    simulation: xr.Dataset,
-    settings: ExtractionSettings,
-) -> xr.Dataset:
+def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
     """Growth of the frozen patch along a run up to its onset, and the length where it begins.
 
     Parameters
@@ -228,11 +225,7 @@ def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.i
     if frames.size <= number:
         return frames
     lengths = length[frames]
-    wanted = np.linspace(
-        lengths[0],
-        lengths[-1],
-        number,
-    )
+    wanted = np.linspace(lengths[0], lengths[-1], number)
     nearest = np.searchsorted(lengths, wanted)
     nearest = nearest.clip(0, frames.size - 1)
     return frames[np.unique(nearest)]

@@ -28,9 +28,7 @@ EDGES = ("usual", "high", "low")
 INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {
     f"length_{edge}_{instant}": Variable(
-        "m",
-        f"patch length at the {instant} of the drop, its edge at the {edge} slip rate",
-        "L",
+        "m", f"patch length at the {instant} of the drop, its edge at the {edge} slip rate", "L"
     )
     for edge, instant in itertools.product(EDGES, INSTANTS)
 }
@@ -134,9 +132,7 @@ def _patch(record: Record) -> dict[str, float]:
 
 
 def _state_rate_well_approximated(
-    rate: Array,
-    state: Array,
-    friction: Friction,
+    rate: Array, state: Array, friction: Friction
 ) -> NDArray[np.bool_]:
     """Where ``dphi/dt`` with v in the place of ``w = sqrt(v^2 + v0^2)`` is nearly the same."""
     speed = np.maximum(np.abs(rate), 1e-300)
@@ -168,25 +164,17 @@ DEFINITIONS = {
         between_tips=True,
     ),
     "thin_layer": _Definition(
-        share=0.5,
-        part=0.5,
-        words="twice the width at half the largest slip rate",
+        share=0.5, part=0.5, words="twice the width at half the largest slip rate"
     ),
     "state_evolution": _Definition(
-        share=0.5,
-        part=1.0,
-        words="width at half the largest slip rate",
+        share=0.5, part=1.0, words="width at half the largest slip rate"
     ),
 }
 """In Rubin and Ampuero's solution 0.7434 L_b on either side slip faster than half the maximum; in
 Viesca's, ``1 + cos(x/L)``, one half does."""
 
 
-def zone_length(
-    simulation: xr.Dataset,
-    slip_rate: float,
-    definition: _Definition,
-) -> float:
+def zone_length(simulation: xr.Dataset, slip_rate: float, definition: _Definition) -> float:
     """Length of the accelerating zone when its largest slip rate passes a value.
 
     In m and m/s; between recorded times the length is linear in the logarithm of the largest slip
@@ -212,26 +200,16 @@ def zone_length(
 
 
 def far_ahead(
-    simulation: xr.Dataset,
-    slip_rate: float,
-    slip_distance: float,
+    simulation: xr.Dataset, slip_rate: float, slip_distance: float
 ) -> tuple[float, float]:
     """Slip rate (m/s) and ``v phi/D`` half a period from the fastest point, when it slips as fast.
 
     NaN if the largest slip rate (m/s) is not reached, or if the fault is stuck there.
     """
-    rate = _when_passing(
-        simulation,
-        slip_rate,
-        lambda rates, _: rates[_opposite(rates)],
-    )
+    rate = _when_passing(simulation, slip_rate, lambda rates, _: rates[_opposite(rates)])
     if not rate > 0.0:  # slip rates of a stuck fault are not recorded
         return math.nan, math.nan
-    state = _when_passing(
-        simulation,
-        slip_rate,
-        lambda rates, states: states[_opposite(rates)],
-    )
+    state = _when_passing(simulation, slip_rate, lambda rates, states: states[_opposite(rates)])
     return rate, rate * state / slip_distance
 
 
@@ -242,9 +220,7 @@ def _opposite(rates: Array) -> int:
 
 
 def _when_passing(
-    simulation: xr.Dataset,
-    slip_rate: float,
-    measure: Callable[[Array, Array], float],
+    simulation: xr.Dataset, slip_rate: float, measure: Callable[[Array, Array], float]
 ) -> float:
     """The measure of slip rates (m/s) and states (s) when the fastest passes a value (m/s)."""
     rates = np.abs(simulation["slip_rate"].values.astype(float))
@@ -255,10 +231,4 @@ def _when_passing(
         return math.nan
     pair = [above[0] - 1, above[0]]
     measured = [measure(rates[i], states[i]) for i in pair]
-    return float(
-        np.interp(
-            np.log(slip_rate),
-            np.log(fastest[pair]),
-            measured,
-        )
-    )
+    return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), measured))

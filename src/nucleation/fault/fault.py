@@ -139,12 +139,7 @@ class Fault:
     density: Any = 1200.0
     second_density: Any = None
     initial_state: Any = None
-    registry: Any = dataclasses.field(
-        default=None,
-        init=False,
-        repr=False,
-        compare=False,
-    )
+    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
     """The pint registry of a parameter that was a quantity; the fields are in SI units."""
 
     def __new__(cls, **given: Any) -> Self:
@@ -267,13 +262,7 @@ class Fault:
         found = self._at(wavenumber, Systems.growth_rates, dtype=complex)
         if labelled(found):
             found = found.rename(row="root")
-        return named(
-            found,
-            "growth_rate",
-            "1/s",
-            "growth rate of the mode",
-            self,
-        )
+        return named(found, "growth_rate", "1/s", "growth rate of the mode", self)
 
     def transfer_functions(self, wavenumber: Values) -> tuple[Any, Any]:
         """Elastic transfer functions G1 and G2 of the pair of bodies (Eqs. 7, 10).
@@ -300,13 +289,7 @@ class Fault:
         from ..theory.creep.lengths import stability_answers
 
         found = stability_answers(self)[0]
-        return named(
-            found,
-            "stability_length",
-            "m",
-            "stability length of the creeping patch",
-            self,
-        )
+        return named(found, "stability_length", "m", "stability length of the creeping patch", self)
 
     def runaway_length(self) -> Any:
         """Runaway length L_run, beyond which a creeping patch can't slip slowly.
@@ -318,19 +301,9 @@ class Fault:
         """
         from ..theory.creep.runaway import runaway_answers
 
-        return named(
-            runaway_answers(self)[0],
-            "runaway_length",
-            "m",
-            "runaway length",
-            self,
-        )
+        return named(runaway_answers(self)[0], "runaway_length", "m", "runaway length", self)
 
-    def weakening_patch_length(
-        self,
-        outside_zeta: Values,
-        outside_a: Values | None = None,
-    ) -> Any:
+    def weakening_patch_length(self, outside_zeta: Values, outside_a: Values | None = None) -> Any:
         """Smallest width W_c of a weakening patch that nucleates among strengthening surroundings.
 
         A narrower patch creeps at V like its surroundings, whatever disturbs it a little; on a
@@ -352,13 +325,7 @@ class Fault:
         from ..theory.weakening_patch import weakening_patch_values
 
         found = weakening_patch_values(self, outside_zeta, outside_a)
-        return named(
-            found,
-            "weakening_patch_length",
-            "m",
-            "smallest patch that nucleates",
-            self,
-        )
+        return named(found, "weakening_patch_length", "m", "smallest patch that nucleates", self)
 
     def lengths(
         self,
@@ -401,12 +368,7 @@ class Fault:
             if correlation_length is None and perturbation in ALONG_X:
                 correlation_length = roughness_length(self, self.single("b"))
             scale = 1.0 if correlation_length is None else correlation_length
-            declared = Perturbation(
-                perturbation,
-                strength,
-                correlation_time,
-                scale,
-            )
+            declared = Perturbation(perturbation, strength, correlation_time, scale)
             found |= answers_of_drop(self, declared)
         return answer.Lengths(found | answer.answers_of_literature(self, weakening_rate))
 
@@ -438,13 +400,7 @@ class Fault:
         """
         from ..lengths.specimen import specimen_fit
 
-        return specimen_fit(
-            self,
-            unknown,
-            length,
-            criterion,
-            within,
-        )
+        return specimen_fit(self, unknown, length, criterion, within)
 
     def _critical(self) -> CriticalMode:
         length, k, omega = evaluate(self, critical_modes, rows=3)
@@ -457,25 +413,14 @@ class Fault:
             angular_frequency=named(omega, "critical_frequency", "rad/s", frequency, self),
         )
 
-    def _at(
-        self,
-        wavenumber: Values,
-        function: Callable[..., Any],
-        dtype: type = float,
-    ) -> Any:
+    def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
         """Two rows of a function of Systems and wavenumbers, which must not be zero."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})
         numbers = np.asarray(k, dtype=float)
         if not np.all(np.isfinite(numbers) & (numbers != 0.0)):
             raise ValueError("the wavenumber k (1/m) must be finite and different from zero")
-        return evaluate(
-            self,
-            function,
-            k,
-            rows=2,
-            dtype=dtype,
-        )
+        return evaluate(self, function, k, rows=2, dtype=dtype)
 
     def _require_velocity(self) -> None:
         if self.velocity is None:

@@ -76,12 +76,7 @@ def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
     if missing:
         raise ParameterError(f"{', '.join(missing)} is missing: the friction law {name} needs it")
     velocity, distance = (float(np.median(found[key])) for key in ("velocity", "slip_distance"))
-    law = own_law(
-        velocity,
-        distance,
-        found.get("evolution", "aging"),
-        name,
-    )
+    law = own_law(velocity, distance, found.get("evolution", "aging"), name)
     return found | {"friction_law": law.changed(own)}
 
 
@@ -106,9 +101,7 @@ def flat(fault: FaultLike) -> dict[str, Any]:
 
 
 def read_parameters(
-    path: Path | str,
-    ignored: Collection[str] = (),
-    further: Mapping[str, Quantity] = {},
+    path: Path | str, ignored: Collection[str] = (), further: Mapping[str, Quantity] = {}
 ) -> dict[str, Any]:
     """The flat values in a YAML or JSON file, in SI units; texts may have units and ranges.
 

@@ -62,11 +62,7 @@ def _beside_nodes(values: Array) -> tuple[Array, Array]:
 def product(matrix: Array, values: Array) -> Array:
     """Product of a tridiagonal matrix with an array along its first axis, (n, ...)."""
     further_axes = [1] * (values.ndim - 1)
-    lower, diagonal, upper = matrix.reshape(
-        3,
-        -1,
-        *further_axes,
-    )
+    lower, diagonal, upper = matrix.reshape(3, -1, *further_axes)
     out = diagonal * values
     out[1:] += lower[1:] * values[:-1]
     out[:-1] += upper[:-1] * values[1:]
@@ -119,13 +115,7 @@ class Body:
                     f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
                     f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
                 )
-            self.layers.append(
-                Layer(
-                    *lower,
-                    self.modes,
-                    far_side,
-                )
-            )
+            self.layers.append(Layer(*lower, self.modes, far_side))
         self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
         # kg/m, that moves with the driven edge
         self.total_mass = material.density * self.grid.length * self.grid.height
@@ -162,13 +152,7 @@ class Body:
         """Views of a field: each layer's, the lower one's mirrored."""
         if len(self.layers) == 1:
             return [field]
-        return list(
-            map(
-                Field,
-                self.split(field.modes),
-                self.split(field.edge),
-            )
-        )
+        return list(map(Field, self.split(field.modes), self.split(field.edge)))
 
     def zero_field(self) -> Field:
         """A field of zeros."""
@@ -223,21 +207,12 @@ class Body:
         of_modes = (load.modes * way.modes).sum(axis=(0, 1))
         return float(of_modes @ self.modes.norms + load.edge @ way.edge)
 
-    def inertia_load(
-        self,
-        s: float,
-        terms: Sequence[tuple[float, Field]],
-        load: Field,
-    ) -> Field:
+    def inertia_load(self, s: float, terms: Sequence[tuple[float, Field]], load: Field) -> Field:
         """``load + s M sum_i c_i f_i`` (N/m) of at most four terms; `s` in 1/s^2, f_i in m."""
         found = Field(np.empty_like(load.modes), np.empty_like(load.edge))
         nothing = (0.0, terms[0][1])
         missing = 4 - len(terms)  # the kernel takes four terms
-        coefficients, fields = zip(
-            *terms,
-            *[nothing] * missing,
-            strict=True,
-        )
+        coefficients, fields = zip(*terms, *[nothing] * missing, strict=True)
         split = zip(*map(self.parts, fields), strict=True)
         for layer, of_layer, own, out in zip(
             self.layers, split, self.parts(load), self.parts(found), strict=True
@@ -267,20 +242,11 @@ class Body:
 
     def kinetic_energy(self, velocity: Field, of_edge: float) -> float:
         """Kinetic energy (J/m) at a velocity w_t and that of the driven edge (m/s)."""
-        momentum = self.inertia_load(
-            1.0,
-            [(1.0, velocity)],
-            self.zero_field(),
-        )
+        momentum = self.inertia_load(1.0, [(1.0, velocity)], self.zero_field())
         own = 0.5 * self.work(momentum, velocity)
         return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
 
-    def settled(
-        self,
-        motions: tuple[Motion, ...],
-        step: float,
-        slid: float,
-    ) -> tuple[Motion, ...]:
+    def settled(self, motions: tuple[Motion, ...], step: float, slid: float) -> tuple[Motion, ...]:
         """Remove a translation of two blocks along y that has grown from round-off.
 
         If no far side is held, no force acts on such a translation but round-off, which makes it
@@ -296,19 +262,11 @@ class Body:
             return motions
         risen = self.zero_field()  # both blocks moved up by one metre
         level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
-        for part, up in zip(
-            self.parts(risen),
-            (1.0, -1.0),
-            strict=True,
-        ):
+        for part, up in zip(self.parts(risen), (1.0, -1.0), strict=True):
             part.modes[:, 1] = up * level
             part.edge[:] = up
         settled = []
-        for motion, age in zip(
-            motions,
-            (0.0, step),
-            strict=False,
-        ):
+        for motion, age in zip(motions, (0.0, step), strict=False):
             displacement = motion.displacement.plus(risen.times(age * rate - rise))
             velocity = motion.velocity.plus(risen.times(-rate))
             settled.append(motion._replace(displacement=displacement, velocity=velocity))

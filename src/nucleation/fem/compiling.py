@@ -24,11 +24,7 @@ LOCK_INTERVAL = 0.01  # s
 class _SharedCache(FunctionCache):
     """Numba's cache of a function and some content, shared by many processes."""
 
-    def __init__(
-        self,
-        function: Callable[..., Any],
-        content: str,
-    ) -> None:
+    def __init__(self, function: Callable[..., Any], content: str) -> None:
         super().__init__(function)
         self._digest = hashlib.sha256(content.encode()).hexdigest()
 
@@ -62,9 +58,7 @@ class _SharedCache(FunctionCache):
 
 
 def compiled(
-    function: Callable[..., Result],
-    fastmath: Set[str] = frozenset(),
-    content: str = "",
+    function: Callable[..., Result], fastmath: Set[str] = frozenset(), content: str = ""
 ) -> Callable[..., Result]:
     """Compile a function, with numpy's treatment of errors.
 
@@ -72,11 +66,7 @@ def compiled(
     numpy's. `content` is the text of the code that it calls in other files, at which numba does
     not look: if it changes, the function is compiled again.
     """
-    dispatcher: Any = njit(
-        function,
-        error_model="numpy",
-        fastmath=set(fastmath) or False,
-    )
+    dispatcher: Any = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
     with contextlib.suppress(RuntimeError):  # there is no place for a cache
         dispatcher._cache = _SharedCache(function, content)
     made: Callable[..., Result] = dispatcher

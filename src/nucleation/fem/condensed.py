@@ -26,10 +26,7 @@ class CondensedBody:
     """A body that is held, under some loads (N/m) times factors."""
 
     def __init__(
-        self,
-        body: Body,
-        loads: Sequence[Field],
-        operator: Callable[[float], Operator],
+        self, body: Body, loads: Sequence[Field], operator: Callable[[float], Operator]
     ) -> None:
         """`operator` is ``K + s M`` by s (1/s^2)."""
         self._body = body
@@ -40,14 +37,7 @@ class CondensedBody:
         s = SMALL / (body.crossing_time or 1.0) ** 2  # without density any will do
         moving = self._forces(operator(s))
         # of accelerated factors (N/m per 1/s^2)
-        self._inertia = [
-            (one - other) / s
-            for one, other in zip(
-                moving,
-                self._held,
-                strict=True,
-            )
-        ]
+        self._inertia = [(one - other) / s for one, other in zip(moving, self._held, strict=True)]
         fields = [self._field(self._nothing, one) for one in np.eye(len(loads))]
         works = [[body.work(load, field) for field in fields] for load in loads]
         self._compliance = np.array(works)
@@ -63,12 +53,7 @@ class CondensedBody:
         return self._compliance @ factors - self._held[0] @ w
 
     def respond(
-        self,
-        operator: Operator,
-        w: Array,
-        factors: Array,
-        straight: Array,
-        steady: Array,
+        self, operator: Operator, w: Array, factors: Array, straight: Array, steady: Array
     ) -> Forces:
         """The forces that hold the interface at w (m) under the loads at the end of a step.
 

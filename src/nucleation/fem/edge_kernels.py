@@ -40,15 +40,7 @@ def diagonal_inverse(inverse, lower, out):
 
 
 @compiled_loop
-def response_sums(
-    inverse,
-    lower,
-    diagonal,
-    matrices,
-    weights,
-    scale,
-    out,
-):
+def response_sums(inverse, lower, diagonal, matrices, weights, scale, out):
     """The :func:`edge_sums` of the displacement under the force of each edge value.
 
     The interface is held fixed; `matrices` are the rows of the edge values, and `diagonal` is that
@@ -111,11 +103,7 @@ def response_sums(
 
 
 @compiled_loop
-def edge_sums(
-    weights,
-    field,
-    out,
-):
+def edge_sums(weights, field, out):
     """Sums over the modes ``w_0 u_x``, ``w_1 u_x``, ``w_2 u_y`` of a field."""
     wa = weights[0]
     wb = weights[1]
@@ -136,13 +124,7 @@ def edge_sums(
 
 
 @compiled_loop
-def edge_residual(
-    matrices,
-    weights,
-    field,
-    edge,
-    load,
-):
+def edge_residual(matrices, weights, field, edge, load):
     """Unbalanced force (N/m) ``load - sum_k A_k s_k`` on the edge values.
 
     s_0 to s_2 are the :func:`edge_sums` of the field and s_3 the edge values (m).
@@ -166,14 +148,7 @@ def edge_residual(
 
 
 @compiled
-def add_edge_in_balance(
-    w,
-    felt,
-    response,
-    schur,
-    tangential,
-    normal,
-):
+def add_edge_in_balance(w, felt, response, schur, tangential, normal):
     """Add the forces of an edge in balance with w (m) to those on the interface (N/m)."""
     near = w[w.size - response.shape[1] :]
     edge = response @ near
@@ -182,12 +157,7 @@ def add_edge_in_balance(
 
 
 @compiled
-def add_edge(
-    edge,
-    felt,
-    tangential,
-    normal,
-):
+def add_edge(edge, felt, tangential, normal):
     """Add the forces of given edge values (m) to those on the interface (N/m), in place.
 
     `felt` has the forces along x and y on the last nodes per edge value, (2, edge, nodes).
@@ -200,14 +170,7 @@ def add_edge(
 
 
 @compiled_loop
-def interface_blocks(
-    d,
-    h,
-    n,
-    nodes,
-    stiffness,
-    coupling,
-):
+def interface_blocks(d, h, n, nodes, stiffness, coupling):
     """Fill ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)`` between sorted nodes.
 
     Half an element, and half of its force, belongs to the last node n; its normal force is the

@@ -69,21 +69,10 @@ class LayerFactors:
         """Sweep a swept load back from the interface's displacement in level 0, in place."""
         kernels.substitute(self.inverse, self.lower, modes)
 
-    def residual(
-        self,
-        load: Field,
-        modes: Array,
-        edge: Array,
-    ) -> Array:
+    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), given those and amplitudes (m)."""
         weights = self.layer.modes.edge_weights
-        return edge_kernels.edge_residual(
-            self._rows,
-            weights,
-            modes,
-            edge,
-            load.edge,
-        )
+        return edge_kernels.edge_residual(self._rows, weights, modes, edge, load.edge)
 
     def schur(self) -> Array:
         """Stiffness of the edge values (N/m per m), bulk eliminated, interface held fixed."""
@@ -93,24 +82,10 @@ class LayerFactors:
         edge_kernels.diagonal_inverse(self.inverse, self.lower, diagonal)
         sums = np.zeros((levels, 3, levels))  # of the response to each edge value over the modes
         edge_kernels.response_sums(
-            self.inverse,
-            self.lower,
-            diagonal,
-            self._rows,
-            modes.edge_weights,
-            modes.scale,
-            sums,
+            self.inverse, self.lower, diagonal, self._rows, modes.edge_weights, modes.scale, sums
         )
         rows = np.zeros((levels, levels))
-        for matrix, by_value in zip(
-            self._rows[:3],
-            np.moveaxis(
-                sums,
-                1,
-                0,
-            ),
-            strict=True,
-        ):
+        for matrix, by_value in zip(self._rows[:3], np.moveaxis(sums, 1, 0), strict=True):
             rows += product(matrix, by_value.T).T
         # the sums begin at the level of each edge value: the other half follows by symmetry
         lower = np.tril(product(self._rows[3], np.eye(levels)) - rows.T)
@@ -152,10 +127,6 @@ def elastic_energy(layer: Layer, displacement: Field) -> float:
     rows = LayerFactors(layer, 0.0)
     none = np.zeros_like(displacement.edge)
     for edge in (none, displacement.edge):
-        forces = rows.residual(
-            Field(displacement.modes, none),
-            displacement.modes,
-            edge,
-        )
+        forces = rows.residual(Field(displacement.modes, none), displacement.modes, edge)
         twice -= float(displacement.edge @ forces)
     return 0.5 * twice

@@ -17,20 +17,7 @@ from .compiling import compiled_loop
 
 @compiled_loop
 def factorise(
-    kxx,
-    mxx,
-    kyy,
-    myy,
-    cxy,
-    mass,
-    stiff,
-    deriv,
-    lame,
-    shear,
-    held,
-    pivot,
-    inverse,
-    lower,
+    kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, held, pivot, inverse, lower
 ):
     """Eliminate from the top down; fill P[0] (xx, xy, yy), Q in the levels 1..n_y, and T.
 
@@ -101,14 +88,7 @@ def factorise(
 
 
 @compiled_loop
-def eliminate(
-    lower,
-    load,
-    profiles,
-    weights,
-    scale,
-    out,
-):
+def eliminate(lower, load, profiles, weights, scale, out):
     """Sweep a load from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
 
     The right-hand side has the forces of edge values too: ``r = load - scale G^T e``, by the
@@ -147,12 +127,7 @@ def eliminate(
 
 
 @compiled_loop
-def _up(
-    q,
-    t,
-    below,
-    here,
-):
+def _up(q, t, below, here):
     """The displacement of one level from that of the level below, in place of the swept load."""
     x = here[0]
     y = here[1]
@@ -173,36 +148,16 @@ def _up(
 def substitute(inverse, lower, rhs):
     """Sweep back from the interface, whose displacement (m) is in level 0, to the top, in place."""
     for j in range(1, rhs.shape[0]):
-        _up(
-            inverse[j],
-            lower[j - 1],
-            rhs[j - 1],
-            rhs[j],
-        )
+        _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
 
 
 @compiled_loop
-def move(
-    inverse,
-    lower,
-    rhs,
-    c1,
-    c2,
-    beta,
-    u,
-    u_past,
-    rate,
-):
+def move(inverse, lower, rhs, c1, c2, beta, u, u_past, rate):
     """As :func:`substitute`, and fill the rate (m/s) by ``rhs = c1 u + c2 u_past + beta rate``."""
     scale = 1.0 / beta
     for j in range(rhs.shape[0]):
         if j > 0:
-            _up(
-                inverse[j],
-                lower[j - 1],
-                rhs[j - 1],
-                rhs[j],
-            )
+            _up(inverse[j], lower[j - 1], rhs[j - 1], rhs[j])
         for c in range(2):
             x = rhs[j, c]
             u1 = u[j, c]

@@ -16,12 +16,7 @@ from .grid import Components, Grid
 class _Modes:
     """The modes of a grid, with the integral of each mode of u_x along x (m)."""
 
-    def __init__(
-        self,
-        grid: Grid,
-        theta: Array,
-        x_integral: Array,
-    ) -> None:
+    def __init__(self, grid: Grid, theta: Array, x_integral: Array) -> None:
         self.n_x = grid.n_x
         self.scale = 2.0 / grid.n_x  # of all loads and stiffnesses per mode
         self.norms = np.full(grid.n_x, 0.5 * grid.n_x)  # sums of each mode's squares over the nodes
@@ -82,11 +77,7 @@ class BlockModes(_Modes):
     def __init__(self, grid: Grid) -> None:
         mode = np.arange(grid.n_x)
         theta = (mode + 0.5) * np.pi / grid.n_x
-        super().__init__(
-            grid,
-            theta,
-            0.5 * grid.dx / np.tan(theta / 2.0),
-        )
+        super().__init__(grid, theta, 0.5 * grid.dx / np.tan(theta / 2.0))
         self._alternating = (-1.0) ** mode
         # int chi w' and int chi' w, chi being the edge's hat function, and the value beside it
         weights = [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
@@ -100,12 +91,7 @@ class BlockModes(_Modes):
         """Amplitudes of values of u_y at the nodes 0..n_x - 1 (last axis)."""
         return fft.dct(nodal, type=3) / self.n_x
 
-    def forces(
-        self,
-        stiffness: Array,
-        amplitudes: Array,
-        reduced: Array,
-    ) -> Components:
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
         """Nodal forces (N/m) at 1..n_x and 0..n_x of ``stiffness * amplitudes - reduced``."""
         return _nodal_forces(stiffness, amplitudes, reduced, self._alternating)
 
@@ -116,12 +102,7 @@ class BlockModes(_Modes):
         nodal[1:] = values
         return nodal
 
-    def uniform_load(
-        self,
-        grid: Grid,
-        normal: float,
-        shear: float,
-    ) -> tuple[Array, float]:
+    def uniform_load(self, grid: Grid, normal: float, shear: float) -> tuple[Array, float]:
         """Load (N/m) of stresses (Pa) on a far side: per mode, (2, n_x), and its edge value."""
         assert shear == 0.0, "a block bears no shear stress on its far side"
         forces = -normal * grid.nodal_lengths
@@ -147,15 +128,7 @@ class PeriodModes(_Modes):
             raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
         half = np.arange(1, grid.n_x // 2 + 1)
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
-        super().__init__(
-            grid,
-            theta,
-            np.where(
-                theta == 0.0,
-                grid.length,
-                0.0,
-            ),
-        )
+        super().__init__(grid, theta, np.where(theta == 0.0, grid.length, 0.0))
         self.norms[0] *= 2.0  # of the mean
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
@@ -183,24 +156,14 @@ class PeriodModes(_Modes):
         mean, a, b = self._split(amplitudes)
         return self._values(mean, a + 1j * b)
 
-    def forces(
-        self,
-        stiffness: Array,
-        amplitudes: Array,
-        reduced: Array,
-    ) -> Components:
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
         along_x, along_y = stiffness * amplitudes - reduced
         return self.sine_values(along_x), self.on_all_nodes(self.cosine_values(along_y))
 
     def on_all_nodes(self, values: Array, driven: float = 0.0) -> Array:
         return np.concatenate((values[..., -1:], values), axis=-1)
 
-    def uniform_load(
-        self,
-        grid: Grid,
-        normal: float,
-        shear: float,
-    ) -> tuple[Array, float]:
+    def uniform_load(self, grid: Grid, normal: float, shear: float) -> tuple[Array, float]:
         load = np.zeros((2, self.n_x))
         load[:, 0] = shear * grid.dx, -normal * grid.dx
         return load, 0.0

@@ -101,12 +101,7 @@ class Operator:
         xx, xy, yy = self.compliance
         products = []
         for a, b, c in ((a1, b1, c1), (a2, b2, c2)):
-            products += [
-                a * xx + b * xy,
-                a * xy + b * yy,
-                b * xx + c * xy,
-                b * xy + c * yy,
-            ]
+            products += [a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy]
         self.forces = np.array(products)
         self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
         if not (body.modes.has_edge or body.is_held_along_y or self.moves):
@@ -119,12 +114,7 @@ class Operator:
     def swept_down(self, load: Field, edge: Array) -> Array:
         """A load (N/m) swept down to the interface in each layer, with given edge values (m)."""
         swept = Field(np.empty_like(load.modes), edge)
-        parts = zip(
-            self.factors,
-            self.body.parts(load),
-            self.body.parts(swept),
-            strict=True,
-        )
+        parts = zip(self.factors, self.body.parts(load), self.body.parts(swept), strict=True)
         for factors, own, part in parts:
             kernels.eliminate(
                 factors.lower,
@@ -157,11 +147,7 @@ class Operator:
         return np.array([held_x, held_y]), np.array([start_x, start_y])
 
     def substitute_up(
-        self,
-        swept: Array,
-        amplitudes: Array,
-        start: Array | float,
-        before: Before | None = None,
+        self, swept: Array, amplitudes: Array, start: Array | float, before: Before | None = None
     ) -> Array:
         """Replace a swept load by the displacement (m), given w per mode and :meth:`reduced`.
 
@@ -179,24 +165,9 @@ class Operator:
         rate = np.empty_like(swept)
         (c1, c2), beta, newest, oldest = before
         given = (newest.modes, oldest.modes, rate)
-        for factors, *own in zip(
-            self.factors,
-            parts,
-            *map(self.body.split, given),
-            strict=True,
-        ):
+        for factors, *own in zip(self.factors, parts, *map(self.body.split, given), strict=True):
             part, u1, u2, own_rate = own
-            kernels.move(
-                factors.inverse,
-                factors.lower,
-                part,
-                c1,
-                c2,
-                beta,
-                u1,
-                u2,
-                own_rate,
-            )
+            kernels.move(factors.inverse, factors.lower, part, c1, c2, beta, u1, u2, own_rate)
         return rate
 
     def respond(self, load: Field, w: Array) -> Response:
@@ -205,11 +176,7 @@ class Operator:
         nothing = np.zeros_like(load.edge)
         modes = self.swept_down(load, nothing)
         reduced, start = self.reduced(modes)
-        tangential, normal = self.body.modes.forces(
-            self.modal,
-            amplitudes,
-            reduced,
-        )
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, reduced)
         if self.edge is None:
             return Response(w, tangential, normal, load, nothing)
         self.substitute_up(modes, amplitudes, start)
@@ -220,10 +187,7 @@ class Operator:
         return Response(w, tangential, normal, load, edge)
 
     def balance(
-        self,
-        response: Response,
-        w: Array,
-        before: Before | None = None,
+        self, response: Response, w: Array, before: Before | None = None
     ) -> tuple[Field, Field]:
         """The body for w (m) after a response: its displacement (m) and its velocity (m/s).
 
@@ -247,11 +211,7 @@ class Operator:
     def apply(self, w: Array) -> Components:
         """``D w`` at the nodes 1..n_x and ``N w`` at 0..n_x (N/m), for w (m) at 1..n_x."""
         amplitudes = self.body.modes.sine_amplitudes(w)
-        tangential, normal = self.body.modes.forces(
-            self.modal,
-            amplitudes,
-            self._no_load,
-        )
+        tangential, normal = self.body.modes.forces(self.modal, amplitudes, self._no_load)
         if self.edge is not None:
             edge_kernels.add_edge_in_balance(
                 w, self.edge.felt, self.edge.response_near, self.edge.schur[0], tangential, normal
@@ -300,14 +260,7 @@ class Operator:
             between = np.subtract.outer(nodes, nodes)
             blocks[:] = d[between], h[between]
             return self._last_blocks
-        edge_kernels.interface_blocks(
-            d,
-            h,
-            self.body.modes.n_x,
-            nodes,
-            stiffness,
-            coupling,
-        )
+        edge_kernels.interface_blocks(d, h, self.body.modes.n_x, nodes, stiffness, coupling)
         # the nodes that feel the right edge
         felt = np.abs(edge.diagonal) > EDGE_FELT * self.diagonal
         reach = int(np.argmax(felt)) + 1 if felt.any() else felt.size + 1

@@ -54,14 +54,7 @@ class EdgeValues:
         nothing = np.zeros((2, body.modes.n_x))
         # in this layout the steps' compiled transform serves here, too
         rows = np.ascontiguousarray(np.moveaxis(body.modes.scale * modal, 1, 0))
-        by_edge = [
-            body.modes.forces(
-                row,
-                one,
-                nothing,
-            )
-            for row in rows
-        ]
+        by_edge = [body.modes.forces(row, one, nothing) for row in rows]
         tangential, normal = map(np.array, zip(*by_edge, strict=True))
         self.response = -self.compliance @ tangential
         self.diagonal = np.einsum("ji,ji->i", tangential, self.response)
@@ -73,12 +66,7 @@ class EdgeValues:
         normal[:, -1] = self.schur[:, 0]
         self.to_interface = tangential, normal
 
-    def _put_in_series(
-        self,
-        compliance: Array,
-        forces: Array,
-        moves: bool,
-    ) -> Array:
+    def _put_in_series(self, compliance: Array, forces: Array, moves: bool) -> Array:
         """Set `schur` and `compliance`; return forces on the modes of w and u_y per edge value."""
         above, below = (layer.to_modes() for layer in self._factors)
         mirror = np.array([1.0, -1.0])[:, None, None]
@@ -92,11 +80,7 @@ class EdgeValues:
         moved_y = xy * x + yy * y
         self.schur = stiffness - self._body.modes.scale * (x @ moved_x.T + y @ moved_y.T)
         held = self._body.is_held_along_y
-        independent = np.delete(
-            np.eye(len(x)),
-            n,
-            axis=1,
-        )
+        independent = np.delete(np.eye(len(x)), n, axis=1)
         independent[n, 0] = -1.0  # the corner, mirrored
         own = slice(None if held or moves else 1, -1 if held else None)
         inverse = _inverse_within(independent.T @ self.schur @ independent, own)
@@ -109,11 +93,7 @@ class EdgeValues:
         from_above = yx1 * x + yy1 * y
         return np.array([from_below - own_x, own_y - from_above])
 
-    def residual(
-        self,
-        load: Field,
-        modes: Array,
-    ) -> Array:
+    def residual(self, load: Field, modes: Array) -> Array:
         """Force on the edge values (N/m) where they are zero, given amplitudes (m)."""
         parts = zip(
             self._factors,
@@ -121,14 +101,7 @@ class EdgeValues:
             self._body.parts(Field(modes, np.zeros_like(load.edge))),
             strict=True,
         )
-        found = [
-            layer.residual(
-                own,
-                part.modes,
-                part.edge,
-            )
-            for layer, own, part in parts
-        ]
+        found = [layer.residual(own, part.modes, part.edge) for layer, own, part in parts]
         return np.concatenate(found)
 
 

@@ -133,13 +133,7 @@ def answers_of_theory(fault: FaultLike) -> dict[str, Answer]:
     rows = at_each(fault, point, rows=3)
     longest = rows[:1].astype(float)[0]
     warn_of_implausible("critical_length", longest, _CRITICAL)
-    critical = Answer(
-        longest,
-        longest,
-        longest,
-        rows[1],
-        rows[2],
-    )
+    critical = Answer(longest, longest, longest, rows[1], rows[2])
     length, error, status, reason = stability_answers(fault)
     low, high = length * (1.0 - error), length * (1.0 + error)
     stability = Answer(length, low, high, status, reason)
@@ -156,11 +150,7 @@ def process_zone(fault: FaultLike) -> Any:
     """
 
     def zones(systems: Systems) -> Array:
-        b = np.where(
-            systems.b > 0.0,
-            systems.b,
-            np.nan,
-        )
+        b = np.where(systems.b > 0.0, systems.b, np.nan)
         thick = systems.softness / b
         low = 1.0 / (_SPAN * thick)
         high = _SPAN / thick
@@ -183,24 +173,13 @@ def answers_of_literature(
     of_two = bool(np.any(np.isfinite(second) & differ))
     used = [one for one in LENGTHS if of_two or one.system != TWO_MATERIALS]
     values = values_of(fault, weakening_rate, used)
-    found = {
-        one.key: _answer(
-            one,
-            values[one.key],
-            fault,
-        )
-        for one in used
-    }
+    found = {one.key: _answer(one, values[one.key], fault) for one in used}
     # which needs b > 0 as well
     zone = _answer(_KNOWN["state_evolution"], process_zone(fault), fault)
     return {"process_zone": zone} | found
 
 
-def _answer(
-    one: Length,
-    length: Numbers,
-    fault: FaultLike,
-) -> Answer:
+def _answer(one: Length, length: Numbers, fault: FaultLike) -> Answer:
     """A length of the literature; NaN means a stable fault if zeta <= 0, else another range."""
     facts = one.facts(fault)
     names = list(facts)

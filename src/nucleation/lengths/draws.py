@@ -30,11 +30,7 @@ class Draws(NamedTuple):
     """Names of the uncertain parameters."""
 
 
-def draw_samples(
-    parameters: Mapping[str, Any],
-    draws: int = 200,
-    seed: int = 0,
-) -> Draws:
+def draw_samples(parameters: Mapping[str, Any], draws: int = 200, seed: int = 0) -> Draws:
     """Draw the uncertain parameters of a fault: ranges independently, samples row by row.
 
     The ranges are drawn by Latin hypercube sampling (McKay, Beckman and Conover, 1979): each range
@@ -77,15 +73,7 @@ def draw_samples(
         counts = ", ".join(f"{name} {len(sample)}" for name, sample in samples.items())
         raise ParameterError(f"samples must be equal in number, and one at least: {counts}")
     size = max(sizes, default=draws)
-    rows = (
-        np.linspace(
-            0,
-            size - 1,
-            min(size, draws),
-        )
-        .round()
-        .astype(int)
-    )
+    rows = np.linspace(0, size - 1, min(size, draws)).round().astype(int)
     drawn = {name: sample[rows] for name, sample in samples.items()}
     for name, own in ranges.items():
         position = list(SAMPLED).index(name)
@@ -97,12 +85,7 @@ def draw_samples(
     if not valid.any():
         raise ParameterError(f"no draw is a valid fault: not allowed are {invalid}")
     kept = {name: values[valid] for name, values in drawn.items()}
-    return Draws(
-        fixed | kept,
-        invalid,
-        rows.size,
-        tuple(drawn),
-    )
+    return Draws(fixed | kept, invalid, rows.size, tuple(drawn))
 
 
 def _by_kind(
@@ -156,11 +139,7 @@ def quantiles(values: Any, shares: Any = QUANTILES) -> Array:
     shares = np.asarray(shares)
     if not ordered.size:
         return np.full(shares.size, np.nan)
-    position = np.clip(
-        shares * ordered.size - 0.5,
-        0.0,
-        ordered.size - 1.0,
-    )
+    position = np.clip(shares * ordered.size - 0.5, 0.0, ordered.size - 1.0)
     below = np.floor(position).astype(int)
     above = np.ceil(position).astype(int)
     found = np.full(shares.size, np.inf)
@@ -182,11 +161,7 @@ def errors_of_quantiles(values: Array) -> Array:
     low = quantiles(values, shares - scatter)
     high = quantiles(values, shares + scatter)
     with np.errstate(invalid="ignore"):
-        return np.where(
-            np.isinf(high),
-            np.inf,
-            0.5 * (high - low),
-        )
+        return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
 
 
 def with_never(lengths: Any, statuses: Any) -> Array:

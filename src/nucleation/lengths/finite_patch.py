@@ -60,14 +60,7 @@ def marginal_loaded_patches(a_over_b: Array) -> Array:
     def compliance(frequency: Array, index: NDArray) -> Array:
         rate = 1j * frequency[:, None]
         answer = rate * sine / (rate + sine) - rate * a_over_b[index, None]
-        values = np.linalg.eigvals(
-            (answer @ products).reshape(
-                -1,
-                n.size,
-                n.size,
-            )
-            / n[:, None]
-        )
+        values = np.linalg.eigvals((answer @ products).reshape(-1, n.size, n.size) / n[:, None])
         softest = np.argmax(values.real, axis=1)
         return values[np.arange(softest.size), softest]
 
@@ -85,14 +78,7 @@ def polynomial() -> Array:
     points = np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
     factors = marginal_loaded_patches(ratios)
-    return cast(
-        Array,
-        chebyshev.chebfit(
-            points,
-            np.log(factors),
-            _DEGREE,
-        ),
-    )
+    return cast(Array, chebyshev.chebfit(points, np.log(factors), _DEGREE))
 
 
 def loaded_patch_factor(a_over_b: Any) -> Any:

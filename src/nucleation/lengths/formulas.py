@@ -145,11 +145,7 @@ class Length:
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
-    def evaluate(
-        self,
-        fault: FaultLike,
-        weakening_rate: Numbers,
-    ) -> Numbers:
+    def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length (m) of a fault, NaN outside the validity; W in Pa/m."""
         names = [field.name for field in dataclasses.fields(Setting)]
         own: dict[str, Any] = {name: getattr(fault, name, None) for name in names}

@@ -27,11 +27,7 @@ def _crack(s: Setting) -> Numbers:
 
 def _loaded_patch(s: Setting) -> Numbers:
     within = (s.a > 0.0) & (s.a < NEAREST * s.b)
-    ratio = where(
-        within,
-        s.a / nan0(s.b),
-        0.5,
-    )
+    ratio = where(within, s.a / nan0(s.b), 0.5)
     length = loaded_patch_factor(ratio) / (1.0 - ratio) * s.state_evolution()
     return valid(within, length)
 
@@ -91,8 +87,7 @@ _OF_ONE_MATERIAL = (
         needs=f"a/b < {formulas.LOCALISED_LIMIT}",
         beyond=_GAP,
         compute=lambda s: valid(
-            s.a < formulas.LOCALISED_LIMIT * s.b,
-            formulas.LOCALISED_FACTOR * s.state_evolution(),
+            s.a < formulas.LOCALISED_LIMIT * s.b, formulas.LOCALISED_FACTOR * s.state_evolution()
         ),
     ),
     Length(
@@ -113,8 +108,7 @@ _OF_ONE_MATERIAL = (
         validity="strength falls linearly with slip, without direct effect",
         needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
         compute=lambda s: valid(
-            s.weakening_rate > 0.0,
-            formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate),
+            s.weakening_rate > 0.0, formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
         ),
     ),
     Length(
@@ -154,9 +148,7 @@ _OF_ONE_MATERIAL = (
         validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
-        compute=lambda s: s.thin(
-            2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution()),
-        ),
+        compute=lambda s: s.thin(2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution())),
     ),
 )
 _OF_TWO_MATERIALS = tuple(
@@ -169,9 +161,7 @@ LENGTHS = (*_OF_ONE_MATERIAL, *_OF_TWO_MATERIALS)
 
 
 def values_of(
-    fault: FaultLike,
-    weakening_rate: Values | None = None,
-    lengths: Iterable[Length] = LENGTHS,
+    fault: FaultLike, weakening_rate: Values | None = None, lengths: Iterable[Length] = LENGTHS
 ) -> dict[str, Numbers]:
     """Lengths (m) of a fault by key, NaN outside their validity.
 

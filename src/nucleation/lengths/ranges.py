@@ -36,12 +36,7 @@ class Range(float):
     low: float
     high: float
 
-    def __new__(
-        cls,
-        value: float,
-        low: float,
-        high: float,
-    ) -> Range:
+    def __new__(cls, value: float, low: float, high: float) -> Range:
         own = super().__new__(cls, value)
         own.low = low
         own.high = high

@@ -15,9 +15,7 @@ from ..types import Array
 from .answer import answers_of_theory
 
 UNKNOWNS = Quantity(
-    "parameter to find",
-    choices=("normal_stress", "slip_distance", "shear_modulus"),
-    kind="str",
+    "parameter to find", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"
 )
 CRITERIA = {"critical": "critical_length", "stability": "stability_length"}
 """The lengths that may have to fit: L_c of homogeneous sliding, L_s of the creeping patch."""
@@ -25,8 +23,7 @@ CRITERIA = {"critical": "critical_length", "stability": "stability_length"}
 NAMES = {"critical": "L_c", "stability": "L_s"}
 
 SPECIMEN = dataclasses.replace(
-    declarations(Block)["length"],
-    description="length of the specimen along the fault",
+    declarations(Block)["length"], description="length of the specimen along the fault"
 )
 
 Interval = tuple[float, float]
@@ -91,11 +88,7 @@ def specimen_fit(
     size = float(given)
 
     def lengths(values: float | Array) -> Array:
-        return _lengths(
-            fault.replace(**{unknown: values}),
-            criterion,
-            size,
-        )
+        return _lengths(fault.replace(**{unknown: values}), criterion, size)
 
     def excess(log_value: float) -> float:
         found = float(lengths(math.exp(log_value)))
@@ -108,24 +101,10 @@ def specimen_fit(
     bounds = [low] if fits[0] else []
     for i in np.flatnonzero(fits[1:] != fits[:-1]):
         around = np.log(values[i : i + 2])
-        bounds.append(
-            math.exp(
-                brentq(
-                    excess,
-                    *around,
-                    xtol=1e-9,
-                )
-            )
-        )
+        bounds.append(math.exp(brentq(excess, *around, xtol=1e-9)))
     if fits[-1]:
         bounds.append(high)
-    intervals = tuple(
-        zip(
-            bounds[::2],
-            bounds[1::2],
-            strict=True,
-        )
-    )
+    intervals = tuple(zip(bounds[::2], bounds[1::2], strict=True))
 
     exists = bool((found > 0.0).any())
     status, reason = VALUE, ""
@@ -137,30 +116,13 @@ def specimen_fit(
         answer = answers_of_theory(middle)[CRITERIA[criterion]]
         status, reason = str(answer.status), str(answer.reason)
     unit = QUANTITIES[unknown].unit
-    return Fit(
-        unknown,
-        unit,
-        intervals,
-        (low, high),
-        exists,
-        status,
-        reason,
-    )
+    return Fit(unknown, unit, intervals, (low, high), exists, status, reason)
 
 
 def _range(unknown: str, within: Interval | None) -> Interval:
     """The range of the search, by default all known values."""
     entry = QUANTITIES[unknown]
-    low, high = (
-        float(
-            checked(
-                unknown,
-                end,
-                entry,
-            )
-        )
-        for end in within or RANGES[unknown]
-    )
+    low, high = (float(checked(unknown, end, entry)) for end in within or RANGES[unknown])
     if not low < high:
         raise ParameterError(f"within = ({low:g}, {high:g}) {entry.unit} is no range")
     return low, high
@@ -188,12 +150,7 @@ def _plain(found: object) -> Array:
     return np.asarray(getattr(found, "magnitude", found))
 
 
-def _of_shortest(
-    criterion: str,
-    found: Array,
-    values: Array,
-    unknown: str,
-) -> str:
+def _of_shortest(criterion: str, found: Array, values: Array, unknown: str) -> str:
     """The shortest length, as a reason why none fits."""
     if not np.isfinite(found).any():
         return f"L_c is more than {_LONGEST:g} times the specimen at all values"

@@ -116,11 +116,7 @@ def patch_answer(
     if width is not None:
         untried = _untried(fault, width)
         outcome = _outcome(ratio, untried, _bounds(fault, outside_zeta, outside_a))
-    return {
-        "smallest_width": smallest,
-        "width_ratio": ratio,
-        "outcome": outcome,
-    }
+    return {"smallest_width": smallest, "width_ratio": ratio, "outcome": outcome}
 
 
 def _outcome(ratio: float, untried: str, bounds: tuple[float, float] | None) -> str:

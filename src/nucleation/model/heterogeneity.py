@@ -38,9 +38,7 @@ class Heterogeneity(Checked):
         default="none",
     )
     shape: str = quantity(
-        "shape of the variation along x",
-        choices=("step", "bump"),
-        default="bump",
+        "shape of the variation along x", choices=("step", "bump"), default="bump"
     )
     centre: float | None = quantity(
         "position of the step's or the bump's middle; the block's middle if left out",
@@ -69,12 +67,7 @@ class Heterogeneity(Checked):
                 f"{clash}, which is positive everywhere: it must lie in (-1, 1000)"
             )
 
-    def factor(
-        self,
-        x: Array,
-        length: float,
-        periodic: bool,
-    ) -> Array:
+    def factor(self, x: Array, length: float, periodic: bool) -> Array:
         """The property over its value elsewhere, ``1 + change h(x)``, at positions x (m).
 
         The interface has a length (m), and may be periodic along x.
@@ -88,12 +81,7 @@ class Heterogeneity(Checked):
             h = np.exp(-4.0 * np.log(2.0) * (distance / self.width) ** 2)
         return 1.0 + self.change * h
 
-    def friction(
-        self,
-        law: Friction,
-        velocity: float,
-        factor: Array,
-    ) -> Friction:
+    def friction(self, law: Friction, velocity: float, factor: Array) -> Friction:
         """The friction law along x, from the law outside, V (m/s) and the factors of the nodes.
 
         Parameters that vary are arrays of the nodes. Raises a ParameterError if the law has no
@@ -115,12 +103,7 @@ class Heterogeneity(Checked):
             object.__setattr__(varied, name, along_x)  # the dataclass is frozen and checks numbers
         return varied
 
-    def _local_law(
-        self,
-        law: Friction,
-        velocity: float,
-        factor: float,
-    ) -> Friction:
+    def _local_law(self, law: Friction, velocity: float, factor: float) -> Friction:
         if factor == 1.0:
             return law
         f, a, zeta = law.expansion(velocity)
@@ -129,12 +112,7 @@ class Heterogeneity(Checked):
         if self.varies in ("a", "b"):
             own["zeta"] = own["b"] - own["a"]
         try:
-            return law.with_expansion(
-                velocity,
-                own["friction"],
-                own["a"],
-                own["zeta"],
-            )
+            return law.with_expansion(velocity, own["friction"], own["a"], own["zeta"])
         except ParameterError as error:
             raise ParameterError(
                 f"change = {self.change:g} is not allowed: {self.varies} = "

@@ -79,11 +79,7 @@ RANGES = {
 """Known magnitudes (SI units) by parameter; those of second bodies and zones are the same."""
 
 
-def warn_of_implausible(
-    name: str,
-    value: ArrayLike,
-    entry: Quantity,
-) -> None:
+def warn_of_implausible(name: str, value: ArrayLike, entry: Quantity) -> None:
     """Warn of the first finite value (SI units) that is outside :data:`RANGES`."""
     low, high = RANGES.get(name.removeprefix("second_").removeprefix("zone_"), (-np.inf, np.inf))
     if isinstance(value, float) and (low <= value <= high or value == np.inf):

@@ -110,14 +110,7 @@ def declared(description: str, allowed: str = "(-inf, inf)", **more: Any) -> Qua
     left, low, high, right, unit = ends.groups()
     # a whole number stays one, since floats have no 2^63 - 1
     first, last = (int(end) if end.isdigit() else float(end) for end in (low, high))
-    return Quantity(
-        description,
-        unit or "1",
-        first,
-        last,
-        left + right,
-        **more,
-    )
+    return Quantity(description, unit or "1", first, last, left + right, **more)
 
 
 def quantity(
@@ -150,21 +143,13 @@ def _declarations(cls: Any) -> dict[str, Quantity]:
     return found
 
 
-def check(
-    key: str,
-    value: object,
-    entry: Quantity,
-) -> None:
+def check(key: str, value: object, entry: Quantity) -> None:
     """Raise a ParameterError if a declaration does not allow the value (SI units) of a key."""
     if not entry.allows(value):
         raise ParameterError(refusal(key, value, entry))
 
 
-def refusal(
-    key: str,
-    value: object,
-    entry: Quantity,
-) -> str:
+def refusal(key: str, value: object, entry: Quantity) -> str:
     """The message for a value that is not allowed: key, value, unit, meaning and range."""
     rule = "must be" if entry.worded else "must lie in"
     if entry.kind == "int":

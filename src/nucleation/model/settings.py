@@ -70,24 +70,9 @@ class Block(Checked):
 
     called: ClassVar = {"length": "block_length"}
 
-    length: float = quantity(
-        "block length",
-        "(0.0, 1e7) m",
-        symbol="L",
-        default=1.0,
-    )
-    n_x: int = quantity(
-        "number of elements along x",
-        "[8, 100000]",
-        symbol="N_x",
-        default=400,
-    )
-    n_y: int = quantity(
-        "number of elements along y",
-        "[2, 10000]",
-        symbol="N_y",
-        default=150,
-    )
+    length: float = quantity("block length", "(0.0, 1e7) m", symbol="L", default=1.0)
+    n_x: int = quantity("number of elements along x", "[8, 100000]", symbol="N_x", default=400)
+    n_y: int = quantity("number of elements along y", "[2, 10000]", symbol="N_y", default=150)
     grading: float = quantity(
         "height of the top row of elements over that of the bottom row",
         "[1.0, 1000.0]",
@@ -110,12 +95,7 @@ class Block(Checked):
 class Stepping(Checked):
     """Control of the time integration, and the data that are recorded."""
 
-    end_time: float = quantity(
-        "simulated time",
-        "(0.0, 1e12) s",
-        symbol="t",
-        default=16.0,
-    )
+    end_time: float = quantity("simulated time", "(0.0, 1e12) s", symbol="t", default=16.0)
     time_after_event: float = quantity(
         "time simulated after the event's onset before the run may end",
         "[0.0, 1e12) s",

@@ -75,11 +75,7 @@ def registry() -> pint.UnitRegistry:
     return pint.UnitRegistry(non_int_type=Decimal)
 
 
-def in_si(
-    key: str,
-    value: Any,
-    entry: Quantity,
-) -> Any:
+def in_si(key: str, value: Any, entry: Quantity) -> Any:
     """A value in SI units that the declaration allows, from a number, a word or a text."""
     if isinstance(value, str):
         return parse(key, value, entry)
@@ -87,11 +83,7 @@ def in_si(
     return value
 
 
-def parse(
-    key: str,
-    text: str,
-    entry: Quantity,
-) -> Any:
+def parse(key: str, text: str, entry: Quantity) -> Any:
     """The value of a text in SI units: a number with or without a unit, an integer or a choice.
 
     A ParameterError names key, value, unit and range.
@@ -132,11 +124,7 @@ def _number(text: str, entry: Quantity) -> float:
     return float(_converted(number, unit, entry) if unit else number)
 
 
-def _converted(
-    number: Decimal,
-    unit: str,
-    entry: Quantity,
-) -> Decimal:
+def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
     """A number of a unit, converted to the declared unit; the ValueError gives the reason."""
     if unit in QUICK.get(entry.unit, {}):
         return number * Decimal(QUICK[entry.unit][unit])
@@ -161,11 +149,7 @@ def _converted(
         raise ValueError(f"{unit} is a unit of {dimension}, but {needed}") from None
 
 
-def magnitude(
-    key: str,
-    value: Any,
-    entry: Quantity,
-) -> Any:
+def magnitude(key: str, value: Any, entry: Quantity) -> Any:
     """The numbers, in the declared unit, of a value that carries a unit; other values unchanged.
 
     A text is read by :func:`parse`. A DataArray has its unit in the attribute ``units``, in the
@@ -191,12 +175,7 @@ def magnitude(
         if is_quantity(getattr(value, "data", None)):
             return value.copy(data=magnitude(key, value.data, entry))
         if "units" in attributes:
-            return rescaled(
-                key,
-                value,
-                attributes["units"],
-                entry,
-            )
+            return rescaled(key, value, attributes["units"], entry)
     if _carries_unit(value):
         library = type(value).__module__.partition(".")[0]
         raise ParameterError(
@@ -206,11 +185,7 @@ def magnitude(
     return value
 
 
-def _of_quantity(
-    key: str,
-    value: Any,
-    entry: Quantity,
-) -> Any:
+def _of_quantity(key: str, value: Any, entry: Quantity) -> Any:
     """The numbers of a pint quantity: by its own registry, whose units may be others."""
     wanted = "dimensionless" if entry.unit == "1" else entry.unit
     unit = f"{value.units:D}"
@@ -219,12 +194,7 @@ def _of_quantity(
         own = float(value._REGISTRY.Quantity(1.0, value.units).to(wanted).magnitude)
         ours = float(_converted(Decimal(1), unit or "dimensionless", entry))  # or it is unknown
     if math.isnan(own) or abs(ours / own - 1.0) < 1e-9:
-        return rescaled(
-            key,
-            value.magnitude,
-            unit,
-            entry,
-        )  # without round-off, or with our error
+        return rescaled(key, value.magnitude, unit, entry)  # without round-off, or with our error
     return np.asarray(value.magnitude, dtype=float) * own
 
 
@@ -238,12 +208,7 @@ def _carries_unit(value: object) -> bool:
     return isinstance(value, str) or is_quantity(value) or of_another_library
 
 
-def rescaled(
-    key: str,
-    values: Any,
-    unit: object,
-    entry: Quantity,
-) -> Any:
+def rescaled(key: str, values: Any, unit: object, entry: Quantity) -> Any:
     """Numbers of a unit (empty or "1" for pure numbers) in the declared unit, of the same shape."""
     try:
         if not isinstance(unit, str):

@@ -35,30 +35,15 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
     (s), ``length``, ``length_low`` and ``length_high`` (m); `symbol` is the length's.
     """
     Record(simulation).require("slip", "shear_stress")
-    figure, panels = style.panels(
-        10.2,
-        rows=2,
-        columns=2,
-        sharex="col",
-        width_ratios=(2.1, 1.0),
-    )
+    figure, panels = style.panels(10.2, rows=2, columns=2, sharex="col", width_ratios=(2.1, 1.0))
     (image, zoom), (force, last) = panels
     style.letters(*panels.flat)
     zoom.sharey(image)
     ratio = simulation["shear_stress"] / parameters_of(simulation).fault.normal_stress
-    ratio = ratio.sel(x=slice(None, slipped_extent(simulation))).transpose(
-        "x",
-        "time",
-    )
-    norm = Normalize(
-        min(0.0, float(ratio.quantile(0.001))),
-        float(ratio.quantile(0.999)),
-    )
+    ratio = ratio.sel(x=slice(None, slipped_extent(simulation))).transpose("x", "time")
+    norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
     time = simulation["time"].values
-    scale, unit = prefixed(
-        float(np.abs(simulation["driving_force"]).max()),
-        "N/m",
-    )
+    scale, unit = prefixed(float(np.abs(simulation["driving_force"]).max()), "N/m")
     force.set_ylabel(f"Applied force $-f_d$ ({unit})")
     onset = float(row["onset_time"])
     start, peak, end = event_window(simulation, onset)
@@ -66,51 +51,20 @@ def draw(simulation: xr.Dataset, row: xr.Dataset, symbol: str = "$L$") -> Figure
         (panels[:, 0], (time[0], time[-1], 0.0), "Time $t$"),
         (panels[:, 1], (start, end, peak), "Time from the highest slip rate"),
     ):
-        unit = _draw_span(
-            column,
-            simulation,
-            scale,
-            row,
-            ratio,
-            norm,
-            span,
-        )
+        unit = _draw_span(column, simulation, scale, row, ratio, norm, span)
         column[1].set_xlabel(f"{label} ({unit})")
     colours = image.collections[0]
-    figure.colorbar(
-        colours,
-        ax=panels[0],
-        label=r"$\tau/\sigma_0$",
-        pad=0.01,
-        extend="both",
-    )
+    figure.colorbar(colours, ax=panels[0], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
     image.set_ylabel("Position $x$ (m)")
     zoom.tick_params(labelleft=False)
     last.tick_params(labelleft=False, labelright=True)
     for axes in (image, zoom):  # ticks inside are invisible on the dark image
-        axes.tick_params(
-            which="both",
-            direction="out",
-            top=False,
-            right=False,
-        )
+        axes.tick_params(which="both", direction="out", top=False, right=False)
     if np.isfinite(onset):
         across = {"xycoords": image.get_yaxis_transform(), "color": "white", "fontsize": 9.0}
-        style.note(
-            image,
-            symbol,
-            (0.0, float(row["length"])),
-            (5.0, 2.5),
-            **across,
-        )
+        style.note(image, symbol, (0.0, float(row["length"])), (5.0, 2.5), **across)
         up = {"xycoords": force.get_xaxis_transform(), "ha": "right", "fontsize": 9.0}
-        style.note(
-            force,
-            "onset",
-            (onset * time_unit(time[-1])[0], 0.0),
-            (-4.0, 6.5),
-            **up,
-        )
+        style.note(force, "onset", (onset * time_unit(time[-1])[0], 0.0), (-4.0, 6.5), **up)
     return figure
 
 
@@ -130,44 +84,20 @@ def _draw_span(
     image, below = column
     start, end, origin = span
     scale, unit = time_unit(max(end - origin, origin - start))
-    part = ratio.isel(
-        time=thin(
-            ratio["time"].values,
-            start,
-            end,
-            _PIXELS,
-        )
-    )
+    part = ratio.isel(time=thin(ratio["time"].values, start, end, _PIXELS))
     edges = (_edges(part["time"].values) - origin) * scale, _edges(part["x"].values)
-    image.pcolormesh(
-        *edges,
-        part.values,
-        norm=norm,
-        rasterized=True,
-    )
+    image.pcolormesh(*edges, part.values, norm=norm, rasterized=True)
 
     onset = (float(row["onset_time"]) - origin) * scale
     length = float(row["length"])
     bars = [[length - float(row["length_low"])], [float(row["length_high"]) - length]]
     image.axhline(length, ls="--", lw=0.9, color="white")
     image.axvline(onset, ls=":", lw=0.9, color="white")
-    image.errorbar(
-        [onset],
-        [length],
-        bars,
-        marker="o",
-        lw=0.9,
-        color="white",
-    )
+    image.errorbar([onset], [length], bars, marker="o", lw=0.9, color="white")
 
     time = record["step_time"].values
     force = -factor * record["driving_force"].values
-    below.plot(
-        (time - origin) * scale,
-        force,
-        color=style.BLUE,
-        lw=1.2,
-    )
+    below.plot((time - origin) * scale, force, color=style.BLUE, lw=1.2)
     below.axvline(onset, ls=":", lw=0.9)
     seen = force[(time >= start) & (time <= end)]
     low, high = seen.min(), seen.max()
@@ -217,28 +147,13 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     return start - margin, peak, end + margin
 
 
-def thin(
-    time: Array,
-    start: float,
-    end: float,
-    columns: int,
-) -> NDArray[np.intp]:
+def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
     """Indices of the times (s) that are drawn, at most one for each column of pixels.
 
     The first time in a column is kept, so that a fast event stays a step at its true time. One time
     beyond either end is kept to fill the panel.
     """
-    first = max(
-        int(
-            np.searchsorted(
-                time,
-                start,
-                side="right",
-            )
-        )
-        - 1,
-        0,
-    )
+    first = max(int(np.searchsorted(time, start, side="right")) - 1, 0)
     last = int(np.searchsorted(time, end)) + 1
     column = np.floor((time[first:last] - start) / (end - start) * columns)
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)

@@ -90,11 +90,7 @@ def require_uniform_edge(run: Run) -> None:
             )
 
 
-def memory_problem(
-    run: Run,
-    key: str,
-    limit: float,
-) -> Iterator[str]:
+def memory_problem(run: Run, key: str, limit: float) -> Iterator[str]:
     """Why a run needs more memory than a limit (MB), which is called `key`; else nothing."""
     need = estimated_megabytes(run)
     if need > limit:

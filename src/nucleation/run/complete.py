@@ -31,15 +31,7 @@ USUAL_LENGTH = 6.0
 
 _ELEMENTS = 6.0  # to a process zone, twice as many as resolve the front
 _ROWS = (16, 24, 32, 48, 64, 96)  # of elements, that are tried for the mesh of a half-space
-_GRADINGS = (
-    np.geomspace(
-        1.0,
-        300.0,
-        60,
-    )
-    .round(1)
-    .tolist()
-)  # of these meshes
+_GRADINGS = np.geomspace(1.0, 300.0, 60).round(1).tolist()  # of these meshes
 
 _LATEST_END = 1.5  # end of a run over the estimated time until the critical length
 _AFTER_EVENT = 10.0  # time after the event over D/V
@@ -121,11 +113,7 @@ def complete(
     return flat(fault, law) | found
 
 
-def late_end(
-    fault: Fault,
-    start: Start,
-    critical: float,
-) -> dict[str, float]:
+def late_end(fault: Fault, start: Start, critical: float) -> dict[str, float]:
     """An end time after the latest event, and a short time after the event (s).
 
     The estimated time until L_c (m) is an upper bound of the event's time.
@@ -140,11 +128,7 @@ def rounded(length: float) -> float:
     return float(f"{length:.4g}")
 
 
-def _as_blocks(
-    fault: Fault,
-    law: Friction,
-    critical: float,
-) -> tuple[Fault, dict[str, Any]]:
+def _as_blocks(fault: Fault, law: Friction, critical: float) -> tuple[Fault, dict[str, Any]]:
     """The fault with blocks in place of half-spaces, and the length and the mesh of the blocks."""
     if math.isnan(critical):
         raise ParameterError(
@@ -216,11 +200,7 @@ def steepness(friction: Friction, omega: float) -> float:
     return max(drop**2 / (2.0 * energy), 1.0)
 
 
-def zone_length(
-    fault: Fault,
-    law: Friction,
-    rest: float = 0.0,
-) -> float:
+def zone_length(fault: Fault, law: Friction, rest: float = 0.0) -> float:
     """Length (m) over which friction at the front weakens; infinite if it does not weaken.
 
     The interface has been at rest for the time `rest` (s) when the front reaches it; in many laws
@@ -241,11 +221,7 @@ def zone_length(
     return min(thick * scale, math.sqrt(thin * scale))
 
 
-def time_to_length(
-    fault: Fault,
-    start: Start,
-    length: float,
-) -> float:
+def time_to_length(fault: Fault, start: Start, length: float) -> float:
     """Time (s) from the start until the creep patch has a length (m), roughly.
 
     The edge's displacement ``V t`` that moves a patch against ``f sigma0``: ``(1 - nu)/mu f sigma0
@@ -266,11 +242,7 @@ def time_to_length(
     return strength * moved / fault.velocity
 
 
-def element_height(
-    height: float,
-    n_y: int,
-    grading: float,
-) -> float:
+def element_height(height: float, n_y: int, grading: float) -> float:
     """Height (m) of the elements at the interface of a body that is `height` (m) high."""
     growth = grading ** (1.0 / (n_y - 1))
     return height / sum(growth**row for row in range(n_y))

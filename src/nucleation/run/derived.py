@@ -27,12 +27,7 @@ def fault(run: Run) -> str:
 
     The block must be so long that its length has no effect.
     """
-    return identity(
-        run,
-        *OF_GROUPS["block"],
-        *OF_GROUPS["stepping"],
-        *OF_GROUPS["perturbation"],
-    )
+    return identity(run, *OF_GROUPS["block"], *OF_GROUPS["stepping"], *OF_GROUPS["perturbation"])
 
 
 def ensemble(run: Run) -> str:

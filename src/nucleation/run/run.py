@@ -83,13 +83,7 @@ class Run:
 
     def completed(self, **values: Any) -> Self:
         """A run of the same fault and friction law in which only `values` are given."""
-        return self._of(
-            complete(
-                self.fault,
-                read(values),
-                self.law,
-            )
-        )
+        return self._of(complete(self.fault, read(values), self.law))
 
     def _set(self, values: Mapping[str, Any], **parts: Any) -> None:
         """Set the fields from a flat mapping of all parameters, unless they are given as parts."""
@@ -161,11 +155,7 @@ class Run:
         of_law = {name: x for name, x in given.items() if name in OF_LAWS}
         if "friction_law" in of_law:
             of_law["law"] = of_law.pop("friction_law")
-        law = with_constants(
-            self.law.changed(of_law),
-            changed["velocity"],
-            given,
-        )
+        law = with_constants(self.law.changed(of_law), changed["velocity"], given)
         moved = {name for name in before | changed if before.get(name) != changed.get(name)}
         kept = {
             group: getattr(self, group) for group in GROUPS if moved.isdisjoint(OF_GROUPS[group])
@@ -263,13 +253,7 @@ def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
     if found["loading"] == "edge":
         return Fault(**found, friction_law=law)
     f, a, zeta = law.expansion(found["velocity"])
-    return Fault(
-        **found,
-        friction=f,
-        a=a,
-        zeta=zeta,
-        slip_distance=law.slip_distance,
-    )
+    return Fault(**found, friction=f, a=a, zeta=zeta, slip_distance=law.slip_distance)
 
 
 PAPER_RUN = Run._of(flat(PAPER, PAPER.law()))

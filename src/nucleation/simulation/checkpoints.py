@@ -142,12 +142,7 @@ def run_to_file(
     failed = output.with_suffix(".failed.nc")
     with checkpoint.listening():
         start = checkpoint.load()
-        dataset = simulate(
-            run,
-            progress=progress,
-            start=start,
-            keep=checkpoint.keep,
-        )
+        dataset = simulate(run, progress=progress, start=start, keep=checkpoint.keep)
         path = output if dataset.attrs["completed"] else failed
         write(dataset, path)
         checkpoint.path.unlink(missing_ok=True)
@@ -158,8 +153,4 @@ def run_to_file(
 
 def simulation_code(run: Run) -> str:
     """Digest of the code of a simulation, as in the workflow."""
-    return code.digest(
-        "nucleation.simulation.run",
-        *code.ALWAYS,
-        *plugins(run.law),
-    )
+    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(run.law))

@@ -35,23 +35,10 @@ class Drive(NamedTuple):
 
 def steady_drive(velocity: float, load: Field) -> Drive:
     """An edge that moves at a constant velocity (m/s) under a constant load (N/m)."""
-    return Drive(
-        velocity,
-        lambda time: Imposed(
-            time,
-            velocity * time,
-            velocity,
-        ),
-        (load,),
-    )
+    return Drive(velocity, lambda time: Imposed(time, velocity * time, velocity), (load,))
 
 
-def remote_drive(
-    near: Drive,
-    shear: Field,
-    start: float,
-    rising: float,
-) -> Drive:
+def remote_drive(near: Drive, shear: Field, start: float, rising: float) -> Drive:
     """A far shear load (N/m per Pa) from a stress (Pa) on that rises (Pa/m).
 
     It rises per metre of displacement of an imaginary driven edge. No edge moves. Where the edge's

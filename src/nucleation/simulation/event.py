@@ -60,12 +60,7 @@ def where_patch_is_sought(run: Run, x: Array) -> NDArray[np.bool_]:
     return x <= NEAR * run.block.length
 
 
-def long_after(
-    run: Run,
-    x: Array,
-    times: Array,
-    slip_rates: Array,
-) -> float:
+def long_after(run: Run, x: Array, times: Array, slip_rates: Array) -> float:
     """Find the time (s) after which the patch has been longer than :data:`FEW` elements.
 
     Between two frames the nearest one counts, as for the length of the patch.
@@ -81,13 +76,7 @@ def long_after(
     return float(times[first - 1 : first + 1].mean())
 
 
-def patch_is_fast(
-    run: Run,
-    before: bool,
-    time: float,
-    rate: float,
-    position: float,
-) -> bool:
+def patch_is_fast(run: Run, before: bool, time: float, rate: float, position: float) -> bool:
     """Whether the patch slips fast after a step (s, m/s, m), given whether it did before.
 
     A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
@@ -122,11 +111,7 @@ def has_dropped(
     return bool(fast) and force < (1.0 - drop) * maxima[0][1]
 
 
-def front_width(
-    run: Run,
-    x: Array,
-    state: Array,
-) -> float:
+def front_width(run: Run, x: Array, state: Array) -> float:
     """Width of the front in elements: total change of log(phi) over the steepest one."""
     with np.errstate(divide="ignore", invalid="ignore"):
         log_state = np.log(state[where_patch_is_sought(run, x)])
@@ -138,11 +123,7 @@ def front_width(
     return float(np.ptp(known) / steepest)
 
 
-def slipping_edge(
-    x: Array,
-    slip_rate: Array,
-    threshold: float,
-) -> Array:
+def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> Array:
     """The furthest position (m) that slips faster than a threshold (m/s), if an edge is pushed.
 
     Only the part of the block next to the pushed edge is searched: slip at the far corner does not
@@ -160,11 +141,7 @@ def slipping_edge(
 
 
 def _between(
-    x: Array,
-    rate: Array,
-    inside: NDArray[np.intp],
-    outside: NDArray[np.intp],
-    threshold: float,
+    x: Array, rate: Array, inside: NDArray[np.intp], outside: NDArray[np.intp], threshold: float
 ) -> Array:
     """Position (m) where log v passes a threshold between two neighbours.
 
@@ -187,10 +164,7 @@ def _between(
 
 
 def slipping_zone(
-    x: Array,
-    slip_rate: Array,
-    threshold: float,
-    periodic: bool = False,
+    x: Array, slip_rate: Array, threshold: float, periodic: bool = False
 ) -> tuple[float, float]:
     """Find the zone about the fastest node that slips faster than a threshold at one instant."""
     rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)
@@ -215,12 +189,7 @@ def slipping_zone(
     return end(-1), end(1)
 
 
-def patch_lengths(
-    kind: str,
-    x: Array,
-    slip_rates: Array,
-    threshold: float,
-) -> Array:
+def patch_lengths(kind: str, x: Array, slip_rates: Array, threshold: float) -> Array:
     """Length of the patch at every instant, by the slip rates of that instant alone.
 
     A pushed edge is one end of the patch. Otherwise the patch is the zone about the fastest node.

@@ -96,12 +96,7 @@ def compiled_friction(
     register_jitable(formula)
 
     def _at_end(  # type: ignore[no-untyped-def]
-        v,
-        past,
-        beta,
-        v0,
-        distance,
-        constants,
+        v, past, beta, v0, distance, constants
     ):
         speed = np.sqrt(v * v + v0 * v0)
         psi, psi_by_rate = implicit_log_state(past, beta, speed / distance)
@@ -131,12 +126,7 @@ class Interface:
         return not any(map(np.ndim, (*law.constants, law.slip_distance)))
 
     def solve(
-        self,
-        operator: Operator,
-        response: Forces,
-        past: Past,
-        imposed: Imposed,
-        rates: Array,
+        self, operator: Operator, response: Forces, past: Past, imposed: Imposed, rates: Array
     ) -> InterfaceSolution:
         """Solve for the interface at the new time.
 
@@ -190,24 +180,11 @@ class Interface:
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = modes.on_all_nodes(p, -friction[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
-            solved = _solved(
-                operator,
-                friction[1:],
-                residual,
-                damping,
-                active,
-                beta,
-            )
+            solved = _solved(operator, friction[1:], residual, damping, active, beta)
             linear = residual, elastic, damping, active, solved
             if law.asinh_of_rate:
                 change = passes.direction(*linear)
-                v = _updated_by_asinh(
-                    rates[1:],
-                    change,
-                    damping,
-                    elastic,
-                    least[1:],
-                )
+                v = _updated_by_asinh(rates[1:], change, damping, elastic, least[1:])
             else:
                 v = passes.updated(rates, *linear, law.regularisation_slip_rate)
             rates, w, change_of_w, reach = passes.moved(
@@ -246,23 +223,14 @@ def _solved(
     if active.size:
         stiffness, coupling = operator.tangent(active + 1, np.float32)
         matrix = passes.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
-        *_, solved, info = lapack.sgesv(
-            matrix.T,
-            solved,
-            overwrite_a=True,
-            overwrite_b=True,
-        )
+        *_, solved, info = lapack.sgesv(matrix.T, solved, overwrite_a=True, overwrite_b=True)
         if info:
             raise NewtonFailure("the interface's tangent is singular")
     return solved
 
 
 def _updated_by_asinh(
-    v: Array,
-    change: Array,
-    damping: Array,
-    elastic: Array,
-    scale: Array,
+    v: Array, change: Array, damping: Array, elastic: Array, scale: Array
 ) -> Array:
     """``v + change`` to first order, for friction proportional to ``asinh(v / scale)``.
 

@@ -17,17 +17,7 @@ LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 @compiled
 def balance(
-    tangential,
-    normal,
-    coefficient,
-    slope,
-    v,
-    elastic,
-    least,
-    tolerance,
-    rounding,
-    strength,
-    ratio,
+    tangential, normal, coefficient, slope, v, elastic, least, tolerance, rounding, strength, ratio
 ):
     """The interface's equations: residual, damping, error, friction, and the coupled nodes.
 
@@ -65,14 +55,7 @@ def balance(
 
 
 @compiled
-def newton_matrix(
-    stiffness,
-    coupling,
-    coefficient,
-    damping,
-    active,
-    beta,
-):
+def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
     """``beta (D + f N) + R df/dv`` between the active nodes, transposed, in single precision."""
     step = np.float32(beta)
     matrix = np.empty_like(stiffness)
@@ -85,13 +68,7 @@ def newton_matrix(
 
 
 @compiled
-def direction(
-    residual,
-    elastic,
-    damping,
-    active,
-    solved,
-):
+def direction(residual, elastic, damping, active, solved):
     """Newton's direction (m/s): of the coupled system at active nodes, node by node elsewhere."""
     change = np.empty(residual.size)
     for i in range(residual.size):
@@ -102,15 +79,7 @@ def direction(
 
 
 @compiled
-def updated(
-    before,
-    residual,
-    elastic,
-    damping,
-    active,
-    solved,
-    v0,
-):
+def updated(before, residual, elastic, damping, active, solved, v0):
     """Slip rates (m/s) after a step of Newton's method, at the nodes 1..n_x.
 
     A slip rate that shrinks does so in asinh(v / v0). Friction is concave in v > 0: from above,
@@ -131,17 +100,7 @@ def updated(
 
 
 @compiled
-def moved(
-    v,
-    before,
-    velocity,
-    periodic,
-    beta,
-    past,
-    start,
-    tolerated,
-    least,
-):
+def moved(v, before, velocity, periodic, beta, past, start, tolerated, least):
     """Slip rates at all nodes (m/s), ``w = past + beta (v - V)`` (m), and ``w - start``.
 
     Also the number of nodes up to the last one whose slip rate has changed by more than the part
@@ -167,16 +126,7 @@ def moved(
 
 @compiled
 def predicted(
-    past_rates,
-    past_states,
-    past_w,
-    weights,
-    formula,
-    beta,
-    velocity,
-    periodic,
-    forcing,
-    least,
+    past_rates, past_states, past_w, weights, formula, beta, velocity, periodic, forcing, least
 ):
     """A step's first guess, and the past part of its formula.
 
@@ -226,13 +176,7 @@ def largest_change(rate, scaled, scale):
 
 
 @compiled
-def distance(
-    scaled,
-    log_state,
-    rate,
-    psi,
-    scale,
-):
+def distance(scaled, log_state, rate, psi, scale):
     """Largest distance of slip rates, in asinh(v / scale), and log(phi) from expected ones."""
     largest = largest_change(rate, scaled, scale)
     for i in range(psi.size):

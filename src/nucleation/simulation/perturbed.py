@@ -35,12 +35,7 @@ ROWS_KEPT = 8  # of a sheet; four are in use at one time
 PHASE, SERIES, PROFILE, SHEET = range(4)  # independent streams of one seed
 
 
-def normals(
-    seed: int,
-    stream: int,
-    row: int,
-    number: int,
-) -> Array:
+def normals(seed: int, stream: int, row: int, number: int) -> Array:
     """The first standard normal numbers in a row of a stream.
 
     A larger number of them begins with the same ones. They are made from the raw integers of the
@@ -49,12 +44,7 @@ def normals(
     return ndtri(_uniform(seed, stream, row, number))
 
 
-def _uniform(
-    seed: int,
-    stream: int,
-    row: int,
-    number: int,
-) -> Array:
+def _uniform(seed: int, stream: int, row: int, number: int) -> Array:
     """Numbers in (0, 1), one for each 64 random bits."""
     counter = [0, row, stream, 0]
     generator = np.random.Philox(counter=counter, key=[seed, 0])
@@ -78,14 +68,7 @@ class Series:
 
     def __init__(self, seed: int, correlation: float) -> None:
         self.spacing = MEAN_SQUARE * correlation
-        self.phase = float(
-            _uniform(
-                seed,
-                PHASE,
-                SERIES,
-                1,
-            )[0]
-        )
+        self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._seed = seed
         self._coefficients = np.empty(0)
         self._before = np.zeros(1)  # sums of the coefficients before each
@@ -98,12 +81,7 @@ class Series:
     def slope(self, time: float) -> float:
         """``d xi / dt`` (1/s) at a time (s)."""
         u, used, _ = self._place(time)
-        slopes = [
-            -((1.0 - u) ** 2),
-            u * (3.0 * u - 4.0),
-            1.0 + u * (2.0 - 3.0 * u),
-            u * u,
-        ]
+        slopes = [-((1.0 - u) ** 2), u * (3.0 * u - 4.0), 1.0 + u * (2.0 - 3.0 * u), u * u]
         return float(np.array(slopes) / 2 @ used) / (MEAN_SQUARE**0.5 * self.spacing)
 
     def integral(self, time: float) -> float:
@@ -118,12 +96,7 @@ class Series:
             return 0.5 + z * (4.0 + z * z * (0.75 * z - 2.0)) / 6.0
 
         u, used, before = self._place(time)
-        integrals = [
-            1.0 - (1.0 - u) ** 4 / 24.0,
-            middle(u),
-            1.0 - middle(1.0 - u),
-            u**4 / 24.0,
-        ]
+        integrals = [1.0 - (1.0 - u) ** 4 / 24.0, middle(u), 1.0 - middle(1.0 - u), u**4 / 24.0]
         return float(np.array(integrals) @ used + before)
 
     def _place(self, time: float) -> tuple[float, Array, float]:
@@ -138,12 +111,7 @@ class Series:
         return position - first, self._coefficients[first : first + 4], self._before[first]
 
 
-def _along_x(
-    seed: int,
-    correlation: float,
-    x: Array,
-    stream: int,
-) -> Callable[[int], Array]:
+def _along_x(seed: int, correlation: float, x: Array, stream: int) -> Callable[[int], Array]:
     """The function that gives each row of a stream as a series at positions x (m), (n,)."""
     phase = _uniform(seed, PHASE, stream, 2)[1]
     s = x / (MEAN_SQUARE * correlation) + phase
@@ -171,14 +139,7 @@ class Sheet:
         self, seed: int, correlation_time: float, correlation_length: float, x: Array
     ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
-        self.phase = float(
-            _uniform(
-                seed,
-                PHASE,
-                SHEET,
-                1,
-            )[0]
-        )
+        self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
         rows = _along_x(seed, correlation_length, x, SHEET)
         self.row = lru_cache(ROWS_KEPT)(rows)  # coefficients a_i(x) of one index
 

@@ -31,11 +31,7 @@ class Progress:
     """
 
     def __init__(
-        self,
-        run: Run,
-        stream: TextIO,
-        terminal: bool | None = None,
-        name: str = "",
+        self, run: Run, stream: TextIO, terminal: bool | None = None, name: str = ""
     ) -> None:
         self._fault = run.fault
         self._x = grid_of(run.upper).x
@@ -57,12 +53,7 @@ class Progress:
         state, control = instant.state, instant.control
         rate = instant.report.interface.slip_rate
         edge = SLIPPING * self._fault.velocity
-        (length,) = patch_lengths(
-            self._fault.loading,
-            self._x,
-            rate[None],
-            edge,
-        )
+        (length,) = patch_lengths(self._fault.loading, self._x, rate[None], edge)
         self._length = max(self._length, float(length))
         part = max(state.time / self._end, self._length / self._critical_length)
         line = (
@@ -72,12 +63,7 @@ class Progress:
             f"{int(100.0 * min(part, NEARLY))} % of the way"
         )
         if self._terminal:
-            print(
-                f"\r{line:<{self._shown}}",
-                end="",
-                file=self._stream,
-                flush=True,
-            )
+            print(f"\r{line:<{self._shown}}", end="", file=self._stream, flush=True)
             self._shown = len(line)
         else:
             print(line, file=self._stream, flush=True)
@@ -85,19 +71,11 @@ class Progress:
     def close(self) -> None:
         """Remove the terminal's line."""
         if self._terminal:
-            print(
-                f"\r{'':<{self._shown}}",
-                end="\r",
-                file=self._stream,
-                flush=True,
-            )
+            print(f"\r{'':<{self._shown}}", end="\r", file=self._stream, flush=True)
 
 
 def simulate(
-    run: Run,
-    *,
-    progress: bool | Callable[[Instant], object] | None = None,
-    **more: Any,
+    run: Run, *, progress: bool | Callable[[Instant], object] | None = None, **more: Any
 ) -> xr.Dataset:
     """Run one simulation until it ends or the user interrupts it, and return its record.
 

@@ -11,15 +11,7 @@ from ..model.settings import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes
-from .event import (
-    FEW,
-    RESOLVED,
-    WINDOW,
-    front_width,
-    has_dropped,
-    long_after,
-    patch_is_fast,
-)
+from .event import FEW, RESOLVED, WINDOW, front_width, has_dropped, long_after, patch_is_fast
 from .recorded import RECORDED
 from .step import Dynamics, State, StepReport
 
@@ -32,13 +24,7 @@ FOR_LENGTHS = ("slip_rate", "state", "sigma_yy")
 
 INTERFACE = (*FOR_LENGTHS, "slip", "shear_stress")
 ONLY_IN_FULL = ("step_size", "newton_iterations")  # no length is computed from these
-PER_STEP = (
-    "step_time",
-    "driving_force",
-    "maximal_slip_rate",
-    "fastest_position",
-    *ONLY_IN_FULL,
-)
+PER_STEP = ("step_time", "driving_force", "maximal_slip_rate", "fastest_position", *ONLY_IN_FULL)
 
 ENERGIES = ("elastic_energy", "kinetic_energy", "work", "friction_work")
 """The work of the driven edge and of the far loads is what is stored as elastic and kinetic energy,
@@ -93,13 +79,7 @@ class Recorder:
             interface.iterations,
         )
         self._rows.append(row)
-        fast = patch_is_fast(
-            self.run,
-            self._patch_is_fast,
-            state.time,
-            fastest,
-            position,
-        )
+        fast = patch_is_fast(self.run, self._patch_is_fast, state.time, fastest, position)
         self._patch_is_fast = fast
         dropped = has_dropped(
             self._maxima,
@@ -114,12 +94,7 @@ class Recorder:
             onset = self._maxima[0][0]
             times = np.array(self._frame_times)
             rates = np.array([fields[0] for fields in self._frames])
-            if onset > long_after(
-                self.run,
-                self.grid.x,
-                times,
-                rates,
-            ):
+            if onset > long_after(self.run, self.grid.x, times, rates):
                 self._event_time = state.time
                 self._onset_time = onset
             else:
@@ -201,11 +176,7 @@ class Recorder:
     def dataset(self) -> xr.Dataset:
         """The record of the run so far, with the variables of :data:`RECORDED`."""
         data: dict[str, tuple[Sequence[str], Array]] = {}
-        for name, values in zip(
-            PER_STEP,
-            zip(*self._rows, strict=True),
-            strict=True,
-        ):
+        for name, values in zip(PER_STEP, zip(*self._rows, strict=True), strict=True):
             data[name] = ("step",), np.array(values)
         frames = np.array(self._frames)
         for i, name in enumerate(self._fields):
@@ -241,10 +212,7 @@ class _Energy:
         own, modes = dynamics.grid.own, dynamics.body.modes
         imposed = dynamics.drive.at(state.time)
         moved = imposed.displacement
-        forces = (
-            np.array([-report.driving_force, *imposed.factors]),
-            interface.tangential[own],
-        )
+        forces = (np.array([-report.driving_force, *imposed.factors]), interface.tangential[own])
         ways = (
             np.array([moved, *dynamics.works(state.motions[0])]),
             moved + modes.on_all_nodes(interface.w, 0.0)[own],
@@ -261,11 +229,7 @@ class _Energy:
         dynamics = self._dynamics
         body, imposed = dynamics.body, dynamics.drive.at(state.time)
         motion = dynamics.in_form(state, condensed=False).motions[0]
-        parts = zip(
-            body.layers,
-            body.parts(motion.displacement),
-            strict=True,
-        )
+        parts = zip(body.layers, body.parts(motion.displacement), strict=True)
         elastic = sum(elastic_energy(layer, part) for layer, part in parts)
         return np.array([elastic, body.kinetic_energy(motion.velocity, imposed.velocity)])
 

@@ -34,12 +34,7 @@ RESOLVED = 16.0  # shortest step over the round-off of the time
 class SimulationFailure(RuntimeError):
     """The time integration cannot continue after a state."""
 
-    def __init__(
-        self,
-        outcome: Outcome,
-        state: State,
-        reason: str,
-    ) -> None:
+    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
         super().__init__(f"{outcome} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 
@@ -63,11 +58,7 @@ class Instant:
 
 
 def accepted_step(
-    dynamics: Dynamics,
-    stepping: Stepping,
-    state: State,
-    control: _Control,
-    longest: float,
+    dynamics: Dynamics, stepping: Stepping, state: State, control: _Control, longest: float
 ) -> Instant:
     """Make the next step, so short that its error is within the tolerance.
 
@@ -102,15 +93,7 @@ def accepted_step(
             continue
         step = new.last_step * min(factor, growth)
         wanted = scheme.leading_coefficient(step, new.last_step)
-        return Instant(
-            new,
-            report,
-            _Control(
-                wanted,
-                control.steps + 1,
-                rejected,
-            ),
-        )
+        return Instant(new, report, _Control(wanted, control.steps + 1, rejected))
 
 
 def _step_factor(error: float, scheme: BDF) -> float:
@@ -122,9 +105,7 @@ def _step_factor(error: float, scheme: BDF) -> float:
 
 
 def instants(
-    run: Run,
-    start: tuple[State, _Control] | None = None,
-    dynamics: Dynamics | None = None,
+    run: Run, start: tuple[State, _Control] | None = None, dynamics: Dynamics | None = None
 ) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
 
@@ -190,11 +171,7 @@ def simulate(
     position = None
     if start is not None:
         recorder.restore(start)
-        control = _Control(
-            float(start["wanted"]),
-            recorder.steps,
-            int(start["rejected"]),
-        )
+        control = _Control(float(start["wanted"]), recorder.steps, int(start["rejected"]))
         position = State.from_arrays(start), control
         earlier = float(start["wall_seconds"])
     outcome = Outcome.END_TIME
@@ -228,11 +205,7 @@ def simulate(
     return dataset
 
 
-def _arrays(
-    instant: Instant,
-    recorder: Recorder,
-    seconds: float,
-) -> Arrays:
+def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
     """All arrays of a run after a step, from which it can resume."""
     control = {
         "wanted": np.array(instant.control.wanted),

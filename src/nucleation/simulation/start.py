@@ -26,14 +26,7 @@ NEWTON = 1e-3
 
 def grid_of(body: runs.Body, periodic: bool = False) -> Grid:
     """The mesh of a block."""
-    return Grid(
-        body.length,
-        body.height,
-        body.n_x,
-        body.n_y,
-        body.grading,
-        periodic,
-    )
+    return Grid(body.length, body.height, body.n_x, body.n_y, body.grading, periodic)
 
 
 def body_of(run: Run) -> Body:
@@ -51,11 +44,7 @@ def layers_of(run: Run, periodic: bool) -> Body:
     first = grid_of(upper, periodic), upper.material
     if below is None:
         return Body(first)
-    return Body(
-        first,
-        (grid_of(below, periodic), below.material),
-        below.far_side,
-    )
+    return Body(first, (grid_of(below, periodic), below.material), below.far_side)
 
 
 def interface_of(run: Run, grid: Grid) -> Interface:
@@ -131,11 +120,7 @@ def at_rest(dynamics: Dynamics, run: Run) -> tuple[State, StepReport]:
 
 
 def _relaxed(
-    dynamics: Dynamics,
-    run: Run,
-    operator: Operator,
-    load: Field,
-    response: Response,
+    dynamics: Dynamics, run: Run, operator: Operator, load: Field, response: Response
 ) -> Response:
     """The response after slip of all nodes that bore more shear than their strength.
 

@@ -115,13 +115,7 @@ class Dynamics:
     inertia acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(
-        self,
-        body: Body,
-        interface: Interface,
-        drive: Drive,
-        scheme: BDF,
-    ) -> None:
+    def __init__(self, body: Body, interface: Interface, drive: Drive, scheme: BDF) -> None:
         self.body = body
         self.interface = interface
         self.drive = drive
@@ -135,11 +129,7 @@ class Dynamics:
         self.loads = (*drive.loads, body.translation_load(1.0))
         self.condenses = body.is_held
 
-    def advance(
-        self,
-        state: State,
-        rung: int,
-    ) -> tuple[State, StepReport]:
+    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
         """Make one step of a rung; raises NewtonFailure if a lower rung may help."""
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
@@ -185,20 +175,12 @@ class Dynamics:
         return new, StepReport(solution, force, step.error(distance))
 
     def _move(
-        self,
-        step: Step,
-        state: State,
-        factors: Array,
-        w: Array,
-        solve: Solve,
+        self, step: Step, state: State, factors: Array, w: Array, solve: Solve
     ) -> tuple[InterfaceSolution, Field, Field]:
         """The interface, displacement (m) and velocity (m/s) after a step."""
         inertia = []  # the past part
         for c, past_motion in zip(step.body.past, state.motions, strict=False):
-            inertia += [
-                (c, past_motion.displacement),
-                (c * step.body.beta, past_motion.velocity),
-            ]
+            inertia += [(c, past_motion.displacement), (c * step.body.beta, past_motion.velocity)]
         load = self.load(state.time + step.length, factors)
         load = self.body.inertia_load(step.s, inertia, load)
         newest, oldest = state.motions[0], state.motions[-1]
@@ -209,12 +191,7 @@ class Dynamics:
         return solution, *operator.balance(response, solution.w, before)
 
     def _follow(
-        self,
-        step: Step,
-        state: State,
-        factors: Array,
-        w: Array,
-        solve: Solve,
+        self, step: Step, state: State, factors: Array, w: Array, solve: Solve
     ) -> tuple[InterfaceSolution, Field, Field]:
         """As :meth:`_move`, of the condensed body."""
         rule = step.body
@@ -222,10 +199,7 @@ class Dynamics:
         u1, u2 = newest.displacement.modes, oldest.displacement.modes
         straight = rule.straight(u1, newest.velocity.modes, u2, oldest.velocity.modes)
         steady = rule.straight(
-            newest.factors,
-            newest.factor_rates,
-            oldest.factors,
-            oldest.factor_rates,
+            newest.factors, newest.factor_rates, oldest.factors, oldest.factor_rates
         )
         operator = self.operator(step.s)
         forces = self.condensed_body.respond(operator, w, factors, straight, steady)
@@ -263,11 +237,7 @@ class Dynamics:
         return CondensedBody(self.body, self.loads, self.operator)
 
     def _pushed(
-        self,
-        state: State,
-        time: float,
-        solution: InterfaceSolution,
-        motion: Motion,
+        self, state: State, time: float, solution: InterfaceSolution, motion: Motion
     ) -> State:
         """The state with the new values, and the past ones that the scheme still needs."""
         most = self.scheme.instants

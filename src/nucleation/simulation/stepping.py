@@ -47,22 +47,14 @@ class _Formula:
         return (value - c1 * newest - c2 * oldest) / self.beta
 
     def straight(
-        self,
-        newest: Array,
-        newest_rate: Array,
-        oldest: Array,
-        oldest_rate: Array,
+        self, newest: Array, newest_rate: Array, oldest: Array, oldest_rate: Array
     ) -> Array:
         """The value at the end of a BDF2 step without acceleration."""
         c1, c2 = self.past
         return c1 * (newest + self.beta * newest_rate) + c2 * (oldest + self.beta * oldest_rate)
 
     @classmethod
-    def bdf2(
-        cls,
-        beta: float,
-        previous_step: float,
-    ) -> _Formula:
+    def bdf2(cls, beta: float, previous_step: float) -> _Formula:
         """The BDF2 step of a leading coefficient (s), after a step of some length (s)."""
         half = beta - 0.5 * previous_step
         step = half + math.sqrt(half * half + beta * previous_step)
@@ -72,11 +64,7 @@ class _Formula:
         return cls(step, beta, (c1, c2))
 
     @classmethod
-    def bdf3(
-        cls,
-        step: float,
-        past_times: Array,
-    ) -> _Formula:
+    def bdf3(cls, step: float, past_times: Array) -> _Formula:
         """The BDF3 step (s): by the cubic through the new value and three past ones."""
         a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
         beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
@@ -168,11 +156,7 @@ class BDF:
     error_order = 3  # power of the step's length in its local error
     largest_growth = LARGEST_GROWTH  # of the length from one step to the next
 
-    def step(
-        self,
-        rung: int,
-        past_times: Array,
-    ) -> Step:
+    def step(self, rung: int, past_times: Array) -> Step:
         """The step of a rung after one, two or three past times (s), newest first."""
         beta = rung_value(rung)
         known = past_times.size
@@ -194,11 +178,7 @@ class BDF:
             without_waves = shortest >= WITHOUT_WAVES * self.crossing_time
         return Step(formula, interface, weights, share, known == 1, without_waves)
 
-    def leading_coefficient(
-        self,
-        step: float,
-        previous_step: float,
-    ) -> float:
+    def leading_coefficient(self, step: float, previous_step: float) -> float:
         """Leading coefficient (s) of a BDF2 step of some length, after another (s)."""
         r = step / previous_step
         return step * (1 + r) / (1 + 2 * r)

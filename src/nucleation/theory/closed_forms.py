@@ -12,10 +12,7 @@ from .status import STABLE, NoLength
 from .values import FaultLike
 
 
-def bimaterial_contrast(
-    upper: Material,
-    lower: Material,
-) -> float:
+def bimaterial_contrast(upper: Material, lower: Material) -> float:
     """The bimaterial contrast beta of two half-spaces (Eq. 8).
 
     Parameters
@@ -42,10 +39,7 @@ def bimaterial_contrast(
     return difference / (2.0 * total)
 
 
-def bimaterial_length_ratio(
-    f_beta: ArrayLike,
-    zeta_over_a: ArrayLike,
-) -> Array:
+def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     """L_c of two half-spaces over ``L_c^M = pi M ell / (zeta sigma0)`` (Eq. 9, Fig. 2).
 
     Parameters
@@ -75,10 +69,7 @@ def bimaterial_length_ratio(
         return zeta / h_plus
 
 
-def thin_limit_length(
-    height: ArrayLike,
-    fault: FaultLike,
-) -> Array:
+def thin_limit_length(height: ArrayLike, fault: FaultLike) -> Array:
     """L_c (m) of blocks of heights H (m) on a rigid base as ``Hk -> 0`` (Eq. 11).
 
     Only the first body and the friction of the fault matter; NoLength unless ``zeta > 0``.

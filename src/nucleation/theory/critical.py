@@ -56,11 +56,7 @@ class CriticalMode(NamedTuple):
 def critical_modes(systems: Systems) -> CriticalMode:
     """The critical modes of systems (n,); NaN where sliding is stable at every wavenumber."""
     k = largest_crossings(systems)
-    return CriticalMode(
-        2.0 * np.pi / k,
-        k,
-        marginal_frequencies(systems, k),
-    )
+    return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
 
 
 def unstable_modes(systems: Systems) -> CriticalMode:
@@ -98,10 +94,7 @@ def stability_reason(one: Systems) -> str:
 
 
 def at_each(
-    fault: FaultLike,
-    answer: Callable[..., tuple[Any, ...]],
-    *arrays: Values,
-    rows: int,
+    fault: FaultLike, answer: Callable[..., tuple[Any, ...]], *arrays: Values, rows: int
 ) -> Any:
     """Rows of objects: the answer to each fault's single system, L_c (m) and entries of arrays.
 
@@ -109,19 +102,11 @@ def at_each(
     """
 
     def points(systems: Systems, *values: Array) -> NDArray:
-        found = np.full(
-            (rows, systems.a.size),
-            np.nan,
-            dtype=object,
-        )
+        found = np.full((rows, systems.a.size), np.nan, dtype=object)
         for i, length in enumerate(2.0 * np.pi / largest_crossings(systems)):
             try:
                 own = (float(array[i]) for array in values)
-                found[:, i] = answer(
-                    systems.at(np.array([i])),
-                    float(length),
-                    *own,
-                )
+                found[:, i] = answer(systems.at(np.array([i])), float(length), *own)
             except NoLength as none:
                 found[-2:, i] = none.status, str(none)
         return found
@@ -137,14 +122,7 @@ def largest_crossings(systems: Systems) -> Array:
     one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
     pair = systems.pair.with_heights(lambda height: np.inf * one)
     g, rho = systems._replace(pair=pair).load_and_coupling(one)
-    k = (
-        marginal_stiffness(
-            rho,
-            systems.a,
-            systems.zeta,
-        )[1]
-        / g
-    )
+    k = marginal_stiffness(rho, systems.a, systems.zeta)[1] / g
     k = np.where(k > 0.0, k, np.nan)
     has_layers = np.isfinite(np.minimum.reduce(systems.pair.thicknesses))
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
@@ -161,27 +139,13 @@ def _refined(systems: Systems) -> Array:
     def margins(log_ratio: Array, index: NDArray) -> Array:
         return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
 
-    return low * np.exp(
-        roots(
-            margins,
-            0.0 * low,
-            np.log(high / low),
-            ROUND_OFF,
-        )
-    )
+    return low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
 
 
 def _brackets(systems: Systems) -> Array:
     """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
     heights = systems.pair.thicknesses
-    finite = [
-        np.where(
-            np.isfinite(height),
-            height,
-            np.nan,
-        )
-        for height in heights
-    ]
+    finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
     ratios = [body.zone_ratio for body in systems.pair.deformable]
     contrast = np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
     bottom = LONG_WAVES * contrast / np.fmax.reduce(finite)  # all layers are thin
@@ -192,27 +156,15 @@ def _brackets(systems: Systems) -> Array:
     margin = _margins(systems, k)
     unstable = margin < 0.0
     has_any = unstable.any(axis=1)
-    last = np.where(
-        has_any,
-        POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1),
-        0,
-    )
-    bracket = np.where(
-        has_any,
-        [k[rows, last], k[rows, last + 1]],
-        np.nan,
-    )
+    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
+    bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
 
     before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
     dips = (middle > 0.0) & (middle < before) & (middle < after)
     is_above = np.arange(POINTS - 2) >= last[:, None]
     owner, place = np.nonzero(dips & is_above)
     above = k[owner, place + 2]
-    lowest = _minima(
-        systems.at(owner),
-        k[owner, place],
-        above,
-    )
+    lowest = _minima(systems.at(owner), k[owner, place], above)
     found = stability_margin(systems.at(owner), lowest) < 0.0
     bracket[:, owner[found]] = lowest[found], above[found]  # of several the last, the largest k
 
@@ -222,11 +174,7 @@ def _brackets(systems: Systems) -> Array:
         growing = _margins(systems.at(missing), k) < 0.0
         rows, first = np.arange(missing.size), np.argmax(growing, axis=1)
         found = np.stack([k[rows, first], k[rows, first - 1]])
-        bracket[:, missing] = np.where(
-            growing.any(axis=1),
-            found,
-            np.nan,
-        )
+        bracket[:, missing] = np.where(growing.any(axis=1), found, np.nan)
     return bracket
 
 

@@ -17,12 +17,7 @@ from .spectrum import Systems
 from .stiffness import FAR_SIDES, OF_ANTIPLANE
 from .values import QUANTITIES, WORDS, ZONE, FaultLike, Values, checked, labelled
 
-_USUAL = np.errstate(
-    divide="warn",
-    over="warn",
-    under="ignore",
-    invalid="warn",
-)
+_USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 """NumPy's own settings, whatever the caller's are."""
 
 _OF_BODY = ("shear_modulus", "poisson_ratio")
@@ -82,19 +77,10 @@ def evaluate(
 
     values = parameters.values()
     if not any(labelled(value) for value in (*values, *arrays)):
-        return np.moveaxis(
-            core(*values, *arrays),
-            -1,
-            0,
-        )
+        return np.moveaxis(core(*values, *arrays), -1, 0)
     import xarray as xr
 
-    result = xr.apply_ufunc(
-        core,
-        *values,
-        *arrays,
-        output_core_dims=[["row"]],
-    )
+    result = xr.apply_ufunc(core, *values, *arrays, output_core_dims=[["row"]])
     return result.transpose("row", ...)
 
 

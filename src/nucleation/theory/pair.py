@@ -70,20 +70,11 @@ class Layers(NamedTuple):
         share = height / thick
         soft = 1.0 / (1.0 + share * (ratio - 1.0))
         stiff = 1.0 + share * (1.0 / ratio - 1.0)
-        changed = self.shear_modulus * np.where(
-            ratio > 1.0,
-            soft,
-            stiff,
-        )
-        modulus = np.where(
-            share < 1.0,
-            changed,
-            self.zone.shear_modulus,
-        )
+        changed = self.shear_modulus * np.where(ratio > 1.0, soft, stiff)
+        modulus = np.where(share < 1.0, changed, self.zone.shear_modulus)
         added = np.minimum(thick - height, 0.5 * self.height)
         return self._replace(
-            height=self.height - added,
-            zone=self.zone._replace(height=thick, shear_modulus=modulus),
+            height=self.height - added, zone=self.zone._replace(height=thick, shear_modulus=modulus)
         )
 
     def _waves(self, wavenumber: ArrayLike) -> Waves:
@@ -98,13 +89,7 @@ class Layers(NamedTuple):
         if self.zone is None:
             return own
         functions, nu = self.zone._waves(wavenumber), self.zone.poisson_ratio
-        return stiffness_with_zone(
-            functions,
-            nu,
-            self.antiplane,
-            own,
-            self.zone_ratio,
-        )
+        return stiffness_with_zone(functions, nu, self.antiplane, own, self.zone_ratio)
 
 
 class LayerPair(NamedTuple):

@@ -11,10 +11,7 @@ MOST_STEPS = 100  # of Ridders' method, which needs about ten
 
 
 def roots(
-    function: Callable[[Array, NDArray[np.intp]], Array],
-    low: Array,
-    high: Array,
-    precision: float,
+    function: Callable[[Array, NDArray[np.intp]], Array], low: Array, high: Array, precision: float
 ) -> Array:
     """Where functions rise through zero between `low` and `high`, (n,), by Ridders' method.
 

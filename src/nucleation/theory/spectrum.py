@@ -78,18 +78,12 @@ class Systems(NamedTuple):
         larger = -(half + root)
         roots = np.stack([larger, product / larger])
         in_order = roots[0].real >= roots[1].real
-        ordered = np.where(
-            in_order,
-            roots,
-            roots[::-1],
-        )
+        ordered = np.where(in_order, roots, roots[::-1])
         return np.asarray(ordered * self.rate, dtype=complex)
 
 
 def marginal_stiffness(
-    rho: Array | float,
-    a: Array | float,
-    zeta: Array | float,
+    rho: Array | float, a: Array | float, zeta: Array | float
 ) -> tuple[Array, Array]:
     """The roots ``h_minus <= h_plus``, NaN where they are not real or ``a + zeta <= 0``.
 
@@ -99,13 +93,7 @@ def marginal_stiffness(
     b = a + zeta
     discriminant = (rho * b) ** 2 + 4.0 * a * zeta
     real = (discriminant >= 0.0) & (b > 0.0)
-    root = np.sqrt(
-        np.where(
-            real,
-            discriminant,
-            np.nan,
-        )
-    )
+    root = np.sqrt(np.where(real, discriminant, np.nan))
     leading = 1.0 + rho**2
     plus = (2.0 * zeta + rho**2 * b + rho * root) / (2.0 * leading)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -141,11 +129,4 @@ def marginal_frequencies(systems: Systems, k: Array) -> Array:
     small = -zeta / (a * large)
 
     misfits = [np.abs(b * w**2 / (1.0 + w**2) - g) for w in (large, small)]
-    return (
-        np.where(
-            misfits[0] <= misfits[1],
-            large,
-            small,
-        )
-        * systems.rate
-    )
+    return np.where(misfits[0] <= misfits[1], large, small) * systems.rate

@@ -210,12 +210,7 @@ def _antiplane_terms(numerator: Array, denominator: Array) -> Terms:
     return denominator, numerator, 0.0 * denominator, denominator, numerator
 
 
-def layer_stiffness(
-    w: Waves,
-    nu: Array,
-    far_side: str,
-    antiplane: bool,
-) -> Stiffness:
+def layer_stiffness(w: Waves, nu: Array, far_side: str, antiplane: bool) -> Stiffness:
     """Dimensionless stiffness A of a layer; in antiplane shear ``tanh q`` or ``coth q``."""
     if antiplane:
         squared = w.sinh_squared if OF_ANTIPLANE[far_side] else w.cosh_squared
@@ -227,11 +222,7 @@ def layer_stiffness(
 
 
 def stiffness_with_zone(
-    w: Waves,
-    nu: Array,
-    antiplane: bool,
-    behind: Stiffness,
-    ratio: Array,
+    w: Waves, nu: Array, antiplane: bool, behind: Stiffness, ratio: Array
 ) -> Stiffness:
     """The stiffness of a zone with its body behind, over the body's modulus, `ratio` times its."""
     xx = ratio * behind.xx
@@ -252,9 +243,4 @@ def stiffness_with_zone(
     below, *above = np.add.reduce(terms)
     xx, xy, yy, det = (numerator / below for numerator in above)
     scale = 1.0 / ratio  # from over the zone's modulus
-    return Stiffness(
-        scale * xx,
-        scale * xy,
-        scale * yy,
-        scale**2 * det,
-    )
+    return Stiffness(scale * xx, scale * xy, scale * yy, scale**2 * det)

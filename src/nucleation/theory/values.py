@@ -42,11 +42,7 @@ def _declared() -> dict[str, Quantity]:
     material = declarations(Material)
     friction = declarations(Friction)
     replace = dataclasses.replace
-    modulus = replace(
-        material["shear_modulus"],
-        low=1e-9,
-        closed="[)",
-    )
+    modulus = replace(material["shear_modulus"], low=1e-9, closed="[)")
     ratio = material["poisson_ratio"]
     height = declared("height of the body (inf: half-space)", "[1e-12, inf] m", symbol="H")
     far_side = Quantity(
@@ -69,11 +65,7 @@ def _declared() -> dict[str, Quantity]:
         "b": declared(
             "coefficient b = a + zeta of the log of the state", "(0.0, 10.0)", symbol="b"
         ),
-        "slip_distance": replace(
-            friction["slip_distance"],
-            low=1e-15,
-            closed="[)",
-        ),
+        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="[)"),
         "second_shear_modulus": replace(
             modulus,
             closed="[]",
@@ -127,22 +119,14 @@ def labelled(value: Any) -> bool:
     return "xarray" in sys.modules and isinstance(value, sys.modules["xarray"].DataArray)
 
 
-def where(
-    condition: Any,
-    first: Any,
-    second: Any,
-) -> Any:
+def where(condition: Any, first: Any, second: Any) -> Any:
     """``xr.where`` if there is a DataArray, else NumPy's; of broadcast shape."""
     if any(labelled(value) for value in (condition, first, second)):
         return sys.modules["xarray"].where(condition, first, second)
     return np.where(condition, first, second)[()]
 
 
-def checked(
-    name: str,
-    value: Any,
-    entry: Quantity,
-) -> Array | xr.DataArray:
+def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     """The value, with or without a unit, as an array of floats (SI units) in the declared range.
 
     Raises ParameterError if it is no array of numbers, or one of them is out of range.
@@ -153,11 +137,7 @@ def checked(
     return value if labelled(value) else np.asarray(value)
 
 
-def _array(
-    name: str,
-    value: Any,
-    entry: Quantity,
-) -> Array | xr.DataArray:
+def _array(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     """The array of :func:`checked`; its magnitudes may be implausible."""
     value = magnitude(name, value, entry)
     try:
@@ -177,13 +157,7 @@ def _array(
         position = np.unravel_index(bad[0], array.shape)
         at = ", ".join(str(i) for i in position)
         entry_name = f"{name}[{at}]" if at else name
-        raise ParameterError(
-            refusal(
-                entry_name,
-                float(flat[bad[0]]),
-                entry,
-            )
-        )
+        raise ParameterError(refusal(entry_name, float(flat[bad[0]]), entry))
     return array
 
 
@@ -193,13 +167,7 @@ def numbers_of(fault: FaultLike) -> dict[str, Any]:
     return {name: value for name, value in found.items() if value is not None}
 
 
-def named(
-    values: Any,
-    name: str,
-    units: str,
-    long_name: str,
-    fault: FaultLike,
-) -> Any:
+def named(values: Any, name: str, units: str, long_name: str, fault: FaultLike) -> Any:
     """A result (SI units) in the form of the fault's parameters: DataArray, quantity or array."""
     if labelled(values):
         return values.rename(name).assign_attrs(units=units, long_name=long_name)

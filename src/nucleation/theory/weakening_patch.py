@@ -124,11 +124,7 @@ class WeakeningPatch(NamedTuple):
     inside: Systems
     outside: Systems
 
-    def growing_modes(
-        self,
-        width: float,
-        number: int,
-    ) -> int:
+    def growing_modes(self, width: float, number: int) -> int:
         """The number of growing modes of a patch of a width (m), by a number of polynomials.
 
         A mode that oscillates counts twice, as its frequency has either sign.
@@ -140,12 +136,7 @@ class WeakeningPatch(NamedTuple):
             turned += turned  # both signs are alike
         return round(turned / (2.0 * math.pi))
 
-    def factors(
-        self,
-        elastic: tuple[Array, Array],
-        number: int,
-        frequency: Array,
-    ) -> ComplexArray:
+    def factors(self, elastic: tuple[Array, Array], number: int, frequency: Array) -> ComplexArray:
         """Factors of the determinant, (frequencies, number + 1), at frequencies over V/D.
 
         Load and coupling are those at the wavenumbers of the basis.
@@ -169,12 +160,7 @@ class WeakeningPatch(NamedTuple):
         rest = np.linalg.det(matrix / diagonal[:, :, None])
         return np.concatenate([diagonal, rest[:, None]], axis=1)
 
-    def _turn(
-        self,
-        width: float,
-        number: int,
-        sign: float,
-    ) -> float:
+    def _turn(self, width: float, number: int, sign: float) -> float:
         """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
         shortest = np.array([2.0 * number / width])
         stiffest = self.inside.load_and_coupling(shortest)[0]
@@ -240,11 +226,7 @@ def weakening_patch_values(
     a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
     require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
-    def widths(
-        systems: Systems,
-        outside_zeta: Array,
-        outside_a: Array,
-    ) -> Array:
+    def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:
         around = systems._replace(zeta=outside_zeta, a=outside_a)
         critical = 2.0 * np.pi / largest_crossings(systems)
         stable_around = np.isnan(largest_crossings(around))

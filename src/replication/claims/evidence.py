@@ -91,40 +91,18 @@ class Evidence:
             raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(
-        self,
-        role: str,
-        law: str,
-        height: float,
-        age: float = 1.0,
-    ) -> Row:
+    def row(self, role: str, law: str, height: float, age: float = 1.0) -> Row:
         """The fault of a role with an evolution law, height (m) and initial age (s)."""
-        found = self.rows(
-            role,
-            evolution=law,
-            height=height,
-            initial_state=age,
-        )
+        found = self.rows(role, evolution=law, height=height, initial_state=age)
         return found[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
-        return self.rows(
-            role,
-            evolution="aging",
-            initial_state=1.0,
-        )
+        return self.rows(role, evolution="aging", initial_state=1.0)
 
     def each(self, role: str, **labels: str | float) -> list[Row]:
         """The rows of all realisations of the faults that :meth:`rows` gives."""
-        return [
-            run
-            for row in self.rows(
-                role,
-                **labels,
-            )
-            for run in row["members"]
-        ]
+        return [run for row in self.rows(role, **labels) for run in row["members"]]
 
     def stability_length(self, row: Row) -> float:
         """The length (m) at which the patch of a fault becomes unstable; Missing without it."""
@@ -142,20 +120,11 @@ class Evidence:
         for table in self.lengths:
             runs = [_LengthsRow(row) for row in rows_of(table)]
             faults = rows_of(over_realisations(table))
-            for row, members in zip(
-                faults,
-                realisations(table),
-                strict=True,
-            ):
+            for row, members in zip(faults, realisations(table), strict=True):
                 names = "evolution", "initial_state", "height"
                 own = self.base.replaced(**{name: row[name] for name in names})
                 if row["fault"] == fault(own):
-                    found.append(
-                        _LengthsRow(
-                            row,
-                            members=[runs[i] for i in members],
-                        )
-                    )
+                    found.append(_LengthsRow(row, members=[runs[i] for i in members]))
         return found
 
 
@@ -175,30 +144,16 @@ def on_both(numbers: Callable[[Evidence, str], Found]) -> Computation:
             papers = numbers(evidence, PAPERS)
         except Missing:
             return Result(found)
-        return Result(
-            found,
-            papers=papers,
-            mesh=mesh(evidence.each(PAPERS)),
-        )
+        return Result(found, papers=papers, mesh=mesh(evidence.each(PAPERS)))
 
     return of_both
 
 
 def of_runs(
-    column: str,
-    unit: Callable[[Evidence], float] = lambda evidence: 1.0,
-    **labels: str,
+    column: str, unit: Callable[[Evidence], float] = lambda evidence: 1.0, **labels: str
 ) -> Computation:
     """The claim's function for a column of every run with some labels, over a unit."""
-    return on_both(
-        lambda e, role: [
-            run[column] / unit(e)
-            for run in e.each(
-                role,
-                **labels,
-            )
-        ]
-    )
+    return on_both(lambda e, role: [run[column] / unit(e) for run in e.each(role, **labels)])
 
 
 def mesh(rows: Iterable[Mapping[str, Any]]) -> str:

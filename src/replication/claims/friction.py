@@ -19,16 +19,8 @@ def _logarithmic(evidence: Evidence) -> Array:
     """Logarithmic over full law around V and D/V."""
     law, velocity = evidence.friction, evidence.velocity
     factors = np.geomspace(0.1, 10.0, 41)
-    v, phi = np.meshgrid(
-        velocity * factors,
-        law.steady_state(velocity) * factors,
-    )
-    return logarithmic_friction(
-        law,
-        v,
-        phi,
-        velocity,
-    ) / law.coefficient(v, phi)
+    v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
+    return logarithmic_friction(law, v, phi, velocity) / law.coefficient(v, phi)
 
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -49,12 +41,7 @@ def _decades_of_agreement(evidence: Evidence) -> float:
     law, velocity = evidence.friction, evidence.velocity
     first, after = np.searchsorted(_SLIP_RATES, steady_extremes(evidence))
     v = _SLIP_RATES[first:after]
-    logarithmic = logarithmic_friction(
-        law,
-        v,
-        law.slip_distance / v,
-        velocity,
-    )
+    logarithmic = logarithmic_friction(law, v, law.slip_distance / v, velocity)
     off = np.flatnonzero(np.abs(logarithmic / law.steady_coefficient(v) - 1.0) >= 0.02)
     middle = int(np.abs(np.log(v / velocity)).argmin())
     lowest = off[off < middle].max(initial=-1) + 1
@@ -88,11 +75,7 @@ NUMBERS: dict[str, Computation] = {
     "weakening-at-v": lambda e: e.at_v.zeta,
     "slip-rate-over-v0": lambda e: math.log10(e.velocity / e.friction.regularisation_slip_rate),
     "friction-vanishes": lambda e: (
-        e.friction.coefficient(
-            1e-5 * e.friction.regularisation_slip_rate,
-            1.0,
-        )
-        / e.at_v.f0
+        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / e.at_v.f0
     ),
     "logarithmic-law": _logarithmic,
     "steady-agreement": _decades_of_agreement,

@@ -67,52 +67,30 @@ def _both_senses(rows: pd.DataFrame) -> tuple[Array, Array, Array, Array]:
     Lengths are of identical bodies, and with the stiffer body below, and above. Raises Missing
     without one of them.
     """
-    lengths = rows.pivot(
-        index="weakening",
-        columns="contrast",
-        values="over_modulus",
-    )
+    lengths = rows.pivot(index="weakening", columns="contrast", values="over_modulus")
     positive = np.array([contrast for contrast in lengths.columns if contrast > 0.0])
     wanted = lengths.reindex(columns=[0.0, *positive, *-positive])
     if not positive.size or wanted.isna().any(axis=None):
         raise Missing(r"A $\zeta/a$ lacks a sense of a contrast, or identical bodies")
-    identical, below, above = np.split(
-        wanted.to_numpy(),
-        [1, 1 + positive.size],
-        axis=1,
-    )
+    identical, below, above = np.split(wanted.to_numpy(), [1, 1 + positive.size], axis=1)
     return positive, identical, below, above
 
 
 def _lengths(rows: pd.DataFrame, unit: pd.Series | float = 1.0) -> list[Estimate]:
     """The lengths at the drop over the theory's, in a unit, each with its realisations' range."""
     ratios = (rows[f"length_ratio{end}"] * unit for end in ("", "_low", "_high"))
-    return [
-        between(*row)
-        for row in zip(
-            *ratios,
-            strict=True,
-        )
-    ]
+    return [between(*row) for row in zip(*ratios, strict=True)]
 
 
 def _response(evidence: Tables, component: int) -> Array:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
     modes = evidence["modes"]
-    high = modes.isel(
-        run=np.char.startswith(
-            modes["id"].values.astype(str),
-            "half-spaces",
-        )
-    )
+    high = modes.isel(run=np.char.startswith(modes["id"].values.astype(str), "half-spaces"))
     if not high.sizes["run"]:
         raise Missing("No modes between half-spaces were simulated")
     ratio = high["second_shear_modulus"] / high["shear_modulus"]
     columns = ratio, high["poisson_ratio"], high["second_poisson_ratio"]
-    pairs = np.stack(
-        [column.values for column in columns],
-        axis=1,
-    )
+    pairs = np.stack([column.values for column in columns], axis=1)
     expected = np.array([printed.bimaterial_transfer(*pair)[component] for pair in pairs])
     return measured_response(high)[component] / expected[:, None]
 
@@ -154,16 +132,7 @@ def _decreasing(evidence: Tables) -> Array:
     """Slopes of the length over L_c^M against ``|f beta|``, for each zeta/a and sense."""
     contrast, identical, *senses = _both_senses(_settled(evidence))
     steps = np.diff(contrast, prepend=0.0)
-    return np.stack(
-        [
-            np.diff(
-                lengths,
-                prepend=identical,
-            )
-            / steps
-            for lengths in senses
-        ]
-    )
+    return np.stack([np.diff(lengths, prepend=identical) / steps for lengths in senses])
 
 
 NUMBERS: dict[str, Computation] = {

@@ -52,23 +52,16 @@ def response_matrix(q: float, nu: float) -> ComplexArray:
     own = -4.0 * (1.0 - nu)
     tangential = own * math.sinh(q) ** 2
     normal = own * math.cosh(q) ** 2
-    return np.array(
-        [[tangential, cross], [-cross, normal]],
-        np.complex128,
-    ) / (2.0 * (sinh - 2.0 * q))
+    return np.array([[tangential, cross], [-cross, normal]], np.complex128) / (
+        2.0 * (sinh - 2.0 * q)
+    )
 
 
 def half_space_response(nu: float) -> ComplexArray:
     """M of a half-space, the limit Hk -> infinity (Eq. S-M_inf)."""
     cross = 1j * (1.0 - 2.0 * nu)
     own = -2.0 * (1.0 - nu)
-    return (
-        np.array(
-            [[own, cross], [-cross, own]],
-            np.complex128,
-        )
-        / 2.0
-    )
+    return np.array([[own, cross], [-cross, own]], np.complex128) / 2.0
 
 
 def block_field(q: float, y: Array, nu: float) -> ComplexArray:
@@ -91,10 +84,4 @@ def block_field(q: float, y: Array, nu: float) -> ComplexArray:
     odd = 4.0 * factor * np.sinh(near)
     even = (3.0 - 4.0 * nu) * np.cosh(near) + np.cosh(far)
     u_y = odd - 2.0 * q * y * even
-    return (
-        np.array(
-            [2.0 * u_x, 1j * u_y],
-            np.complex128,
-        )
-        / divisor
-    )
+    return np.array([2.0 * u_x, 1j * u_y], np.complex128) / divisor

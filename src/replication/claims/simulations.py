@@ -43,13 +43,7 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
 
 
 def _height_dependence(evidence: Evidence, role: str) -> list[float]:
-    ratios = [
-        row["length"] / row["critical_length"]
-        for row in _heights(
-            evidence,
-            role,
-        )
-    ]
+    ratios = [row["length"] / row["critical_length"] for row in _heights(evidence, role)]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
@@ -68,8 +62,7 @@ def _change_from_aging(height: float, law: str, age: float = 1.0) -> Computation
     """Relative change of the length by another law or age (s), at one height (m)."""
     return on_both(
         lambda e, role: _relative_change(
-            e.row(role, law, height, age),
-            e.row(role, "aging", height),
+            e.row(role, law, height, age), e.row(role, "aging", height)
         )
     )
 
@@ -102,15 +95,7 @@ def _strengthened(evidence: Evidence, role: str) -> list[float]:
     """Relative change of the strength by the healing that v0 alone causes without slip."""
     changes = []
     for run in evidence.each(role, evolution="slip"):
-        states = np.array(
-            [
-                run["initial_state"],
-                _healed_state(
-                    evidence,
-                    run,
-                ),
-            ]
-        )
+        states = np.array([run["initial_state"], _healed_state(evidence, run)])
         initial, healed = evidence.friction.coefficient(evidence.velocity, states)
         changes.append(float(healed / initial - 1.0))
     return changes
@@ -139,10 +124,7 @@ def _longer_blocks(evidence: Evidence) -> list[Estimate]:
     """Relative changes of the length at the drop between blocks of one height."""
     changes = [
         _relative_change(row, base)
-        for base, row in itertools.product(
-            evidence.rows(LONGER),
-            repeat=2,
-        )
+        for base, row in itertools.product(evidence.rows(LONGER), repeat=2)
         if row["block_length"] > base["block_length"] and row["height"] == base["height"]
     ]
     if not changes:
@@ -153,13 +135,7 @@ def _longer_blocks(evidence: Evidence) -> list[Estimate]:
 def _shortest_step(evidence: Evidence) -> Estimate:
     rows = evidence.rows(PAPERS)
     with_rupture = [
-        row
-        for row in rows
-        if row.get(
-            "simulated_time",
-            0.0,
-        )
-        > row["onset_time_high"] + _RUPTURE
+        row for row in rows if row.get("simulated_time", 0.0) > row["onset_time_high"] + _RUPTURE
     ]
     steps = [row["shortest_step"] / 1e-6 for row in with_rupture or rows]
     return between(float(np.median(steps)), *steps)
@@ -170,12 +146,7 @@ NUMBERS: dict[str, Computation] = {
     "length-shown": _shown("length"),
     "theory-agreement": on_both(
         lambda e, role: [
-            _with_range(
-                row,
-                "length",
-                row["critical_length"],
-            )
-            for row in e.series(role)
+            _with_range(row, "length", row["critical_length"]) for row in e.series(role)
         ]
     ),
     "height-dependence": on_both(_height_dependence),
@@ -192,14 +163,7 @@ NUMBERS: dict[str, Computation] = {
     "slip-law-approximation": of_runs("state_rate_share_patch", evolution="slip"),
     "slip-law-approximation-ahead": on_both(_strengthened),
     "slip-rate-blows-up": on_both(
-        lambda e, role: (
-            e.row(
-                role,
-                "aging",
-                _INSET,
-            )["largest_rate"]
-            / e.velocity
-        )
+        lambda e, role: e.row(role, "aging", _INSET)["largest_rate"] / e.velocity
     ),
     "instability-faster-than-creep": on_both(_instability_over_creep),
     "abrupt-drop": on_both(
@@ -209,14 +173,7 @@ NUMBERS: dict[str, Computation] = {
     "slow-creep": of_runs("front_speed", lambda e: e.material.shear_wave_speed),
     "no-radiation": of_runs("onset_rate", _damped_rate),
     "characteristic-slip-rate": on_both(
-        lambda e, role: [
-            _with_range(
-                row,
-                "patch_rate",
-                e.velocity,
-            )
-            for row in e.series(role)
-        ]
+        lambda e, role: [_with_range(row, "patch_rate", e.velocity) for row in e.series(role)]
     ),
     "contact-kept": lambda e: [
         run["largest_normal_stress_ever"] / e.base.fault.normal_stress for run in e.each(PAPERS)

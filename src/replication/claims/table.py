@@ -104,11 +104,7 @@ def to_csv(rows: list[Row]) -> str:
     """The rows as comma-separated text; numbers to six digits, missing ones empty."""
     flat = pd.DataFrame(rows)
     flat[["ours_low", "ours_high"]] = [row["uncertainty"] or (None, None) for row in rows]
-    return flat.to_csv(
-        columns=COLUMNS,
-        index=False,
-        float_format="%.6g",
-    )
+    return flat.to_csv(columns=COLUMNS, index=False, float_format="%.6g")
 
 
 def to_markdown(rows: list[Row]) -> str:
@@ -134,14 +130,7 @@ def number_text(row: Row) -> str:
 def escaped(text: str) -> str:
     """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
-    parts[::2] = [
-        re.sub(
-            r"([|*_])",
-            r"\\\1",
-            part,
-        )
-        for part in parts[::2]
-    ]
+    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)
 
 
@@ -186,14 +175,7 @@ def write_article(
 ) -> dict[str, str]:
     """The step ``article``: its text from the template, the claims as JSON and the lengths."""
     rows = json.loads(claims.read_text("utf-8"))
-    return {
-        ".md": render(
-            template.read_text("utf-8"),
-            rows,
-            lengths,
-            beyond,
-        )
-    }
+    return {".md": render(template.read_text("utf-8"), rows, lengths, beyond)}
 
 
 def render(
@@ -221,13 +203,7 @@ def render(
         "percent": lambda value, places=0: (
             "–" if value is None else f"{100.0 * value:.{places}f} %"
         ),
-        "span": lambda values, number: span(
-            values,
-            lambda value: digits(
-                value,
-                number,
-            ),
-        ),
+        "span": lambda values, number: span(values, lambda value: digits(value, number)),
         "typeset": escaped,
     }
     by_id = {row["id"]: row for row in claims}

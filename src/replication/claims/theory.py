@@ -42,23 +42,13 @@ _OF_BOTH = ("shear_modulus", "normal_stress", "friction", "a", "zeta", "slip_dis
 
 def main_text(evidence: Evidence, **changes: Any) -> Fault:
     """Two identical half-spaces with the main text's friction, and changes."""
-    kept = {
-        name: getattr(
-            evidence.interface,
-            name,
-        )
-        for name in _OF_BOTH
-    }
+    kept = {name: getattr(evidence.interface, name) for name in _OF_BOTH}
     return Fault(**kept | {"poisson_ratio": evidence.nu} | changes)
 
 
 def block(evidence: Evidence, height: float | Array) -> Fault:
     """A block of a height (m) on a rigid base, with the main text's friction."""
-    return main_text(
-        evidence,
-        height=height,
-        second_shear_modulus=math.inf,
-    )
+    return main_text(evidence, height=height, second_shear_modulus=math.inf)
 
 
 def _coupling(evidence: Evidence, q: float) -> float:
@@ -78,13 +68,7 @@ def _softness(evidence: Evidence) -> float:
 
 def _eta(evidence: Evidence, **changes: float) -> float:
     """``L_c zeta sigma0/(mu ell)`` of two identical half-spaces."""
-    return float(
-        main_text(
-            evidence,
-            **changes,
-        ).critical_length()
-        / _softness(evidence)
-    )
+    return float(main_text(evidence, **changes).critical_length() / _softness(evidence))
 
 
 def _eta_over_largest(evidence: Evidence) -> Result:
@@ -95,20 +79,13 @@ def _eta_over_largest(evidence: Evidence) -> Result:
         f"{without:.4g} (results: The factor pi)."
     )
     expected = formula(math.pi, r"$\pi$")
-    return Result(
-        0.75 * _eta(evidence),
-        expected,
-        explained=(without, sentence),
-    )
+    return Result(0.75 * _eta(evidence), expected, explained=(without, sentence))
 
 
 def _uncoupled_frequency(evidence: Evidence) -> Result:
     at = evidence.interface
     expected = math.sqrt(at.zeta / at.a) * at.velocity / at.slip_distance
-    return Result(
-        main_text(evidence).critical_mode().angular_frequency,
-        formula(expected),
-    )
+    return Result(main_text(evidence).critical_mode().angular_frequency, formula(expected))
 
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
@@ -122,23 +99,10 @@ def _zero_of_growth(modes: xr.Dataset) -> float:
 
 def _short_waves(evidence: Evidence) -> float:
     """The largest growth of waves shorter than the critical one over V/ell, at Fig. 3's heights."""
-    curve = evidence.theory.isel(
-        height=slice(
-            None,
-            None,
-            10,
-        )
-    )
-    ratios = np.geomspace(
-        1.001,
-        100.0,
-        60,
-    )[:, None]
+    curve = evidence.theory.isel(height=slice(None, None, 10))
+    ratios = np.geomspace(1.001, 100.0, 60)[:, None]
     wavenumbers = ratios * curve["critical_wavenumber"].values
-    rates = block(
-        evidence,
-        curve["height"].values,
-    ).spectrum(wavenumbers)
+    rates = block(evidence, curve["height"].values).spectrum(wavenumbers)
     return float(rates.real.max() * evidence.interface.slip_distance / evidence.velocity)
 
 
@@ -179,15 +143,7 @@ def _strengthening_length(evidence: Evidence) -> list[float]:
     """L_c over Eq. (9) above the threshold, for zeta < 0."""
     cases = itertools.product(STRENGTHENING, (1.2, 2.0))
     return _over_printed(
-        (
-            factor
-            * printed.strengthening_threshold(
-                a,
-                zeta,
-            ),
-            zeta / a,
-        )
-        for (a, zeta), factor in cases
+        (factor * printed.strengthening_threshold(a, zeta), zeta / a) for (a, zeta), factor in cases
     )
 
 
@@ -196,13 +152,7 @@ def _strengthening_length(evidence: Evidence) -> list[float]:
 
 def _block(evidence: Evidence, component: int) -> Any:
     """G1 (component 0) or G2 (component 1) of a block on a rigid base over Eq. (10)."""
-    expected = [
-        printed.block_transfer(
-            q,
-            evidence.nu,
-        )[component]
-        for q in LAYER_NUMBERS
-    ]
+    expected = [printed.block_transfer(q, evidence.nu)[component] for q in LAYER_NUMBERS]
     return block(evidence, LAYER_NUMBERS).transfer_functions(1.0)[component] / expected
 
 
@@ -217,12 +167,7 @@ def _thin_length(evidence: Evidence) -> Estimate:
 
 def _response_error(q: float, nu: float, expected: ComplexArray) -> float:
     """Difference of the matrix M of a layer from `expected`, over its largest entry."""
-    layer = Layers(
-        np.array(1.0),
-        np.array(nu),
-        np.array(q),
-        "velocity",
-    )
+    layer = Layers(np.array(1.0), np.array(nu), np.array(q), "velocity")
     found = layer.stiffness(1.0)
     stiffness = np.array([[found.xx, 1j * found.xy], [-1j * found.xy, found.yy]])
     difference = np.abs(-np.linalg.inv(stiffness) - expected)
@@ -236,11 +181,7 @@ def _block_field(evidence: Evidence) -> list[float]:
     differences = []
     for q in LAYER_NUMBERS[1:]:
         y = np.array([-step, 0.0, step])
-        below, at, above = printed.block_field(
-            q,
-            y,
-            nu,
-        ).T
+        below, at, above = printed.block_field(q, y, nu).T
         u, w = at[0].real, at[1].imag
         du, dw = (above - below) / (2.0 * step * q)
         g1, g2 = block(evidence, q).transfer_functions(1.0)
@@ -250,13 +191,7 @@ def _block_field(evidence: Evidence) -> list[float]:
 
 
 NUMBERS: dict[str, Computation] = {
-    "spring-stiffness": lambda e: (
-        marginal_stiffness(
-            0.0,
-            *e.at_v[1:],
-        )[1]
-        / e.at_v.zeta
-    ),
+    "spring-stiffness": lambda e: marginal_stiffness(0.0, *e.at_v[1:])[1] / e.at_v.zeta,
     "half-spaces-g1": lambda e: Result(
         main_text(e).transfer_functions(1.0)[0], formula(1.0 / (2.0 * (1.0 - e.nu)))
     ),
@@ -267,13 +202,7 @@ NUMBERS: dict[str, Computation] = {
     "half-spaces-wavenumber": lambda e: Result(
         main_text(e).critical_mode().wavenumber, formula(2.0 * (1.0 - e.nu) / _softness(e))
     ),
-    "eta": lambda e: Result(
-        _eta(e),
-        formula(
-            math.pi / (1.0 - e.nu),
-            r"$\pi/(1 - \nu)$",
-        ),
-    ),
+    "eta": lambda e: Result(_eta(e), formula(math.pi / (1.0 - e.nu), r"$\pi/(1 - \nu)$")),
     "eta-over-literature": _eta_over_largest,
     "eta-larger": lambda e: 0.75 * _eta(e) - 1.0,
     "uncoupled-frequency": _uncoupled_frequency,
@@ -285,8 +214,7 @@ NUMBERS: dict[str, Computation] = {
     "bimaterial-g1": lambda e: _bimaterial(e, 0),
     "bimaterial-g2": lambda e: _bimaterial(e, 1),
     "bimaterial-modulus-limit": lambda e: Result(
-        2.0 * main_text(e).transfer_functions(1.0)[0],
-        formula(1.0 / (1.0 - e.nu), r"$1/(1 - \nu)$"),
+        2.0 * main_text(e).transfer_functions(1.0)[0], formula(1.0 / (1.0 - e.nu), r"$1/(1 - \nu)$")
     ),
     "bimaterial-contrast-limit": lambda e: main_text(e).transfer_functions(1.0)[1],
     "bimaterial-length": lambda e: _over_printed(
@@ -304,11 +232,7 @@ NUMBERS: dict[str, Computation] = {
     "block-g1": lambda e: _block(e, 0),
     "block-g2": lambda e: _block(e, 1),
     "block-high-limit": lambda e: Result(
-        _coupling(
-            e,
-            HALF_SPACE,
-        ),
-        formula((1.0 - 2.0 * e.nu) / (2.0 * (1.0 - e.nu))),
+        _coupling(e, HALF_SPACE), formula((1.0 - 2.0 * e.nu) / (2.0 * (1.0 - e.nu)))
     ),
     "block-thin-g1": lambda e: Result(
         block(e, 1e-6).transfer_functions(1.0)[0] / 2e-6,
@@ -319,19 +243,12 @@ NUMBERS: dict[str, Computation] = {
     "thin-agreement": lambda e: (e.theory["thin_limit_length"] / e.theory["critical_length"])[0],
     "thin-deviation": lambda e: (
         np.interp(
-            0.1,
-            e.theory["height"],
-            e.theory["thin_limit_length"] / e.theory["critical_length"],
+            0.1, e.theory["height"], e.theory["thin_limit_length"] / e.theory["critical_length"]
         )
         - 1.0
     ),
     "response-matrix": lambda e: [
-        _response_error(
-            q,
-            e.nu,
-            printed.response_matrix(q, e.nu),
-        )
-        for q in LAYER_NUMBERS[1:]
+        _response_error(q, e.nu, printed.response_matrix(q, e.nu)) for q in LAYER_NUMBERS[1:]
     ],
     "response-matrix-limit": lambda e: _response_error(
         HALF_SPACE, e.nu, printed.half_space_response(e.nu)

@@ -117,13 +117,7 @@ def formula(value: float, text: str = "") -> Expected:
     """A formula's value, exact except for round-off, and the formula as Markdown."""
     margin = FORMULA_TOLERANCE * (abs(value) or 1.0)
     low, high = value - margin, value + margin
-    return Expected(
-        "formula",
-        low,
-        high,
-        text or f"{value:.6g}",
-        value,
-    )
+    return Expected("formula", low, high, text or f"{value:.6g}", value)
 
 
 def read(entry: Mapping[str, Any]) -> Expected:
@@ -133,71 +127,28 @@ def read(entry: Mapping[str, Any]) -> Expected:
             printed = Decimal(text)
             half = Decimal(1).scaleb(int(printed.as_tuple().exponent)) / 2
             low, high = float(printed - half), float(printed + half)
-            return Expected(
-                "number",
-                low,
-                high,
-                text,
-                float(printed),
-            )
+            return Expected("number", low, high, text, float(printed))
         case {"formula": [value, text]}:
             return formula(value, text)
         case {"below": bound}:
-            return Expected(
-                "bound",
-                -math.inf,
-                bound,
-                f"< {bound:g}",
-            )
+            return Expected("bound", -math.inf, bound, f"< {bound:g}")
         case {"above": bound}:
-            return Expected(
-                "bound",
-                bound,
-                math.inf,
-                f"> {bound:g}",
-            )
+            return Expected("bound", bound, math.inf, f"> {bound:g}")
         case {"words": text}:
             low, high, reading = WORDS[text]
             chosen = text not in REASONED
-            return Expected(
-                "words",
-                low,
-                high,
-                f"{text}: {reading}",
-                chosen=chosen,
-            )
+            return Expected("words", low, high, f"{text}: {reading}", chosen=chosen)
         case {"reading": text}:
-            return Expected(
-                "reading",
-                -math.inf,
-                math.inf,
-                text,
-                1.0,
-            )
+            return Expected("reading", -math.inf, math.inf, text, 1.0)
     raise ValueError(f"expected = {entry} has no known kind")
 
 
 def _listed(found: Found) -> Array:
     """Value and ends of each number, (n, 3); the ends are NaN for one without a range."""
-    several = (
-        found
-        if isinstance(
-            found,
-            list,
-        )
-        else np.ravel(found).tolist()
-    )
+    several = found if isinstance(found, list) else np.ravel(found).tolist()
     if isinstance(found, tuple):
         several = [found]
-    rows = [
-        one
-        if isinstance(
-            one,
-            tuple,
-        )
-        else (one, math.nan, math.nan)
-        for one in several
-    ]
+    rows = [one if isinstance(one, tuple) else (one, math.nan, math.nan) for one in several]
     return np.array(rows, float).reshape(-1, 3)
 
 
@@ -224,11 +175,7 @@ def worst(expected: Expected, found: Found) -> Estimate:
         return between(value, *ends)
     if expected.kind == "formula":
         return between(value)
-    return between(
-        value,
-        values.min(),
-        values.max(),
-    )
+    return between(value, values.min(), values.max())
 
 
 def holds(expected: Expected, ours: Estimate) -> bool | None:
@@ -287,12 +234,7 @@ def _near_one(found: Found) -> str:
     return f"within {widths} % of one are {', '.join(near)} of {differences.size}"
 
 
-def _comparison(
-    expected: Expected,
-    ours: Estimate,
-    held: bool,
-    inside: bool,
-) -> str:
+def _comparison(expected: Expected, ours: Estimate, held: bool, inside: bool) -> str:
     """Sentences that compare our number with the paper's."""
     value, least, most = ours
     if expected.kind == "formula":
@@ -305,10 +247,7 @@ def _comparison(
         return f"{value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
     bound = expected.text.partition(": ")[2] or expected.text
     reason = f"{value:.4g} is {'' if held else 'not '}{bound}."
-    nearest = min(
-        (expected.low, expected.high),
-        key=lambda end: abs(end - value),
-    )
+    nearest = min((expected.low, expected.high), key=lambda end: abs(end - value))
     if least <= nearest <= most:
         reason += f" Its range reaches across the bound, {nearest:g}."
     return reason

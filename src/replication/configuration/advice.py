@@ -2,13 +2,7 @@
 
 from collections.abc import Iterable
 
-from nucleation.run.advice import (
-    NOISE_OF_MESH,
-    OF_MESHES,
-    ROUGHNESS,
-    advice,
-    elements_per_zone,
-)
+from nucleation.run.advice import NOISE_OF_MESH, OF_MESHES, ROUGHNESS, advice, elements_per_zone
 
 from .roles import REFINEMENTS
 from .runs import StudyRun

@@ -26,10 +26,7 @@ from .settings import GROUPS, SECTIONS, Curves, Settings, StudySettings
 from .studies import study_runs
 
 CHECKOUT = Path(__file__).parents[3]
-DEFAULTS = (
-    CHECKOUT / "config" / "config.yaml",
-    CHECKOUT / "config" / "beyond.yaml",
-)
+DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.yaml")
 """The default configuration: the paper's, and the studies beyond it."""
 
 
@@ -49,10 +46,7 @@ class Configuration(Settings):
     """
 
     _kept: dict[str, _Expanded] = dataclasses.field(
-        default_factory=dict,
-        init=False,
-        repr=False,
-        compare=False,
+        default_factory=dict, init=False, repr=False, compare=False
     )
 
     @property

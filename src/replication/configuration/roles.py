@@ -36,12 +36,7 @@ class _Need(NamedTuple):
     allowed: Callable[[Any], bool]
     rule: str  # the allowed values, in words
 
-    def refusal(
-        self,
-        key: str,
-        value: object,
-        role: str,
-    ) -> str:
+    def refusal(self, key: str, value: object, role: str) -> str:
         """The message for a value at a key that does not fulfil the requirement."""
         return f"{key} = {value} is not allowed with role = {role}: it must be {self.rule}"
 
@@ -67,88 +62,39 @@ class _Role(NamedTuple):
 
 ROLES = {
     # a study of your own: lengths and a figure
-    OWN: _Role(
-        several=True,
-        one_by_one=False,
-    ),
+    OWN: _Role(several=True, one_by_one=False),
     # the paper's runs on its mesh, for Figures 3 and S2 and the verdicts
-    PAPERS: _Role(
-        study=(_LENGTHS,),
-        runs=(_INTERFACE,),
-    ),
+    PAPERS: _Role(study=(_LENGTHS,), runs=(_INTERFACE,)),
     # the runs for verdicts about lengths
-    JUDGED: _Role(
-        study=(_LENGTHS,),
-        runs=(_INTERFACE,),
-    ),
+    JUDGED: _Role(study=(_LENGTHS,), runs=(_INTERFACE,)),
     # runs in longer blocks, for the claim that the block length has no effect
-    LONGER: _Role(
-        several=True,
-        runs=(_INTERFACE,),
-    ),
+    LONGER: _Role(several=True, runs=(_INTERFACE,)),
     # refined runs with patches over time
-    "patch_convergence": _Role(
-        several=True,
-    ),
+    "patch_convergence": _Role(several=True),
     # declared perturbations, for `figure_drop`
-    "drop": _Role(
-        several=True,
-        one_by_one=False,
-    ),
+    "drop": _Role(several=True, one_by_one=False),
     # weak to strong weakening, for `figure_weakening`
-    "weakening": _Role(
-        several=True,
-        one_by_one=False,
-    ),
+    "weakening": _Role(several=True, one_by_one=False),
     # faults that the expected drop was not fitted to, for `other_faults`
-    "other_faults": _Role(
-        one_by_one=False,
-    ),
+    "other_faults": _Role(one_by_one=False),
     # weakening patches in a fault that strengthens
-    WEAKENING_PATCHES: _Role(
-        runs=(_REMOTE, _FRICTION_VARIES),
-    ),
+    WEAKENING_PATCHES: _Role(runs=(_REMOTE, _FRICTION_VARIES)),
     # heights and weakenings, for `figure_map`
-    "map": _Role(
-        one_by_one=False,
-        study=(_STABILITY, _BATCHES),
-    ),
+    "map": _Role(one_by_one=False, study=(_STABILITY, _BATCHES)),
     # faults for the test of the patch theory, for `gather_patch_theory`
-    "patch_theory": _Role(
-        several=True,
-        one_by_one=False,
-        study=(_STABILITY, _BATCHES),
-    ),
+    "patch_theory": _Role(several=True, one_by_one=False, study=(_STABILITY, _BATCHES)),
     # mesh and steps refined, for `convergence`
-    "convergence": _Role(
-        several=True,
-        one_by_one=False,
-    ),
+    "convergence": _Role(several=True, one_by_one=False),
     # the same without a perturbation, for the noise of meshes
-    "convergence_quiet": _Role(
-        several=True,
-        one_by_one=False,
-        runs=(_UNPERTURBED,),
-    ),
+    "convergence_quiet": _Role(several=True, one_by_one=False, runs=(_UNPERTURBED,)),
     # two deformable bodies, for the table of pairs
-    "pairs": _Role(
-        several=True,
-        runs=(_PAIR,),
-    ),
+    "pairs": _Role(several=True, runs=(_PAIR,)),
     # the same, identical blocks
-    "pairs_identical": _Role(
-        several=True,
-        runs=(_PAIR,),
-    ),
+    "pairs_identical": _Role(several=True, runs=(_PAIR,)),
     # the same, half-spaces in contrast
-    "pairs_contrast": _Role(
-        several=True,
-        runs=(_PAIR,),
-    ),
+    "pairs_contrast": _Role(several=True, runs=(_PAIR,)),
     # the literature's lengths in their own settings
-    LITERATURE: _Role(
-        runs=(_REMOTE,),
-    ),
+    LITERATURE: _Role(runs=(_REMOTE,)),
 }
 """All roles, by name."""
 

@@ -21,15 +21,8 @@ from .roles import OWN, ROLES
 class StudySettings(Checked):
     """Settings of a study that hold for all of its runs."""
 
-    description: str = quantity(
-        "purpose of the study",
-        default="a set of simulations",
-    )
-    role: str = quantity(
-        "use in figures, tables and verdicts",
-        choices=tuple(ROLES),
-        default=OWN,
-    )
+    description: str = quantity("purpose of the study", default="a set of simulations")
+    role: str = quantity("use in figures, tables and verdicts", choices=tuple(ROLES), default=OWN)
     length_over_critical: float = quantity(
         "block length over the theory's critical length, unless a run gives its length",
         "(1.0, 1000.0)",
@@ -105,11 +98,7 @@ class Limits(Checked):
     )
 
 
-GROUPS: dict[str, type] = {
-    "curves": Curves,
-    "extraction": ExtractionSettings,
-    "limits": Limits,
-}
+GROUPS: dict[str, type] = {"curves": Curves, "extraction": ExtractionSettings, "limits": Limits}
 """The sections of a configuration beside those of the parameters of runs and the studies."""
 
 SECTIONS = {name: keys for name, keys in sections().items() if name != "block"}

@@ -36,11 +36,7 @@ def _draw_long_bodies(axes: Axes) -> None:
     pressed = np.linspace(-3.6, 3.6, 7)
     _draw_arrows(axes, *((x, 3.1, x, 2.3) for x in pressed))
     _draw_arrows(axes, *((x, -2.7, x, -1.9) for x in pressed))
-    _draw_arrows(
-        axes,
-        (-3.3, 0.0, -2.0, 0.0),
-        (-3.3, 0.0, -3.3, 1.3),
-    )
+    _draw_arrows(axes, (-3.3, 0.0, -2.0, 0.0), (-3.3, 0.0, -3.3, 1.3))
     _draw_arrows(axes, (-1.9, 1.65, -0.3, 1.65), colour=_MOTION)
     heights = (3.6, 0.0, 3.6, 2.3), (3.6, -1.9, 3.6, 0.0)
     _draw_arrows(axes, *heights, colour=style.GUIDE, kind="<|-|>")
@@ -61,37 +57,13 @@ def _draw_long_bodies(axes: Axes) -> None:
 def _draw_block_on_rigid_base(axes: Axes) -> None:
     """The right panel: the finite block, pushed at its left edge over a rigid body."""
     axes.add_patch(
-        Rectangle(
-            (-3.7, 0.0),
-            7.7,
-            2.3,
-            facecolor=(style.UPPER_BODY, _INK),
-            edgecolor=style.BLACK,
-        )
+        Rectangle((-3.7, 0.0), 7.7, 2.3, facecolor=(style.UPPER_BODY, _INK), edgecolor=style.BLACK)
     )
     _draw_body(axes, -1.1, 0.0, style.RIGID_BODY)
-    _draw_arrows(
-        axes,
-        *(
-            (x, 3.1, x, 2.3)
-            for x in np.linspace(
-                -3.35,
-                3.65,
-                8,
-            )
-        ),
-    )
-    _draw_arrows(
-        axes,
-        (4.0, 0.0, 5.2, 0.0),
-        (-3.7, 2.3, -3.7, 3.3),
-    )
+    _draw_arrows(axes, *((x, 3.1, x, 2.3) for x in np.linspace(-3.35, 3.65, 8)))
+    _draw_arrows(axes, (4.0, 0.0, 5.2, 0.0), (-3.7, 2.3, -3.7, 3.3))
     pushed = np.linspace(0.35, 1.95, 4)
-    _draw_arrows(
-        axes,
-        *((-4.7, y, -3.74, y) for y in pushed),
-        colour=_MOTION,
-    )
+    _draw_arrows(axes, *((-4.7, y, -3.74, y) for y in pushed), colour=_MOTION)
     sizes = (3.25, 0.0, 3.25, 2.3), (-3.7, -1.55, 4.0, -1.55)
     _draw_arrows(axes, *sizes, colour=style.GUIDE, kind="<|-|>")
     _draw_texts(axes, (-5.05, 1.15, "$V$"), color=_MOTION)
@@ -108,12 +80,7 @@ def _draw_block_on_rigid_base(axes: Axes) -> None:
     )
 
 
-def _draw_body(
-    axes: Axes,
-    low: float,
-    high: float,
-    colour: str,
-) -> None:
+def _draw_body(axes: Axes, low: float, high: float, colour: str) -> None:
     """A body without ends, across the whole panel."""
     axes.axhspan(low, high, facecolor=(colour, _INK), linewidth=0.0)
     for edge in (low, high):
@@ -127,23 +94,10 @@ def _draw_arrows(
     look: style.Options = {"arrowstyle": f"{kind},head_length=0.35,head_width=0.17"}
     look |= {"color": colour, "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 0.0}
     for x, y, head_x, head_y in ends:
-        axes.annotate(
-            "",
-            (head_x, head_y),
-            (x, y),
-            arrowprops=look,
-        )
+        axes.annotate("", (head_x, head_y), (x, y), arrowprops=look)
 
 
 def _draw_texts(axes: Axes, *texts: tuple[float, float, str], **look: Any) -> None:
     """Centred labels, each at a point (x, y)."""
     for x, y, text in texts:
-        axes.text(
-            x,
-            y,
-            text,
-            ha="center",
-            va="center",
-            fontsize=10.0,
-            **look,
-        )
+        axes.text(x, y, text, ha="center", va="center", fontsize=10.0, **look)

@@ -35,12 +35,7 @@ _JUDGED = "converged"
 
 
 @style.styled()
-def draw(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    simulation: xr.Dataset,
-    id: str,
-) -> Figure:
+def draw(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
     """Draw L_c over H, the paper's simulations, and slip rates of one of them in an inset.
 
     Of the realisations of one fault the mean is drawn.
@@ -48,27 +43,11 @@ def draw(
     figure, axes = style.panels(12.4)
     height = theory["height"]
     thin = theory["thin_limit_length"]
-    axes.plot(
-        height,
-        theory["critical_length"],
-        color=style.THEORY,
-        label="theory",
-    )
+    axes.plot(height, theory["critical_length"], color=style.THEORY, label="theory")
     label = r"theory, $Hk\to 0$"
-    axes.plot(
-        height,
-        thin,
-        "--",
-        color=style.THEORY,
-        linewidth=1.1,
-        label=label,
-    )
+    axes.plot(height, thin, "--", color=style.THEORY, linewidth=1.1, label=label)
     means = over_realisations(lengths)
-    drawn = laws.where(
-        means,
-        np.isfinite(means["length"]),
-        role="paper",
-    )
+    drawn = laws.where(means, np.isfinite(means["length"]), role="paper")
     for name, old, (marker, size, colour, right), runs in laws.kinds(drawn):
         aside = ScaledTranslation(right / 72.0, 0.0, figure.dpi_scale_trans)
         marks: style.Options = {"marker": marker, "ms": size, "color": colour}
@@ -81,14 +60,7 @@ def draw(
                 short = power >= 3.0 and power == round(power)
                 number = f"10^{{{power:.0f}}}" if short else f"{age:g}"
                 label += f", $\\phi(t\\!=\\!0)={number}$ s"
-            laws.draw(
-                axes,
-                "height",
-                same,
-                "length",
-                label=label,
-                **marks,
-            )
+            laws.draw(axes, "height", same, "length", label=label, **marks)
     highest = _ABOVE * float((drawn if drawn.sizes["run"] else theory)["height"].max())
     top = 1.04 * float(np.interp(highest, height, thin))
     axes.set(xlabel="Height $H$ (m)", xlim=(0.0, highest))
@@ -131,29 +103,10 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     looks = [*((shade, "-") for shade in style.shades(creep.size)), *_EVENT_LOOKS]
     shown = np.concatenate([creep, event])
     rates = simulation["slip_rate"].values[shown]
-    for rate, (colour, dashes), label in zip(
-        rates,
-        looks,
-        labels,
-        strict=False,
-    ):
+    for rate, (colour, dashes), label in zip(rates, looks, labels, strict=False):
         moving = np.where(rate > 0.0, rate, np.nan)  # a gap where nothing slips
-        axes.plot(
-            x,
-            moving,
-            dashes,
-            color=colour,
-            linewidth=1.1,
-            label=label,
-        )
-    top = 10.0 ** np.ceil(
-        np.log10(
-            max(
-                3.0 * rates.max(),
-                10.0 * LOWEST_RATE,
-            )
-        )
-    )
+        axes.plot(x, moving, dashes, color=colour, linewidth=1.1, label=label)
+    top = 10.0 ** np.ceil(np.log10(max(3.0 * rates.max(), 10.0 * LOWEST_RATE)))
     axes.set(yscale="log", ylim=(LOWEST_RATE, top))
     axes.set_xlim(0.0, np.nanmin([_SHOWN_LENGTHS * length, x.max()]))
     axes.tick_params(labelsize=style.SMALL)
@@ -163,30 +116,11 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
         axes.axvline(length, linestyle="--", linewidth=0.9, zorder=1.0)
         up = axes.get_xaxis_transform()
         both: style.Options = {"arrowstyle": "<->", "shrinkA": 0.0, "shrinkB": 0.0}
-        axes.annotate(
-            "",
-            (length, 0.12),
-            (0.0, 0.12),
-            up,
-            up,
-            arrowprops=both,
-        )
+        axes.annotate("", (length, 0.12), (0.0, 0.12), up, up, arrowprops=both)
         # the first snapshots of the patch end right of this text
-        axes.text(
-            0.2 * length,
-            0.15,
-            "$L_c$",
-            transform=up,
-            ha="center",
-            fontsize=8.5,
-        )
+        axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
     place: style.Options = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
-    axes.legend(
-        title="time $t$",
-        fontsize=style.SMALL,
-        title_fontsize=style.SMALL,
-        **place,
-    )
+    axes.legend(title="time $t$", fontsize=style.SMALL, title_fontsize=style.SMALL, **place)
 
 
 def figure_s2(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
@@ -195,11 +129,7 @@ def figure_s2(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
 
 
 @style.styled()
-def draw_extended(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    table: xr.Dataset,
-) -> Figure:
+def draw_extended(theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> Figure:
     """Draw lengths against height, and the same over the theory's.
 
     `table` has L_s of the same runs.
@@ -210,28 +140,14 @@ def draw_extended(
     _draw_lengths(left, theory, lengths, table)
     _draw_lengths(right, *map(_over_theory, (theory, lengths, table)))
     highest = _ABOVE * float(lengths["height"].max())
-    top = 1.6 * float(
-        np.interp(
-            highest,
-            theory["height"],
-            theory["critical_length"],
-        )
-    )
-    left.set(
-        xlim=(0.0, highest),
-        ylim=(0.0, top),
-        ylabel="Length $L$ (m)",
-    )
+    top = 1.6 * float(np.interp(highest, theory["height"], theory["critical_length"]))
+    left.set(xlim=(0.0, highest), ylim=(0.0, top), ylabel="Length $L$ (m)")
     left.legend(loc="upper left")
     marks = []
     for name, old, (marker, *_), _ in laws.kinds(lengths):
         older = ", older interface" if old else ""
         marks += right.plot([], [], marker, label=name + older)
-    right.set(
-        xscale="log",
-        xlim=(0.8 * lengths["height"].min(), highest),
-        ylim=(0.4, 1.2),
-    )
+    right.set(xscale="log", xlim=(0.8 * lengths["height"].min(), highest), ylim=(0.4, 1.2))
     right.set_ylabel("Length over theory $L/L_c$")
     right.legend(handles=marks, loc="upper left")
     style.letters(left, right)
@@ -248,13 +164,7 @@ def _draw_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, table: xr
     """Theory, half of it, and all sets of lengths."""
     height, critical = theory["height"], theory["critical_length"]
     axes.plot(height, critical, color=style.THEORY, label="theory $L_c$")
-    axes.plot(
-        height,
-        0.5 * critical,
-        "--",
-        color=style.THEORY,
-        label="theory $L_c/2$",
-    )
+    axes.plot(height, 0.5 * critical, "--", color=style.THEORY, label="theory $L_c/2$")
     role = _JUDGED if _JUDGED in table["role"].values else "paper"
     open_marks: style.Options = {"ms": 4.8, "mfc": "white"}
     stability: style.Options = {"ms": 4.8, "color": style.STABILITY}

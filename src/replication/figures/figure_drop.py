@@ -39,14 +39,7 @@ def draw(table: xr.Dataset) -> Figure:
     load.set_ylabel("Length over theory $L/L_c$")
     _draw_ratios(ratio, ensembles(table))
     above: style.Options = {"loc": "outside upper center", "ncols": 4}
-    style.legend(
-        figure,
-        load,
-        state,
-        title="(a, b)",
-        fontsize=style.SMALL,
-        **above,
-    )
+    style.legend(figure, load, state, title="(a, b)", fontsize=style.SMALL, **above)
     return figure
 
 
@@ -71,32 +64,14 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     for same in ensembles(own):
         simulated = same["length"].values / theory
         laws.draw_range(axes, same["strength"].values[0], simulated, **look)
-    axes.plot(
-        [],
-        [],
-        marker,
-        color=colour,
-        mfc="white",
-        label=f"{label}: mean and range",
-    )
+    axes.plot([], [], marker, color=colour, mfc="white", label=f"{label}: mean and range")
     stability = fault["stability_length"].values[0] / theory
-    axes.axhline(
-        stability,
-        ls=":",
-        lw=1.0,
-        color=style.STABILITY,
-        label="unstable patch, $L_s$",
-    )
+    axes.axhline(stability, ls=":", lw=1.0, color=style.STABILITY, label="unstable patch, $L_s$")
     axes.set_title(f"fluctuating {label}", loc="center")
     axes.set(ylim=(0.45, 0.87), **_STRENGTH)
 
 
-def _draw_law(
-    axes: Axes,
-    table: xr.Dataset,
-    own: xr.Dataset,
-    theory: float,
-) -> None:
+def _draw_law(axes: Axes, table: xr.Dataset, own: xr.Dataset, theory: float) -> None:
     """The law's median and range, and its closed form, up to the strongest of some runs."""
     same_fault = table["curve_fault"].values == own["fault"].values[0]
     same_kind = table["curve_kind"].values == own["kind"].values[0]
@@ -107,24 +82,10 @@ def _draw_law(
         law = table.isel(case=cases[0], curve=known)
         strength = law["curve_strength"]
         low, high = law["curve_low"] / theory, law["curve_high"] / theory
-        axes.fill_between(
-            strength,
-            low,
-            high,
-            alpha=0.35,
-            lw=0.0,
-            label="law: 16 to 84 %",
-        )
+        axes.fill_between(strength, low, high, alpha=0.35, lw=0.0, label="law: 16 to 84 %")
         median, closed = law["curve_length"] / theory, law["curve_closed_form"] / theory
         axes.plot(strength, median, color=style.THEORY, label="law: median")
-        axes.plot(
-            strength,
-            closed,
-            "--",
-            color=style.THEORY,
-            lw=0.9,
-            label="law in one line",
-        )
+        axes.plot(strength, closed, "--", color=style.THEORY, lw=0.9, label="law in one line")
 
 
 def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
@@ -136,24 +97,9 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
         ratio = float(runs["length"].mean() / first["law_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
         face = colour if first["evolution"] == USUAL_EVOLUTION else "white"
-        axes.plot(
-            strength,
-            ratio,
-            marker,
-            color=colour,
-            alpha=0.8,
-            mfc=face,
-            label=label,
-        )
+        axes.plot(strength, ratio, marker, color=colour, alpha=0.8, mfc=face, label=label)
     axes.plot([], [], "o", mfc="white", label="open: slip law")
     close = f"within {100 * _GOAL:g} %"
-    axes.axhspan(
-        1.0 - _GOAL,
-        1.0 + _GOAL,
-        color=style.GUIDE,
-        alpha=0.15,
-        lw=0.0,
-        label=close,
-    )
+    axes.axhspan(1.0 - _GOAL, 1.0 + _GOAL, color=style.GUIDE, alpha=0.15, lw=0.0, label=close)
     axes.set(ylabel="Simulated mean over the law", **_STRENGTH)
     style.legend(axes, axes, loc="upper left", **style.BOXED)

@@ -56,19 +56,11 @@ def draw(
         title = f"also varied: {', '.join(map(_named, others))}"
         kinds = [""] * len(kinds)
     x = varied[numbers[0]] if numbers else table["critical_length"].values
-    rows = table.assign(
-        x=("run", np.asarray(x, dtype=float)),
-        kind=("run", kinds),
-    )
+    rows = table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
     names = list(dict.fromkeys(kinds))
     figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
     several = len(names) > 1
-    axes.plot(
-        [],
-        [],
-        color=style.GUIDE if several else style.THEORY,
-        label="theory",
-    )
+    axes.plot([], [], color=style.GUIDE if several else style.THEORY, label="theory")
     for number, kind in enumerate(names):
         own = laws.where(rows, kind=kind).sortby("x")
         marker, colour = style.look(number)
@@ -77,39 +69,17 @@ def draw(
         curve = theory.get(kind, {"x": own["x"], "length": own["critical_length"]})
         line["marker"] = "_" if np.size(curve["x"]) == 1 else ""
         dashes = _DASHES[number % len(_DASHES)]
-        axes.plot(
-            curve["x"],
-            curve["length"],
-            dashes,
-            lw=1.0,
-            ms=9.0,
-            **line,
-        )
+        axes.plot(curve["x"], curve["length"], dashes, lw=1.0, ms=9.0, **line)
         known = np.isfinite(own["length"].values)
         label = f"simulation, {kind}" if kind else "simulation"
         if known.any():
             dropped = laws.where(own, known)
-            laws.draw(
-                axes,
-                "x",
-                dropped,
-                "length",
-                marker=marker,
-                label=label,
-                **look,
-            )
+            laws.draw(axes, "x", dropped, "length", marker=marker, label=label, **look)
         if not known.all():
             lost = own["x"].values[~known]
             label = f"no event ({np.isnan(rows['length'].values).sum()} of {len(kinds)})"
             edge = axes.get_xaxis_transform()
-            axes.plot(
-                lost,
-                np.full(lost.size, 0.03),
-                "x",
-                transform=edge,
-                label=label,
-                **look,
-            )
+            axes.plot(lost, np.full(lost.size, 0.03), "x", transform=edge, label=label, **look)
     label = "Theory's critical length $L_c$ (m)"
     if numbers:
         entry, words = declared[numbers[0]], _named(numbers[0])
@@ -120,17 +90,8 @@ def draw(
     axes.set_ylabel("Length at the drop $L$ (m)")
     axes.set_title(title, fontsize=style.SMALL, wrap=True)
     _scale(axes, "x", rows["x"].values)
-    _scale(
-        axes,
-        "y",
-        np.r_[rows["length"], rows["critical_length"]],
-    )
-    style.legend(
-        figure,
-        axes,
-        loc="outside lower center",
-        fontsize=style.SMALL,
-    )
+    _scale(axes, "y", np.r_[rows["length"], rows["critical_length"]])
+    style.legend(figure, axes, loc="outside lower center", fontsize=style.SMALL)
     return figure
 
 
@@ -138,13 +99,7 @@ def _kinds(
     varied: Mapping[str, Sequence[Any]], declared: Mapping[str, Quantity], names: list[str]
 ) -> list[str]:
     """The values of some varied parameters of each run, with their symbols or names."""
-    texts: list[list[str]] = [
-        [""]
-        * max(
-            map(len, varied.values()),
-            default=1,
-        )
-    ]
+    texts: list[list[str]] = [[""] * max(map(len, varied.values()), default=1)]
     for name in names:
         entry = declared[name]
         symbol = _symbol(entry)
@@ -155,15 +110,7 @@ def _kinds(
             word = value is None or isinstance(value, str)
             own.append(value or "" if word else shown.format(value))
         texts.append(own)
-    return [
-        ", ".join(
-            filter(
-                None,
-                row,
-            )
-        )
-        for row in zip(*texts, strict=True)
-    ]
+    return [", ".join(filter(None, row)) for row in zip(*texts, strict=True)]
 
 
 def _symbol(entry: Quantity) -> str:
@@ -174,10 +121,7 @@ def _symbol(entry: Quantity) -> str:
 
 def _named(name: str) -> str:
     """A parameter's name in words, as within a sentence."""
-    words = _WORDS.get(
-        name,
-        name.rpartition(".")[2].replace("_", " "),
-    )
+    words = _WORDS.get(name, name.rpartition(".")[2].replace("_", " "))
     return words[0].lower() + words[1:]
 
 

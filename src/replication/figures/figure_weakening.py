@@ -34,37 +34,20 @@ def draw(table: xr.Dataset) -> Figure:
         if np.unique(system["zeta_over_a"]).size >= _FEWEST:
             systems.append(system)
     figure, panels = style.panels(7.5, columns=len(systems), squeeze=False)
-    for axes, letter, system in zip(
-        panels.flat,
-        "abcdefgh",
-        systems,
-        strict=False,
-    ):
+    for axes, letter, system in zip(panels.flat, "abcdefgh", systems, strict=False):
         same = np.ones(table.sizes["system"], dtype=bool)
         for name in ("study", "below", "height"):
             same &= table[f"curve_{name}"].values == system[name].values[0]
         curves = table.isel(system=np.flatnonzero(same)[0])
         for name, (label, colour, dashes) in _LINES.items():
-            axes.plot(
-                curves["curve_ratio"],
-                curves[name],
-                dashes,
-                color=colour,
-                label=label,
-            )
+            axes.plot(curves["curve_ratio"], curves[name], dashes, color=colour, label=label)
         axes.axhline(0.5, lw=0.7, label="half of $L_c$")
         for fault in laws.groups(system, "zeta_over_a"):
             simulated = (fault["length"] / fault["critical_length"]).values
             dropped = simulated[np.isfinite(simulated)]
             if dropped.size:
                 at = fault["zeta_over_a"].values[0]
-                laws.draw_range(
-                    axes,
-                    at,
-                    dropped,
-                    color=style.BLACK,
-                    marker="o",
-                )
+                laws.draw_range(axes, at, dropped, color=style.BLACK, marker="o")
         height = f"$H$ = {float(system['height'][0]):g} m"
         text = f"{_BASES[str(system['below'].values[0])]}, {height}"
         if curves["curve_half_spaces"]:
@@ -73,13 +56,7 @@ def draw(table: xr.Dataset) -> Figure:
         axes.set(xscale="log", yscale="log", ylim=(0.4, 3.5))
         style.plain_numbers(axes.xaxis)
         style.plain_numbers(axes.yaxis)
-    axes.plot(
-        [],
-        [],
-        "o",
-        color=style.BLACK,
-        label=_SIMULATED,
-    )
+    axes.plot([], [], "o", color=style.BLACK, label=_SIMULATED)
     panels[0, 0].set_ylabel("Length over theory $L/L_c$")
     style.legend(figure, axes, loc="outside upper center", ncols=2)
     return figure
@@ -107,13 +84,7 @@ def draw_map(grid: xr.Dataset) -> Figure:
     for axes, (title, ratio) in zip(panels, shown, strict=True):
         x, y = _edges(ratio["height"].values), _edges(ratio["zeta_over_a"].values)
         values = ratio.transpose("zeta_over_a", "height")
-        image = axes.pcolormesh(
-            x,
-            y,
-            values,
-            norm=norm,
-            rasterized=True,
-        )
+        image = axes.pcolormesh(x, y, values, norm=norm, rasterized=True)
         axes.set(facecolor=_NOTHING, xscale="log", yscale="log", title=title)
         axes.set_xlabel("Block height $H$ (m)")
         style.plain_numbers(axes.yaxis, (1.5, 2.0, 3.0, 4.0, 6.0))

@@ -49,23 +49,14 @@ def kinds(table: xr.Dataset) -> Iterator[tuple[str, bool, Marks, xr.Dataset]]:
         looks[law, False] = (marker, 6.6, colour, 0.0)
         looks[law, True] = (marker, 6.6, style.OLD_AGE, 0.0)
     for (law, old), look in looks.items():
-        runs = where(
-            table,
-            (laws == law) & (aged == old),
-        )
+        runs = where(table, (laws == law) & (aged == old))
         if runs.sizes["run"]:
             yield f"{law.replace('_', ' ')} law", old, look, runs
 
 
 def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.Dataset:
     """The chosen rows of a table, those whose columns have the values of `labels`."""
-    found = np.broadcast_to(
-        np.asarray(
-            chosen,
-            dtype=bool,
-        ),
-        table.sizes["run"],
-    )
+    found = np.broadcast_to(np.asarray(chosen, dtype=bool), table.sizes["run"])
     for name, value in labels.items():
         found = found & (table[name].values == value)
     return table.isel(run=np.flatnonzero(found))
@@ -83,29 +74,13 @@ def draw(axes: Axes, x: str, table: xr.Dataset, name: str, **look: Any) -> None:
     A bar is left out if an end is NaN or not in the table.
     """
     middle = table[name].values
-    low, high = (
-        table.get(
-            f"{name}_{end}",
-            table[name],
-        ).values
-        for end in ("low", "high")
-    )
+    low, high = (table.get(f"{name}_{end}", table[name]).values for end in ("low", "high"))
     bars = np.nan_to_num([middle - low, high - middle]).clip(0.0)
     usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
-    axes.errorbar(
-        table[x].values,
-        middle,
-        bars,
-        **usual | look,
-    )
+    axes.errorbar(table[x].values, middle, bars, **usual | look)
 
 
 def draw_range(axes: Axes, x: float, values: Array, **look: Any) -> None:
     """Draw the mean of realisations as a point, with a bar from the least to the largest."""
     mean = values.mean()
-    axes.errorbar(
-        x,
-        mean,
-        [[mean - values.min()], [values.max() - mean]],
-        **look,
-    )
+    axes.errorbar(x, mean, [[mean - values.min()], [values.max() - mean]], **look)

@@ -35,12 +35,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 def looks(weakenings: Array) -> dict[float, style.Options]:
     """Colour and dashes by zeta/a, from the highest to the lowest."""
     values = np.unique(weakenings)[::-1].tolist()
-    kinds = zip(
-        values,
-        style.shades(len(values), 0.82),
-        cycle(DASHES),
-        strict=False,
-    )
+    kinds = zip(values, style.shades(len(values), 0.82), cycle(DASHES), strict=False)
     return {value: {"color": shade, "linestyle": dashes} for value, shade, dashes in kinds}
 
 
@@ -51,12 +46,7 @@ def figure_2(theory: xr.Dataset) -> Figure:
     ratio = theory["bimaterial_length_ratio"]
     f_beta = ratio["f_beta"].values
     for value, look in looks(ratio["zeta_over_a"].values).items():
-        axes.plot(
-            f_beta,
-            ratio.sel(zeta_over_a=value),
-            label=f"${value:.3g}$",
-            **look,
-        )
+        axes.plot(f_beta, ratio.sel(zeta_over_a=value), label=f"${value:.3g}$", **look)
     axes.set(xlabel=r"Bimaterial contrast $f\beta$", xlim=(f_beta.min(), f_beta.max()))
     axes.set(ylabel=r"Critical length $L_c/L_c^{\mathcal{M}}$", ylim=(0.0, 1.04))
     # the curves decrease from one, the highest zeta/a on top: the legend has their order
@@ -70,30 +60,12 @@ def figure_s1(theory: xr.Dataset) -> Figure:
     figure, axes = style.panels(6.4, style.SINGLE_COLUMN)
     rate = theory["slip_rate"].values
     full, logarithmic = theory["steady_friction"], theory["steady_friction_logarithmic"]
-    axes.semilogx(
-        rate,
-        full,
-        color=style.FULL_LAW,
-        linewidth=2.2,
-        label="full law",
-    )
-    axes.semilogx(
-        rate,
-        logarithmic,
-        color=style.BLUE,
-        linewidth=1.1,
-        label="logarithmic law",
-    )
+    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
+    axes.semilogx(rate, logarithmic, color=style.BLUE, linewidth=1.1, label="logarithmic law")
     velocity = float(theory["velocity"])
     axes.axvline(velocity, linestyle="--", linewidth=0.9)
     across = axes.get_xaxis_transform()
-    axes.annotate(
-        "$V$",
-        (velocity, 0.0),
-        (4.0, 5.0),
-        across,
-        "offset points",
-    )
+    axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
     axes.set(xlabel="Slip rate $v$ (m/s)", xlim=(rate.min(), rate.max()))
     axes.set_ylabel(r"Steady-state friction coefficient $f_{\mathrm{ss}}$")
     axes.legend(loc="upper right")

@@ -42,12 +42,7 @@ CURVES = declared(
 )
 
 
-def logarithmic_friction(
-    law: Friction,
-    slip_rate: Any,
-    state: Any,
-    velocity: float,
-) -> Any:
+def logarithmic_friction(law: Friction, slip_rate: Any, state: Any, velocity: float) -> Any:
     """The conventional logarithmic law with a law's expansion at V (m/s) (Eq. S-log).
 
     It has the coefficients for slip rates (m/s) and states (s), which broadcast.
@@ -62,20 +57,12 @@ def main_text(fault: Fault) -> Fault:
     """A fault with f, a and zeta rounded to two digits and constant, as in the main text."""
     rounded = {name: float(f"{fault.single(name):.2g}") for name in ("friction", "a", "zeta")}
     kept = {"slip_distance": fault.slip_distance, "evolution": fault.evolution}
-    return fault.replace(
-        **rounded,
-        **kept,
-        friction_law=None,
-    )
+    return fault.replace(**rounded, **kept, friction_law=None)
 
 
 def on_rigid_base(fault: Fault, height: Any) -> Fault:
     """Blocks of heights (m) with a fault's material and friction, free on top, on a rigid base."""
-    return fault.replace(
-        second_shear_modulus=math.inf,
-        far_side="traction",
-        height=height,
-    )
+    return fault.replace(second_shear_modulus=math.inf, far_side="traction", height=height)
 
 
 def f_beta(run: Run) -> float:

@@ -99,13 +99,7 @@ class _Law:
         else:
             law = self.growth(run["kind"], run["correlation_length"])
             drop = law.drop(strength)
-            found |= dict(
-                zip(
-                    LAW,
-                    (drop.length, drop.low, drop.high),
-                    strict=True,
-                )
-            )
+            found |= dict(zip(LAW, (drop.length, drop.low, drop.high), strict=True))
         found["front_length"] = law.closed_form(self.history, strength).front_length
         return found
 
@@ -124,13 +118,7 @@ def drop_files(
         stress = parameters.start.initial_shear_stress / own.normal_stress
         try:
             history = mode_history(patches, critical, own.initial_state, stress)
-            laws[fault(parameters)] = _Law(
-                history,
-                stability_length_of(
-                    patches,
-                    critical,
-                ),
-            )
+            laws[fault(parameters)] = _Law(history, stability_length_of(patches, critical))
         except NoLength:
             continue
     rows = [
@@ -159,14 +147,7 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
         "curve_strength": ("curve", CURVE_STRENGTHS),
     }
     along = ("case", "curve")
-    lines = {
-        name: (along, line)
-        for name, line in zip(
-            list(CURVES)[3:],
-            values,
-            strict=True,
-        )
-    }
+    lines = {name: (along, line) for name, line in zip(list(CURVES)[3:], values, strict=True)}
     return annotate(xr.Dataset(columns | lines), CURVES)
 
 
@@ -277,8 +258,7 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
         is_high = below is not None and height > max(run["critical_length"] for run in own)
         if below is not None and is_high:
             parameters = parameters.replaced(
-                height=AS_HALF_SPACES * height,
-                second_height=AS_HALF_SPACES * below.height,
+                height=AS_HALF_SPACES * height, second_height=AS_HALF_SPACES * below.height
             )
         lengths = []
         for ratio in ratios:
@@ -289,11 +269,7 @@ def weakening_curves(runs: Iterable[Row], ratios: Iterable[float] = WEAKENINGS) 
         rows.append((study, base, height, is_high, *np.transpose(lengths)))
     columns: dict[str, Any] = {"curve_ratio": ("curve", ratios)}
     drawn = [name for name in WEAKENING_CURVES if name not in columns]
-    for name, values in zip(
-        drawn,
-        zip(*rows, strict=True),
-        strict=True,
-    ):
+    for name, values in zip(drawn, zip(*rows, strict=True), strict=True):
         along = ("system", "curve")[: np.ndim(values)]
         columns[name] = (along, np.array(values))
     return annotate(xr.Dataset(columns), WEAKENING_CURVES)

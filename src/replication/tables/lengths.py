@@ -79,12 +79,7 @@ COLUMNS = declared(
 )
 """Name of the simulation, its measured lengths, its cost, and its parameters."""
 
-_OF_SECOND_BODY = (
-    "far_side",
-    "second_height",
-    "second_shear_modulus",
-    "second_poisson_ratio",
-)
+_OF_SECOND_BODY = ("far_side", "second_height", "second_shear_modulus", "second_poisson_ratio")
 
 COMPARED = declared(
     "id study role evolution height initial_state a zeta kind strength seed onset_time "
@@ -101,11 +96,7 @@ def lengths_table(
     """Extract the lengths of simulations into a table."""
     by_theory: dict[str, Row] = {}  # by fault
     rows = []
-    for run, simulation in zip(
-        runs,
-        simulations,
-        strict=True,
-    ):
+    for run, simulation in zip(runs, simulations, strict=True):
         row = description(run)
         if row["fault"] not in by_theory:
             by_theory[row["fault"]] = _stability(run)
@@ -142,11 +133,7 @@ def _stability(run: Row) -> Row:
 
 def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
     """One table of the rows of several."""
-    joined = xr.concat(
-        list(tables),
-        dim="run",
-        combine_attrs="override",
-    )
+    joined = xr.concat(list(tables), dim="run", combine_attrs="override")
     return joined.drop_attrs(deep=False)
 
 
@@ -188,13 +175,7 @@ def description(run: Row) -> Row:
     quiet = values["perturbation"] == "none"
     return {
         **{name: values.get(name) for name in COLUMNS if name in known_parameters()},
-        **dict(
-            zip(
-                _OF_SECOND_BODY,
-                second,
-                strict=True,
-            )
-        ),
+        **dict(zip(_OF_SECOND_BODY, second, strict=True)),
         "kind": values["perturbation"],
         "below": values["second_body"],
         **{name: run[name] for name in ("id", "study", "role", "critical_length")},

@@ -85,11 +85,7 @@ def length_of(parameters: Run) -> str:
 def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
     """Simulated lengths beside their formulas: a row for each run and slip rate."""
     rows = []
-    for run, simulation in zip(
-        runs,
-        simulations,
-        strict=True,
-    ):
+    for run, simulation in zip(runs, simulations, strict=True):
         parameters = Run.from_dict(run["parameters"])
         described, fault, definition = _described(parameters)
         is_crack = described["name"] == "rubin_ampuero_crack"
@@ -117,15 +113,7 @@ def literature_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> 
 def _described(parameters: Run) -> tuple[Row, Fault, Any]:
     """The columns of all slip rates, the fault of the formulas, and how the length is read."""
     own, law, varies = parameters.fault, parameters.law, parameters.heterogeneity
-    fault = Fault(
-        **{
-            name: getattr(
-                own,
-                name,
-            )
-            for name in _OF_FORMULAS
-        }
-    )
+    fault = Fault(**{name: getattr(own, name) for name in _OF_FORMULAS})
     _, a, zeta = law.expansion(own.velocity)
     b = a + zeta
     name = length_of(parameters)

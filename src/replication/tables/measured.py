@@ -13,10 +13,7 @@ from .rows import Row
 
 
 def measured_runs(
-    runs: Sequence[Row],
-    records: Any,
-    settings: ExtractionSettings,
-    measure: str,
+    runs: Sequence[Row], records: Any, settings: ExtractionSettings, measure: str
 ) -> xr.Dataset:
     """The rows of a job's runs; without those that have no record.
 

@@ -60,12 +60,7 @@ def sliding_period(run: Run) -> Dynamics:
     load = body.far_load(fault.normal_stress, fault.normal_stress * steady)
     interface = Interface(law, NEWTON_TOLERANCE)
     drive = steady_drive(fault.velocity, load)
-    return Dynamics(
-        body,
-        interface,
-        drive,
-        BDF(body.crossing_time),
-    )
+    return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
@@ -83,13 +78,7 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     rates = np.full(n + 1, velocity)
     steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
-    return State(
-        (motion,),
-        np.zeros(1),
-        rates[None],
-        log_state[None],
-        response.w[None],
-    )
+    return State((motion,), np.zeros(1), rates[None], log_state[None], response.w[None])
 
 
 def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
@@ -100,14 +89,7 @@ def one_wavelength(run: Run, wavenumber: float, nodes: int = NODES) -> Run:
     if run.below is not None:
         bodies["second_"] = changes["second_height"] = run.below.height
     for body, height in bodies.items():
-        changes[f"{body}n_y"] = round(
-            float(
-                np.clip(
-                    height * nodes / length,
-                    *ROWS,
-                )
-            )
-        )
+        changes[f"{body}n_y"] = round(float(np.clip(height * nodes / length, *ROWS)))
         changes[f"{body}grading"] = GRADING if height > GRADED * length else 1.0
     return run.replaced(**changes)
 
@@ -129,15 +111,8 @@ def measured_rates(run: Run, wavenumber: float) -> ComplexArray:
         first_mode = np.fft.rfft(log_rate)[1]
         amplitudes.append(np.conj(first_mode) * 2.0 / NODES)
     samples = np.array(amplitudes[SKIPPED::INTERVAL])
-    past = np.stack(
-        [samples[1:-1], samples[:-2]],
-        axis=1,
-    )
-    (p, q), *_ = np.linalg.lstsq(
-        past,
-        samples[2:],
-        rcond=None,
-    )
+    past = np.stack([samples[1:-1], samples[:-2]], axis=1)
+    (p, q), *_ = np.linalg.lstsq(past, samples[2:], rcond=None)
     growth = np.roots([1.0, -p, -q])
     rates = np.log(growth) / (dynamics.scheme.steady_step(rung) * INTERVAL)
     return rates[np.argsort(-rates.real)]
@@ -239,33 +214,20 @@ def _table(rows: list[Row]) -> xr.Dataset:
         found[f"{kind}_frequency"] = (along, both.imag)
     ratio = found["mode_wavenumber"] / found["critical_wavenumber"]
     apart = np.abs(measured - theory) / np.abs(theory)
-    found = found.assign(
-        wavenumber_over_critical=ratio,
-        disagreement=(along, apart),
-    )
+    found = found.assign(wavenumber_over_critical=ratio, disagreement=(along, apart))
     return annotate(found, COLUMNS)
 
 
 def _files(modes: xr.Dataset, columns: list[str]) -> dict[str, Any]:
     """Modes as netCDF, and a line for each mode and direction as CSV."""
     listed = modes.to_dataframe(["run", "branch"]).reset_index()[columns]
-    return {
-        ".nc": modes,
-        ".csv": listed.to_csv(
-            index=False,
-            float_format="%.8g",
-        ),
-    }
+    return {".nc": modes, ".csv": listed.to_csv(index=False, float_format="%.8g")}
 
 
 def dispersion_files(base: Run) -> dict[str, Any]:
     """Rates of modes on layers of some heights on a rigid base, with the paper's ratios to L_c."""
     own, papers = (
-        on_rigid_base(
-            one.fault,
-            math.inf,
-        ).critical_length()
-        for one in (base, PAPER_RUN)
+        on_rigid_base(one.fault, math.inf).critical_length() for one in (base, PAPER_RUN)
     )
     rows = []
     for usual in HEIGHTS:
@@ -305,13 +267,4 @@ def pair_modes(
 def pair_mode_files(base: Run) -> dict[str, Any]:
     """:func:`pair_modes` as files; each pair replaces the moduli of the base."""
     found = pair_modes(base)
-    return _files(
-        found,
-        [
-            "branch",
-            *map(
-                str,
-                found.data_vars,
-            ),
-        ],
-    )
+    return _files(found, ["branch", *map(str, found.data_vars)])

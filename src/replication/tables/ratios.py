@@ -75,11 +75,7 @@ def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
     ascending = not REFINED[refined]
     return [
         own.sort_values(refined, ascending=ascending)
-        for _, own in lengths.groupby(
-            fixed,
-            sort=False,
-            dropna=False,
-        )
+        for _, own in lengths.groupby(fixed, sort=False, dropna=False)
         if len(own) > 1
     ]
 
@@ -120,11 +116,7 @@ STABILITY = declared(
 def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.Dataset:
     """The lengths at which the frozen patches turn unstable."""
     rows = []
-    for run, patch in zip(
-        runs,
-        patches,
-        strict=True,
-    ):
+    for run, patch in zip(runs, patches, strict=True):
         rows.append(description(run) | {name: float(patch[name]) for name in FITTED})
     converged = {
         row["fault"]: row["stability_length"] for row in rows if row["role"] == "converged"
@@ -164,10 +156,7 @@ def map_files(lengths: xr.Dataset) -> dict[str, Any]:
     """
     rows = lengths.assign(ratios(lengths))
     rounded = [float(f"{value:.{DIGITS}g}") for value in rows["zeta_over_a"].values]
-    rows = annotate(
-        rows.assign(zeta_over_a=("run", rounded))[list(MAP)].drop_attrs(),
-        MAP,
-    )
+    rows = annotate(rows.assign(zeta_over_a=("run", rounded))[list(MAP)].drop_attrs(), MAP)
     frame = rows.to_dataframe().set_index(list(AXES))
     if not frame.index.is_unique:
         raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
@@ -206,11 +195,7 @@ def gather_pairs(
     rows = []
     waiting = iter(patches)
     fitted: dict[tuple[str, str], dict[str, float]] = {}
-    for run, simulation in zip(
-        runs,
-        simulations,
-        strict=True,
-    ):
+    for run, simulation in zip(runs, simulations, strict=True):
         parameters = Run.from_dict(run["parameters"])
         own, coupling = parameters.fault, f_beta(parameters)
         row = description(run) | {

@@ -47,16 +47,7 @@ def rows_of(table: xr.Dataset) -> list[Row]:
     """Rows of a table as dictionaries of plain Python values."""
     columns = {str(name): column.values.tolist() for name, column in table.data_vars.items()}
     rows = zip(*columns.values(), strict=True)
-    return [
-        dict(
-            zip(
-                columns,
-                row,
-                strict=True,
-            )
-        )
-        for row in rows
-    ]
+    return [dict(zip(columns, row, strict=True)) for row in rows]
 
 
 def groups(table: xr.Dataset, *names: str) -> list[list[int]]:

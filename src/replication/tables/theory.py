@@ -41,12 +41,7 @@ def theory_table(runs: Iterable[Row], tables: Iterable[xr.Dataset]) -> xr.Datase
         known |= measured.set_index(run="id")["stability_length"].to_series().to_dict()
     faults: dict[tuple[str, str], list[Row]] = {}
     for run in runs:
-        if math.isfinite(
-            known.get(
-                run["id"],
-                math.nan,
-            )
-        ):
+        if math.isfinite(known.get(run["id"], math.nan)):
             key = run["study"], fault(Run.from_dict(run["parameters"]))
             faults.setdefault(key, []).append(run)
     rows = []
@@ -69,17 +64,6 @@ def _row(run: Row) -> Row:
     }
     stress = parameters.start.initial_shear_stress / own.normal_stress
     with contextlib.suppress(NoLength):
-        row["creep_length"] = stability_point(
-            replace(
-                patches,
-                law=None,
-            ),
-            critical,
-        )[0]
-        row["front_length"] = first_growing(
-            patches,
-            critical,
-            own.initial_state,
-            stress,
-        )
+        row["creep_length"] = stability_point(replace(patches, law=None), critical)[0]
+        row["front_length"] = first_growing(patches, critical, own.initial_state, stress)
     return row

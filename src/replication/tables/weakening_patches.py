@@ -77,10 +77,7 @@ def patch_of(run: Run) -> WeakeningPatch:
     if own.varies == "zeta":
         return WeakeningPatch(outside._replace(zeta=outside.zeta * factor), outside)
     less = outside.a * (1.0 - factor)  # b is the same
-    inside = outside._replace(
-        a=outside.a - less,
-        zeta=outside.zeta + less,
-    )
+    inside = outside._replace(a=outside.a - less, zeta=outside.zeta + less)
     return WeakeningPatch(inside, outside)
 
 
@@ -96,11 +93,7 @@ def outcome(fastest: float, dynamic_rate: float, dropped: bool = False) -> str:
 def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
     """Simulated patches beside theory: :data:`COLUMNS` of each run on ``run``."""
     rows = []
-    for entry, simulation in zip(
-        runs,
-        simulations,
-        strict=True,
-    ):
+    for entry, simulation in zip(runs, simulations, strict=True):
         run = Run.from_dict(entry["parameters"])
         row = {"id": entry["id"], **_of_patch(run)}
         row["fastest"] = float(simulation["maximal_slip_rate"].max()) / run.fault.velocity
@@ -147,15 +140,7 @@ def patch_outcomes_table(patches: xr.Dataset) -> xr.Dataset:
     keys = [frame["varies"], frame["zeta_over_a"].round(4), frame["strengthening"].round(4)]
     found = []
     for key, own in frame.groupby(keys):
-        found.append(
-            dict(
-                zip(
-                    BOUNDS,
-                    (*key, *bounds_of(own)),
-                    strict=True,
-                )
-            )
-        )
+        found.append(dict(zip(BOUNDS, (*key, *bounds_of(own)), strict=True)))
     return table(found, BOUNDS)
 
 
@@ -171,7 +156,4 @@ def bounds_of(runs: pd.DataFrame) -> tuple[float, float]:
     slow = width[(velocity == velocity.max()) & ~(width >= first)]
     last = width[no_event].max()
     events = width[(velocity == velocity.min()) & ~(width <= last)]
-    return max([1.0, *(slow / PERIOD)]), min(
-        events,
-        default=np.inf,
-    )
+    return max([1.0, *(slow / PERIOD)]), min(events, default=np.inf)

@@ -30,9 +30,15 @@ from nucleation.theory.status import NoLength
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 FAULT = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "second_shear_modulus": np.inf,
-    "friction": 0.41, "a": 0.0068, "slip_distance": 5e-7, "normal_stress": 1e6, "velocity": 1e-5,
-}  # fmt: skip
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 1 / 3,
+    "second_shear_modulus": np.inf,
+    "friction": 0.41,
+    "a": 0.0068,
+    "slip_distance": 5e-7,
+    "normal_stress": 1e6,
+    "velocity": 1e-5,
+}
 
 
 def test_the_map():
@@ -88,9 +94,14 @@ def test_arrays_keep_their_names():
 def test_modes_are_doubled_where_they_do_not_resolve_the_patch():
     """16, 32, 64 and 256 modes give 1.796, 1.8128, 1.8130 and 1.8130 L_c."""
     fault = Fault(
-        shear_modulus=3.1e9, poisson_ratio=1 / 3, friction=0.41, a=0.0068, zeta=0.00068,
-        slip_distance=5e-7, normal_stress=1e6,
-    )  # fmt: skip
+        shear_modulus=3.1e9,
+        poisson_ratio=1 / 3,
+        friction=0.41,
+        a=0.0068,
+        zeta=0.00068,
+        slip_distance=5e-7,
+        normal_stress=1e6,
+    )
     length, error = stability_answers(fault)[:2]
     assert float(length / fault.critical_length()) == pytest.approx(1.8130, rel=3e-4)
     assert error < 1e-3
@@ -143,7 +154,7 @@ def test_where_a_patch_begins():
     )
     assert run.patches.loading == "remote"
     # a crack of half-spaces has v(0) = L (dtau/dt)/mu*
-    half_spaces = run.replaced(height=100.0, second_body="deformable", n_x=101)  # fmt: skip
+    half_spaces = run.replaced(height=100.0, second_body="deformable", n_x=101)
     star = run.fault.shear_modulus / (1.0 - run.fault.poisson_ratio)
     fastest = half_spaces.patches.creep(0.4).fastest * run.fault.velocity
     assert fastest == pytest.approx(0.4 * 1e5 / star, rel=3e-3)
@@ -165,9 +176,15 @@ def fault(ratio, height, bodies, friction=0.5):
     """One of zeta/a = `ratio`, with a height over mu D/(zeta sigma0)."""
     scale = SOFTNESS / (ratio * DIRECT)
     return {
-        "shear_modulus": 3e9, "poisson_ratio": 0.3, "normal_stress": 1e6, "slip_distance": 1e-6,
-        "a": DIRECT, "zeta": ratio * DIRECT, "friction": friction, "height": height * scale,
-    } | BODIES[bodies]  # fmt: skip
+        "shear_modulus": 3e9,
+        "poisson_ratio": 0.3,
+        "normal_stress": 1e6,
+        "slip_distance": 1e-6,
+        "a": DIRECT,
+        "zeta": ratio * DIRECT,
+        "friction": friction,
+        "height": height * scale,
+    } | BODIES[bodies]
 
 
 def patches_of(parameters):
@@ -184,13 +201,35 @@ def ratio_of(parameters):
     ("own", "expected"),
     [
         # both by an independent eigenproblem
-        ({"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "friction": 0.65,
-          "slip_distance": 5e-6, "a": 1.5e-5, "zeta": 400 * 1.5e-5, "height": 5e-3}, 0.4947),
-        ({"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "friction": 0.41,
-          "slip_distance": 5e-7, "a": 1.56e-4, "zeta": 0.0156, "height": 1e-3,
-          "second_shear_modulus": np.inf}, 0.4934),
+        (
+            {
+                "shear_modulus": 30e9,
+                "poisson_ratio": 0.25,
+                "normal_stress": 50e6,
+                "friction": 0.65,
+                "slip_distance": 5e-6,
+                "a": 1.5e-5,
+                "zeta": 400 * 1.5e-5,
+                "height": 5e-3,
+            },
+            0.4947,
+        ),
+        (
+            {
+                "shear_modulus": 3.1e9,
+                "poisson_ratio": 1 / 3,
+                "normal_stress": 1e6,
+                "friction": 0.41,
+                "slip_distance": 5e-7,
+                "a": 1.56e-4,
+                "zeta": 0.0156,
+                "height": 1e-3,
+                "second_shear_modulus": np.inf,
+            },
+            0.4934,
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_narrow_window_is_not_stepped_over(own, expected):
     assert ratio_of(own) == pytest.approx(expected, rel=1e-3)
 

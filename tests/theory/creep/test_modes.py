@@ -36,12 +36,15 @@ def in_a_box(bodies, length, slip, x, even):
     )
 
 
-@pytest.mark.parametrize("bodies", [
-    pair(0.05),
-    pair(0.5),
-    pair(0.05, Body(Material(shear_modulus=6.2e9, poisson_ratio=0.25), 0.1, "clamped")),
-    (Body(Material(shear_modulus=3.1e9, poisson_ratio=0.1), 0.1), Body(MATERIAL)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "bodies",
+    [
+        pair(0.05),
+        pair(0.5),
+        pair(0.05, Body(Material(shear_modulus=6.2e9, poisson_ratio=0.25), 0.1, "clamped")),
+        (Body(Material(shear_modulus=3.1e9, poisson_ratio=0.1), 0.1), Body(MATERIAL)),
+    ],
+)
 @pytest.mark.parametrize("loading", ["edge", "remote"])
 def test_stress_of_slip(bodies, loading):
     """Slip of a pushed edge is odd, in the interior it is odd and even."""

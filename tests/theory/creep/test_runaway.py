@@ -21,9 +21,15 @@ from nucleation.theory.evaluation import single_system
 from nucleation.theory.status import BEYOND, NoLength
 
 THIN = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "normal_stress": 1e6, "a": 0.0068,
-    "slip_distance": 5e-7, "second_shear_modulus": math.inf, "height": 1e-5, "friction": 0.0,
-}  # fmt: skip
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 1.0 / 3.0,
+    "normal_stress": 1e6,
+    "a": 0.0068,
+    "slip_distance": 5e-7,
+    "second_shear_modulus": math.inf,
+    "height": 1e-5,
+    "friction": 0.0,
+}
 HALF_SPACES = {"second_shear_modulus": None, "height": math.inf, "friction": 0.41}
 MOST_STEPS = 25_000  # of 40 patches at once: one to two seconds
 
@@ -33,9 +39,11 @@ def of_weakening(ratio, **changed):
 
 
 BODIES = {
-    "thin": {}, "pair": HALF_SPACES | {"height": 0.02}, "half-spaces": HALF_SPACES,
+    "thin": {},
+    "pair": HALF_SPACES | {"height": 0.02},
+    "half-spaces": HALF_SPACES,
     "half-spaces-slip": HALF_SPACES | {"evolution": "slip"},
-}  # fmt: skip
+}
 
 
 def over_critical(ratio, bodies):
@@ -117,11 +125,14 @@ CHANGES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("ratio", "bodies", "change"), [
-    *((0.3, "half-spaces", change) for change in CHANGES),
-    *((0.2, "pair", change) for change in list(CHANGES)[::2]),
-    *((0.5, "thin", change) for change in list(CHANGES)[1::2]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ratio", "bodies", "change"),
+    [
+        *((0.3, "half-spaces", change) for change in CHANGES),
+        *((0.2, "pair", change) for change in list(CHANGES)[::2]),
+        *((0.5, "thin", change) for change in list(CHANGES)[1::2]),
+    ],
+)
 def test_it_does_not_depend_on_how_it_is_found(monkeypatch, ratio, bodies, change):
     """Within the errors of both lengths, which are two standard errors or more."""
     before, error, _ = usual(ratio, bodies)
@@ -151,13 +162,16 @@ def test_modes_follow_the_length_over_that_of_the_fronts():
         slow_slip.modes_that_resolve(cohesive, 1e3)
 
 
-@pytest.mark.parametrize(("ratio", "bodies", "status", "reason"), [
-    (-0.2, {}, "stable", "homogeneous sliding"),
-    (0.03, {}, "unknown", "zeta/a = 0.03"),
-    (2.1, {}, "unknown", "zeta/a = 2.1"),
-    (0.5, {"loading": "remote"}, "unknown", "pushed at its edge"),
-    (0.11, HALF_SPACES, "unknown", "modes"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ratio", "bodies", "status", "reason"),
+    [
+        (-0.2, {}, "stable", "homogeneous sliding"),
+        (0.03, {}, "unknown", "zeta/a = 0.03"),
+        (2.1, {}, "unknown", "zeta/a = 2.1"),
+        (0.5, {"loading": "remote"}, "unknown", "pushed at its edge"),
+        (0.11, HALF_SPACES, "unknown", "modes"),
+    ],
+)
 def test_a_fault_that_was_not_tried_has_its_reason(ratio, bodies, status, reason):
     length, error, own, why = runaway_answers(Fault(**of_weakening(ratio, **bodies)))
     assert np.isnan(length) and np.isnan(error)

@@ -72,9 +72,13 @@ def test_strong_weakening():
 
 
 LAYER = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "friction": 0.0, "a": 0.0068,
-    "slip_distance": 5e-7, "normal_stress": 1e6,
-}  # fmt: skip
+    "shear_modulus": 3.1e9,
+    "poisson_ratio": 1.0 / 3.0,
+    "friction": 0.0,
+    "a": 0.0068,
+    "slip_distance": 5e-7,
+    "normal_stress": 1e6,
+}
 
 
 @pytest.mark.parametrize("second", [{"second_shear_modulus": np.inf}, {}], ids=["rigid", "same"])

@@ -220,11 +220,7 @@ class Friction(Checked):
         v = np.asarray(slip_rate, dtype=float)
         return np.sqrt(v * v + self.regularisation_slip_rate**2)
 
-    def coefficient(
-        self,
-        slip_rate: ArrayLike,
-        state: ArrayLike,
-    ) -> Array:
+    def coefficient(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
         """Friction coefficient ``f(v, phi)``.
 
         Parameters
@@ -234,11 +230,7 @@ class Friction(Checked):
         """
         return self.coefficient_and_slopes(slip_rate, np.log(state))[0]
 
-    def derivatives(
-        self,
-        slip_rate: ArrayLike,
-        state: ArrayLike,
-    ) -> tuple[Array, Array]:
+    def derivatives(self, slip_rate: ArrayLike, state: ArrayLike) -> tuple[Array, Array]:
         """``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate, exactly.
 
         Parameters
@@ -249,11 +241,7 @@ class Friction(Checked):
         _, by_rate, by_log_state = self.coefficient_and_slopes(slip_rate, np.log(state))
         return by_rate, by_log_state / np.asarray(state, dtype=float)
 
-    def state_rate(
-        self,
-        slip_rate: ArrayLike,
-        state: ArrayLike,
-    ) -> Array:
+    def state_rate(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
         """``dphi/dt``, dimensionless, by the evolution law.
 
         Parameters

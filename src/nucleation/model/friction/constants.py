@@ -44,11 +44,7 @@ def constants_of(friction: Friction, velocity: float) -> dict[str, float]:
     return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
 
 
-def with_constants(
-    friction: Friction,
-    velocity: float,
-    values: Mapping[str, Any],
-) -> Friction:
+def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any]) -> Friction:
     """The law with those of the :data:`CONSTANTS` that are given, and its own values of the others.
 
     If only a is given, the result has the same zeta/a. A ParameterError refuses constants that set
@@ -70,30 +66,13 @@ def with_constants(
         zeta = b - a
     elif "zeta" not in given:
         zeta = ratio * a
-    return full_law(
-        friction,
-        velocity,
-        f,
-        a,
-        zeta,
-    )
+    return full_law(friction, velocity, f, a, zeta)
 
 
-def full_law(
-    friction: Friction,
-    velocity: float,
-    f: float,
-    a: float,
-    zeta: float,
-) -> Friction:
+def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: float) -> Friction:
     """The law with f, a and zeta in steady sliding at V (m/s), which keeps its other parameters."""
     try:
-        return friction.with_expansion(
-            velocity,
-            f,
-            a,
-            zeta,
-        )
+        return friction.with_expansion(velocity, f, a, zeta)
     except ParameterError as error:
         wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g} at {velocity:g} m/s"
         v0 = friction.regularisation_slip_rate
@@ -102,22 +81,12 @@ def full_law(
         raise ParameterError(f"no friction law has {wanted}{cure}: {error}") from None
 
 
-def own_law(
-    velocity: float,
-    slip_distance: float,
-    evolution: str,
-    law: str = LAW,
-) -> Friction:
+def own_law(velocity: float, slip_distance: float, evolution: str, law: str = LAW) -> Friction:
     """The friction law of a fault of its own, with scales that follow from V (m/s) and D (m)."""
     scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY.get(law, {}).items()}
     if law == USUAL_LAW:
         scales["state_scale"] = STATE_SCALE * slip_distance / velocity
-    return Friction(
-        law=law,
-        evolution=evolution,
-        slip_distance=slip_distance,
-        **scales,
-    )
+    return Friction(law=law, evolution=evolution, slip_distance=slip_distance, **scales)
 
 
 def law_of(

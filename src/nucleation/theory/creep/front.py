@@ -160,12 +160,7 @@ class Advance:
         return creep
 
 
-def _followed(
-    law: Friction,
-    log_state: Array,
-    steps: Array,
-    rates: Array,
-) -> list[Array]:
+def _followed(law: Friction, log_state: Array, steps: Array, rates: Array) -> list[Array]:
     """log(phi) (n,) at the ends of times (s) at slip speeds over D (1/s), both (time, n).
 
     In each it is extrapolated from one and two steps.
@@ -192,10 +187,7 @@ def fastest(found: Advance) -> Array:
 
 
 def first_growing(
-    patches: Patches,
-    critical: float,
-    initial_state: float,
-    initial_stress: float = 0.0,
+    patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
 ) -> float:
     """L_s of a patch with its advancing front.
 
@@ -225,8 +217,7 @@ def first_growing(
 
 
 def _bracket(
-    advanced: Callable[[ArrayLike], Advance],
-    critical: float,
+    advanced: Callable[[ArrayLike], Advance], critical: float
 ) -> tuple[float, float, Array]:
     """Neighbouring lengths (m) without and with growth, and the oscillating modes' growth there."""
     tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
@@ -250,19 +241,12 @@ def _bracket(
     return low, high, oscillating(found)[i - 1 : i + 1].real
 
 
-def _vanishing(
-    advanced: Callable[[ArrayLike], Advance],
-    at: float,
-) -> float:
+def _vanishing(advanced: Callable[[ArrayLike], Advance], at: float) -> float:
     """Root of a parabola through the pair's growth around a length (m); `at` without a root."""
     growth = oscillating(advanced(at * np.exp(NEAR))).real
     if not np.isfinite(growth).all():
         return at
-    roots = np.polynomial.Polynomial.fit(
-        NEAR,
-        growth,
-        2,
-    ).roots()
+    roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
     real = roots[np.abs(roots.imag) < REAL].real
     if real.size == 0:
         return at

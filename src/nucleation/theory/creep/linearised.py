@@ -40,11 +40,7 @@ class Creep(NamedTuple):
     fastest: float = 1.0  # over V
 
 
-def creep(
-    response: PatchResponse,
-    friction: float,
-    load_rate: float | None = None,
-) -> Creep:
+def creep(response: PatchResponse, friction: float, load_rate: float | None = None) -> Creep:
     """The creep of a patch under the loading of a response.
 
     Slip rate: the strength is constant. So ``(K1 + f S2) v = 0`` with ``v(0) = V``, or ``(K1 + f
@@ -70,9 +66,7 @@ def creep(
 
 
 def edge_slip(
-    response: PatchResponse,
-    friction: Array | float,
-    strength: Array | float,
+    response: PatchResponse, friction: Array | float, strength: Array | float
 ) -> tuple[Array, Array, Array]:
     """The modes' coefficients of slip rate over V and slip over D, (..., N + 1); and U over D.
 
@@ -89,11 +83,7 @@ def edge_slip(
     near = response.modes.values[:NEAR]
     squares = response.modes.theta[:NEAR] ** 2
     ratio = (near @ held[..., None]) / (near @ rates[..., None])
-    loaded = -np.polyfit(
-        squares,
-        ratio.reshape(-1, NEAR).T,
-        NEAR - 1,
-    )[-1]
+    loaded = -np.polyfit(squares, ratio.reshape(-1, NEAR).T, NEAR - 1)[-1]
     loaded = loaded.reshape(by_edge.shape[:-1])
     smoothing = response.modes.smoothing
     return smoothing * rates, smoothing * (loaded[..., None] * rates + held), loaded
@@ -171,11 +161,7 @@ def _null_vector(matrix: ComplexArray) -> ComplexArray:
     return vector
 
 
-def log_state_derivatives(
-    law: Friction,
-    slip_rate: Array,
-    state: Array,
-) -> tuple[Array, Array]:
+def log_state_derivatives(law: Friction, slip_rate: Array, state: Array) -> tuple[Array, Array]:
     """Derivatives of ``dpsi/dt = g(phi w / D) / phi`` by v (1/m) and by psi (1/s).
 
     Takes slip_rate (m/s) and state (s).
@@ -204,12 +190,7 @@ class _LinearFriction(NamedTuple):
     evolution_by_state: Array
 
 
-def constant_coefficients(
-    rate: Array,
-    friction: float,
-    a: float,
-    zeta: float,
-) -> _LinearFriction:
+def constant_coefficients(rate: Array, friction: float, a: float, zeta: float) -> _LinearFriction:
     """Friction with constant a and b about steady sliding at each place."""
     ones = np.ones_like(rate)
     return _LinearFriction(
@@ -222,10 +203,7 @@ def constant_coefficients(
 
 
 def local_coefficients(
-    law: Friction,
-    velocity: float,
-    rate: Array,
-    log_state: Array | None = None,
+    law: Friction, velocity: float, rate: Array, log_state: Array | None = None
 ) -> _LinearFriction:
     """A friction law linearised at each place, about steady sliding unless log(phi) is given."""
     v = velocity * rate
@@ -243,10 +221,7 @@ def local_coefficients(
     )
 
 
-def creeping_patch(
-    creep: Creep,
-    friction: _LinearFriction,
-) -> FrozenPatch:
+def creeping_patch(creep: Creep, friction: _LinearFriction) -> FrozenPatch:
     """The patch linearised about its creep: slip in D, time in D/V.
 
     ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f at each place.

@@ -72,11 +72,7 @@ class Patches:
         """The bodies' response to slip of a patch (m) in a number of modes."""
         return response(self.one, length, number, self.loading, self._slim)
 
-    def creep(
-        self,
-        length: float,
-        number: int | None = None,
-    ) -> Creep:
+    def creep(self, length: float, number: int | None = None) -> Creep:
         """The creep of a patch (m) by a number of modes, by default as many as the fault needs."""
         bodies = self.response(length, number or self.number)
         load_rate = None if self.loading == "edge" else self.load_rate
@@ -84,11 +80,7 @@ class Patches:
         require_contact(found)
         return found
 
-    def at(
-        self,
-        length: float,
-        number: int | None = None,
-    ) -> FrozenPatch:
+    def at(self, length: float, number: int | None = None) -> FrozenPatch:
         """The linearised patch (m); slip in D, time in D/V."""
         creep = self.creep(length, number)
         if self.law is None:

@@ -215,12 +215,7 @@ def _modes_of_both(number: int) -> Modes:
     )
 
 
-def _on_both_sides(
-    odd: Array,
-    even: Array,
-    sign: float,
-    imposed: float = 0.0,
-) -> Array:
+def _on_both_sides(odd: Array, even: Array, sign: float, imposed: float = 0.0) -> Array:
     """Columns of both symmetries at x > 0, continued to x < 0; `sign` is that of even columns."""
     odd, even = odd[:, 1:], even[:, 1:]
     columns = np.block([[odd, even], [-sign * odd, sign * even]])
@@ -239,11 +234,7 @@ def extrapolation_error(one: Systems, length: float) -> float:
 
 
 def _mirror_response(
-    one: Systems,
-    length: float,
-    number: int,
-    even: bool,
-    known: SlimLayers,
+    one: Systems, length: float, number: int, even: bool, known: SlimLayers
 ) -> tuple[Array, Array]:
     """The shear and the normal response in the modes of one symmetry about x = 0, at x > 0.
 
@@ -260,12 +251,7 @@ def _mirror_response(
     return shear + beyond * (twice_shear - shear), normal + beyond * (twice_normal - normal)
 
 
-def _resolved(
-    one: Systems,
-    length: float,
-    number: int,
-    even: bool,
-) -> tuple[Array, Array]:
+def _resolved(one: Systems, length: float, number: int, even: bool) -> tuple[Array, Array]:
     """The same of layers that are not slimmer than the tables reach.
 
     A slimmer zone beside the fault is replaced by a thicker one that resists long waves alike.
@@ -293,12 +279,7 @@ def _resolved(
 
 
 def _thickened(
-    one: Systems,
-    length: float,
-    number: int,
-    even: bool,
-    reach: float,
-    known: SlimLayers,
+    one: Systems, length: float, number: int, even: bool, reach: float, known: SlimLayers
 ) -> tuple[Array, Array]:
     """The response of layers made thicker, corrected by the ratio of G at ``kL = pi``.
 

@@ -82,11 +82,7 @@ class _Ladder(NamedTuple):
 class _Search:
     """Trials of one fault's patches."""
 
-    def __init__(
-        self,
-        patches: Patches,
-        critical: float,
-    ) -> None:
+    def __init__(self, patches: Patches, critical: float) -> None:
         self.patches = patches
         self.stable = stability_point(patches, critical)[0]
         self.cohesive = cohesive_wavenumber(patches, critical)
@@ -94,12 +90,7 @@ class _Search:
         _, a, zeta = patches.constants
         self.duration = DURATION * min(1.0, a / zeta)
 
-    def tried(
-        self,
-        lengths: Array,
-        disturbances: Array,
-        duration: float,
-    ) -> _Ladder:
+    def tried(self, lengths: Array, disturbances: Array, duration: float) -> _Ladder:
         """Patches of rising length (m), followed for a time (D/V)."""
         number = modes_that_resolve(self.cohesive, float(lengths[-1]))
         times = lifetimes(self.patches, lengths, number, disturbances, duration)
@@ -126,11 +117,7 @@ class _Search:
             BEYOND,
         )
 
-    def refined(
-        self,
-        low: float,
-        high: float,
-    ) -> _Ladder:
+    def refined(self, low: float, high: float) -> _Ladder:
         """Trials that begin between two lengths (m) and close in on where patches run away."""
         for _ in range(SEARCHES):
             lengths = np.geomspace(low, high, LENGTHS)
@@ -150,10 +137,7 @@ class _Search:
         raise NoLength(f"slow slip of a patch of {low:.4g} m has no clear end", UNKNOWN)
 
 
-def runaway_point(
-    patches: Patches,
-    critical: float,
-) -> tuple[float, float]:
+def runaway_point(patches: Patches, critical: float) -> tuple[float, float]:
     """L_run (m) of one fault with L_c (m), and its relative error.
 
     The error is that by the lengths and disturbances, by half the duration, and by the modes.

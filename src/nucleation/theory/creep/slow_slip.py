@@ -36,18 +36,11 @@ def cohesive_wavenumber(patches: Patches, critical: float) -> float:
     one = patches.one
     k = 2.0 * np.pi / critical * np.geomspace(0.1, 1e4, 500)
     load = one.load_and_coupling(k)[0]
-    log_k = np.interp(
-        math.log(one.b[0]),
-        np.log(load),
-        np.log(k),
-    )
+    log_k = np.interp(math.log(one.b[0]), np.log(load), np.log(k))
     return float(np.exp(log_k))
 
 
-def modes_that_resolve(
-    cohesive: float,
-    length: float,
-) -> int:
+def modes_that_resolve(cohesive: float, length: float) -> int:
     """Number of modes of a patch (m) that resolve a wavenumber (1/m)."""
     number = math.ceil(MODES_OF_ENDS + FINENESS * cohesive * length)
     if number > MOST_MODES:
@@ -62,12 +55,7 @@ def modes_that_resolve(
 class _SlowSlip:
     """Patches of several lengths, as rates of log(v/V) and of -log(phi V/D)."""
 
-    def __init__(
-        self,
-        patches: Patches,
-        lengths: Array,
-        number: int,
-    ) -> None:
+    def __init__(self, patches: Patches, lengths: Array, number: int) -> None:
         creeps = [patches.creep(length, number) for length in lengths]
         friction, self.a, zeta = patches.constants
         self.b = self.a + zeta
@@ -93,11 +81,7 @@ class _SlowSlip:
         state = np.log(speed) - shape
         return np.stack([np.broadcast_to(np.log(rate), state.shape), state])
 
-    def rates(
-        self,
-        logs: Array,
-        out: Array,
-    ) -> None:
+    def rates(self, logs: Array, out: Array) -> None:
         """Rates of the logarithms over V/D."""
         v, per_state = np.exp(logs)
         by_rate, by_state, speed = self._friction(v, logs[1])
@@ -106,11 +90,7 @@ class _SlowSlip:
         np.divide(force - by_state * aging, by_rate, out=out[0])
         np.negative(aging, out=out[1])
 
-    def _friction(
-        self,
-        v: Array,
-        per_state: Array,
-    ) -> tuple[Array | float, Array | float, Array]:
+    def _friction(self, v: Array, per_state: Array) -> tuple[Array | float, Array | float, Array]:
         """Slopes df/dlog(v) and df/dlog(phi) and the slip speed over V, by the log of 1/phi."""
         law = self.law
         if law is None:
@@ -123,11 +103,7 @@ class _SlowSlip:
 
 @np.errstate(all="ignore")  # steps that are too long overflow, and are tried again
 def lifetimes(
-    patches: Patches,
-    lengths: Array,
-    number: int,
-    disturbances: Array,
-    duration: float,
+    patches: Patches, lengths: Array, number: int, disturbances: Array, duration: float
 ) -> Array:
     """Times over D/V until patches run away after weak disturbances, (length, disturbance).
 
@@ -164,12 +140,7 @@ def lifetimes(
     raise NoLength(f"slow slip takes more than {MOST_STEPS} steps in {duration:g} D/V", UNKNOWN)
 
 
-def _step(
-    slow: _SlowSlip,
-    logs: Array,
-    stages: Array,
-    step: Array,
-) -> tuple[Array, Array]:
+def _step(slow: _SlowSlip, logs: Array, stages: Array, step: Array) -> tuple[Array, Array]:
     """Logarithms after a step, and their error over the tolerance; fills the later stages."""
     from scipy.integrate import RK45  # slow to load, and few processes need it
 

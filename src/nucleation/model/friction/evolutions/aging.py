@@ -16,11 +16,7 @@ def slope(omega: ArrayLike) -> Array:
     return np.full_like(omega, -1.0, dtype=float)
 
 
-def implicit_log_state(
-    history: Array,
-    step: Array | float,
-    rate: Array,
-) -> tuple[Array, Array]:
+def implicit_log_state(history: Array, step: Array | float, rate: Array) -> tuple[Array, Array]:
     """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
     shifted = history - step * rate
     excess = wright_omega(np.log(step) - shifted)  # = step exp(-psi)

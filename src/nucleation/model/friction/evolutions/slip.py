@@ -17,11 +17,7 @@ def slope(omega: ArrayLike) -> Array:
     return -1.0 - np.log(omega)
 
 
-def implicit_log_state(
-    history: Array,
-    step: Array | float,
-    rate: Array,
-) -> tuple[Array, Array]:
+def implicit_log_state(history: Array, step: Array | float, rate: Array) -> tuple[Array, Array]:
     """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi)."""
     log_rate = np.log(rate)
     divisor = 1.0 + step * rate

@@ -77,11 +77,7 @@ class Law(Friction):
         )
 
     @staticmethod
-    def formula(
-        v: Array,
-        psi: Array,
-        constants: tuple[float, ...],
-    ) -> tuple[Array, Array, Array]:
+    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
         """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``.
 
         Parameters
@@ -99,13 +95,7 @@ class Law(Friction):
         angle = np.arcsinh(v / s) + np.sign(v) * beyond
         return a * angle, a * by_size, b * (v * by_size)
 
-    def with_expansion(
-        self,
-        velocity: float,
-        f: float,
-        a: float,
-        zeta: float,
-    ) -> Self:
+    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
 
         Parameters

@@ -57,11 +57,7 @@ class Law(Friction):
         )
 
     @staticmethod
-    def formula(
-        v: Array,
-        psi: Array,
-        constants: tuple[float, ...],
-    ) -> tuple[Array, Array, Array]:
+    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
         """The product of both factors, and its derivatives by v (s/m) and psi.
 
         Parameters
@@ -82,13 +78,7 @@ class Law(Friction):
         by_log_state = b * (ratio / (1.0 + ratio)) * rate
         return aging * rate, aging * by_rate, by_log_state
 
-    def with_expansion(
-        self,
-        velocity: float,
-        f: float,
-        a: float,
-        zeta: float,
-    ) -> Self:
+    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
 
         Parameters
