@@ -30,7 +30,7 @@ class Assembled:
             for component in (0, 1):
                 onto[unknown(grid, i, j, component)] = unknown(grid, within, j, component)
             x, y = (unknown(grid, within, j, component) for component in (0, 1))
-            turned[y] = sign
+            turned[unknown(grid, i, j, 1)] = sign
             turn = sparse.csr_array((turned, (np.arange(onto.size), onto)), 2 * onto.shape)
             matrices.append([turn.T @ part @ turn for part in parts])
             own = onto != np.arange(onto.size)

@@ -6,7 +6,7 @@ from fem.assembled_problem import Assembled
 
 from benchmarks.nodal import nodal_values
 from nucleation.fem.body import Body
-from nucleation.fem.grid import Grid, Motion
+from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.model.material import Material
 
@@ -14,6 +14,7 @@ UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
 LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)
 GRIDS = [Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.3, 9, 6, grading=4.0), Grid(0.7, 0.1, 15, 2)]
 PERIOD = Grid(0.7, 0.2, 9, 5, grading=3.0, periodic=True)
+PERIODS = (PERIOD, Grid(0.7, 0.3, 9, 4, periodic=True))
 PAIRS = [
     (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4)),
     (Grid(1.0, 0.3, 9, 3, grading=2.0), Grid(1.0, 0.5, 9, 6, grading=4.0)),
@@ -132,26 +133,57 @@ def test_identical_blocks_do_not_couple_slip_to_normal_stress(s):
     assert np.abs(normal).max() < 1e-12 * np.abs(p).max()
 
 
-def test_a_translation_that_has_grown_from_rounding_is_taken_out():
-    """All nodes of both blocks move by what the corner has risen, at each instant its own."""
-    rng, step = np.random.default_rng(3), 0.1
-    body = pair_of(PAIRS[0])
-    none = np.zeros(1)
-    fields = [(random_field(body, rng), random_field(body, rng)) for _ in "ab"]
-    motions = tuple(Motion(*pair, 0.0, none, none) for pair in fields)
-    rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
-    settled = body.settled(motions, step, 1e-3 * abs(rise))
-    for age, old, new in zip((0.0, step), motions, settled, strict=True):
-        for moved, f, g in (
-            (rise - age * rate, old.displacement, new.displacement),
-            (rate, old.velocity, new.velocity),
-        ):
-            for number in (0, 1):
-                (x, y), (x_new, y_new) = (nodal_values(body, one, number) for one in (f, g))
-                np.testing.assert_array_equal(x, x_new)
-                np.testing.assert_allclose(y - y_new, moved, atol=1e-13)
-    assert body.settled(motions, step, 0.1 * abs(rise)) is motions
-    assert pair_of(PAIRS[0], "roller").settled(motions, step, 0.0) is motions
+FREE = {  # components along which nothing is held, by the lower far side
+    "block": {"free": {1}, "clamped": set(), "roller": set()},
+    "period": {"free": {0, 1}, "clamped": set(), "roller": {0}, "velocity": {1}},
+}
+FREE_BODIES = [
+    (pair_of(PERIODS if kind == "period" else PAIRS[1], side), components)
+    for kind, sides in FREE.items()
+    for side, components in sides.items()
+]
+
+
+@pytest.mark.parametrize(("body", "components"), FREE_BODIES)
+def test_a_pair_translates_along_each_direction_in_which_nothing_is_held(body, components):
+    """All nodes of both layers move alike; along the other component none does."""
+    moved = []
+    for free in body.translations:
+        field = body.zero_field()
+        free.taken_from(field, -3.0)
+        values = [nodal_values(body, field, number) for number in (0, 1)]
+        (component,) = (c for c in (0, 1) if np.abs(values[0][c]).max() > 0.0)
+        for layer in values:
+            np.testing.assert_allclose(layer[component], 3.0, atol=1e-13)
+            np.testing.assert_allclose(layer[1 - component], 0.0, atol=1e-13)
+        moved.append(component)
+    assert set(moved) == components and len(moved) == len(components)
+
+
+def test_a_layer_on_a_rigid_base_is_held():
+    assert not any(BODIES[name].translations for name in ("block 0", "period"))
+
+
+@pytest.mark.parametrize(
+    ("bottom", "grids"), [("free", PAIRS[1]), ("free", PERIODS), ("roller", PERIODS)]
+)
+def test_a_translation_is_that_of_the_centre_of_mass(bottom, grids):
+    """By the assembled mass matrix; a field from which it is taken has no momentum."""
+    body = pair_of(grids, bottom)
+    reference = Assembled(body, bottom)
+    field = random_field(body, np.random.default_rng(3))
+    above, below = body.split(field.edge)
+    below[0] = -above[0]  # no opening
+    for free in body.translations:
+        unit = body.zero_field()
+        free.taken_from(unit, -1.0)
+        along = reference.values(unit)
+        inertia = reference.mass @ along
+        assert free.mass == pytest.approx(inertia @ along, rel=1e-12)
+        expected = inertia @ reference.values(field) / free.mass
+        assert free.of(field) == pytest.approx(expected, rel=1e-10)
+        free.taken_from(field, free.of(field))
+        assert abs(free.of(field)) < 1e-14
 
 
 def test_other_elements_along_x_are_refused():

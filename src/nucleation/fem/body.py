@@ -20,6 +20,7 @@ the last one are zero.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -28,8 +29,6 @@ from ..types import Array
 from . import kernels
 from .grid import Field, Grid, Motion
 from .modes import BlockModes, Modes, PeriodModes
-
-LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
 HELD = {
     "free": (False, False),
@@ -117,6 +116,11 @@ class Body:
                 )
             self.layers.append(Layer(*lower, self.modes, far_side))
         self.crossing_time = max(layer.crossing_time for layer in self.layers)  # s, by shear waves
+        # m/s per Pa, of the faces apart by waves that leave the interface; infinite without inertia
+        impedances = [
+            layer.material.density * layer.material.shear_wave_speed for layer in self.layers
+        ]
+        self.admittance = sum(1.0 / one if one > 0.0 else np.inf for one in impedances)
         # kg/m, that moves with the driven edge
         self.total_mass = material.density * self.grid.length * self.grid.height
 
@@ -128,10 +132,16 @@ class Body:
     @property
     def is_held(self) -> bool:
         """Whether at given slip no layer can move as a whole."""
+        return not self.translations
+
+    @cached_property
+    def translations(self) -> tuple[Translation, ...]:
+        """The translations that nothing holds, one along each such direction."""
         if len(self.layers) == 1:
-            return True
+            return ()
         along_x, along_y = self.layers[1].held
-        return along_y and (along_x or self.modes.has_edge)
+        free = (not (along_x or self.modes.has_edge), not along_y)
+        return tuple(Translation(self, component) for component in (0, 1) if free[component])
 
     @property
     def operator_megabytes(self) -> float:
@@ -186,8 +196,11 @@ class Body:
     def at_rest(self, displacement: Field, velocity: float, factors: Array) -> Motion:
         """The motion of the body at rest, seen from an edge that moves at a velocity (m/s).
 
-        `factors` are those of the loads.
+        `factors` are those of the loads. Where nothing holds the body, its centre of mass is the
+        origin.
         """
+        for free in self.translations:
+            free.taken_from(displacement, free.of(displacement))
         rates = self.zero_field()
         ones = self.modes.sine_amplitudes(np.ones(self.modes.n_x))
         rates.modes[: self.layers[0].levels, 0] = -velocity * ones
@@ -246,28 +259,43 @@ class Body:
         own = 0.5 * self.work(momentum, velocity)
         return own + of_edge * (self.momentum_x(velocity) + 0.5 * self.total_mass * of_edge)
 
-    def settled(self, motions: tuple[Motion, ...], step: float, slid: float) -> tuple[Motion, ...]:
-        """Remove a translation of two blocks along y that has grown from round-off.
 
-        If no far side is held, no force acts on such a translation but round-off, which makes it
-        grow without bound over minutes. Once it exceeds :data:`LIFTED` times the slip `slid` (m),
-        it is removed with its velocity: the motions, the newest first and `step` (s) apart, are
-        seen from a corner that does not rise.
-        """
-        if self.is_held_along_y or not isinstance(self.modes, BlockModes):
-            return motions
-        rise = float(motions[0].displacement.edge[0])
-        rate = float(motions[0].velocity.edge[0])
-        if not abs(rise) > LIFTED * slid:
-            return motions
-        risen = self.zero_field()  # both blocks moved up by one metre
-        level = self.modes.cosine_amplitudes(np.ones(self.modes.n_x))
-        for part, up in zip(self.parts(risen), (1.0, -1.0), strict=True):
-            part.modes[:, 1] = up * level
-            part.edge[:] = up
-        settled = []
-        for motion, age in zip(motions, (0.0, step), strict=False):
-            displacement = motion.displacement.plus(risen.times(age * rate - rise))
-            velocity = motion.velocity.plus(risen.times(-rate))
-            settled.append(motion._replace(displacement=displacement, velocity=velocity))
-        return tuple(settled)
+class Translation:
+    """A translation of two layers as a whole, along a direction in which nothing holds them.
+
+    All loads on a body are in balance along such a direction, so its centre of mass stays where it
+    is, and there is no stiffness that would hold it against round-off. It is kept in place by
+    :meth:`taken_from`: positions are seen from the centre of mass.
+    """
+
+    def __init__(self, body: Body, component: int) -> None:
+        """The component 0 is along x, 1 along y."""
+        self._component = component
+        signs = (1.0, 1.0) if component == 0 else (1.0, -1.0)  # the lower layer is mirrored
+        unit = body.zero_field()  # one metre
+        for part, sign in zip(body.parts(unit), signs, strict=True):
+            part.modes[:, component] = sign * body.modes.level
+            part.edge[:] = sign * component * body.modes.has_edge
+        inertia = body.inertia_load(1.0, [(1.0, unit)], body.zero_field())
+        self.mass = body.work(inertia, unit)  # kg/m
+        used = np.flatnonzero(inertia.modes[:, component].any(axis=0))
+        self._used = slice(int(used[0]), int(used[-1]) + 1)
+        self._modes = self._of(unit).copy()
+        self._edge = unit.edge
+        weights = self._of(inertia) * body.modes.norms[self._used] / self.mass
+        self._weights = weights
+        self._edge_weights = inertia.edge / self.mass
+
+    def _of(self, field: Field) -> Array:
+        """A view of the amplitudes that a translation has, (levels, modes)."""
+        return field.modes[:, self._component, self._used]
+
+    def of(self, field: Field) -> float:
+        """The displacement (m) or velocity (m/s) of the centre of mass."""
+        of_modes = np.einsum("ij,ij->", self._weights, self._of(field))
+        return float(of_modes + self._edge_weights @ field.edge)
+
+    def taken_from(self, field: Field, amount: float) -> None:
+        """Subtract a translation (m, or m/s) from a field, in place."""
+        self._of(field)[:] -= amount * self._modes
+        field.edge[:] -= amount * self._edge

@@ -16,6 +16,8 @@ from .grid import Components, Grid
 class _Modes:
     """The modes of a grid, with the integral of each mode of u_x along x (m)."""
 
+    level: Array  # amplitudes of u_y = 1 m, beside edge values of 1 m; in a period of u_x, too
+
     def __init__(self, grid: Grid, theta: Array, x_integral: Array) -> None:
         self.n_x = grid.n_x
         self.scale = 2.0 / grid.n_x  # of all loads and stiffnesses per mode
@@ -82,6 +84,7 @@ class BlockModes(_Modes):
         # int chi w' and int chi' w, chi being the edge's hat function, and the value beside it
         weights = [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
         self.edge_weights = self._alternating * np.array(weights)
+        self.level = self.cosine_amplitudes(np.ones(grid.n_x))
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Values of u_x at the nodes 1..n_x (last axis)."""
@@ -130,6 +133,7 @@ class PeriodModes(_Modes):
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
         super().__init__(grid, theta, np.where(theta == 0.0, grid.length, 0.0))
         self.norms[0] *= 2.0  # of the mean
+        self.level = np.append(1.0, np.zeros(grid.n_x - 1))
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
         """The mean, A and B."""

@@ -30,6 +30,10 @@ class Outcome(enum.StrEnum):
     AFTER_EVENT = "completed: the event and the time asked for after it are covered"
     STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
     TENSION = "failed: the interface came under tension, where the friction law has no meaning"
+    IMPOSSIBLE = (
+        "failed: the slip rate is none that elastic waves allow, or falls to nothing at once"
+    )
+    MOMENTUM = "failed: the body as a whole has a momentum that no load has given it"
     NOT_FINITE = "failed: a recorded value is not finite"
 
     INTERRUPTED = "interrupted: what had been recorded until then"

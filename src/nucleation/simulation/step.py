@@ -22,12 +22,17 @@ from ..fem.operator import Forces, Operator
 from ..types import Array, Arrays
 from . import passes
 from .drive import Drive, Imposed
-from .interface import Interface, InterfaceSolution, Past
+from .event import Outcome
+from .interface import Interface, InterfaceSolution, NewtonFailure, Past
 from .stepping import BDF, Step
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
 SLIGHT_SLIP = 1e-2  # nor do those that slip by less than this part of D within the step
+INERT = 1e-8  # ``s`` times a crossing squared below which inertia is lost in the stiffness
+UNBALANCED = 1e-8  # force on a body as a whole over those on its nodes: above round-off
+IMPOSSIBLE = 10.0  # times what radiation allows: stress concentrations and reflections do not
+STOPPED = 1e-20  # part of the fastest slip rate that is left after a step that is too long
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,6 +163,7 @@ class Dynamics:
         state = self.in_form(state, condensed=follows)
         way = self._follow if follows else self._move
         solution, displacement, velocity = way(step, state, factors, w, solve)
+        self._require_possible(state, solution, imposed)
         newest, oldest = state.motions[0], state.motions[-1]
         factor_rates = step.body.rate(factors, newest.factors, oldest.factors)
         if follows:
@@ -181,14 +187,66 @@ class Dynamics:
         inertia = []  # the past part
         for c, past_motion in zip(step.body.past, state.motions, strict=False):
             inertia += [(c, past_motion.displacement), (c * step.body.beta, past_motion.velocity)]
+        s = self.inertia(step)
         load = self.load(state.time + step.length, factors)
-        load = self.body.inertia_load(step.s, inertia, load)
+        load = self.body.inertia_load(s, inertia, load)
         newest, oldest = state.motions[0], state.motions[-1]
         before = step.body.past, step.body.beta, newest.displacement, oldest.displacement
-        operator = self.operator(step.s)
+        operator = self.operator(s)
         response = operator.respond(load, w)
         solution = solve(operator, response)
-        return solution, *operator.balance(response, solution.w, before)
+        displacement, velocity = operator.balance(response, solution.w, before)
+        self._hold(s, solution, displacement, velocity, step.body.beta)
+        return solution, displacement, velocity
+
+    def inertia(self, step: Step) -> float:
+        """The weight (1/s^2) of inertia in a step: zero where a body that moves freely has none.
+
+        Held by its inertia alone, such a body would follow the round-off of its stiffness.
+        """
+        free = bool(self.body.translations)
+        return 0.0 if free and step.s * self.body.crossing_time**2 < INERT else step.s
+
+    def _hold(
+        self,
+        s: float,
+        solution: InterfaceSolution,
+        displacement: Field,
+        velocity: Field,
+        beta: float,
+    ) -> None:
+        """Keep the centre of mass where nothing holds the body; its momentum is that of the loads.
+
+        All loads are in balance along these directions. Raises NewtonFailure if the step has given
+        the body a momentum beyond round-off.
+        """
+        for free in self.body.translations:
+            moved = free.of(displacement)
+            inertia = s * free.mass
+            forces = np.abs(solution.tangential).sum() + np.abs(solution.normal).sum()
+            scale = forces + inertia * np.abs(displacement.modes).max()
+            if inertia * abs(moved) > UNBALANCED * scale:
+                raise NewtonFailure("momentum that no load has given", Outcome.MOMENTUM)
+            free.taken_from(displacement, moved)
+            free.taken_from(velocity, moved / beta)
+
+    def _require_possible(
+        self, state: State, solution: InterfaceSolution, imposed: Imposed
+    ) -> None:
+        """Refuse slip that no balance of forces explains: the step is too long, or the run fails.
+
+        The normal stress, released within a passage of shear waves, moves the faces apart at the
+        stress over each impedance ``rho c_s``; friction bears less. No interface stops at once.
+        """
+        fastest = passes.largest(solution.slip_rate)
+        stress = abs(float(solution.normal.sum())) / self.grid.length
+        most = IMPOSSIBLE * (stress * self.body.admittance + abs(imposed.velocity))
+        if fastest > most:
+            reason = f"a slip rate of {fastest:.3g} m/s, where waves allow {most:.3g} m/s"
+            raise NewtonFailure(reason, Outcome.IMPOSSIBLE)
+        if fastest < STOPPED * passes.largest(state.past_slip_rates[0]):
+            reason = f"the slip rate falls to {fastest:.3g} m/s within a step"
+            raise NewtonFailure(reason, Outcome.IMPOSSIBLE)
 
     def _follow(
         self, step: Step, state: State, factors: Array, w: Array, solve: Solve
@@ -241,10 +299,9 @@ class Dynamics:
     ) -> State:
         """The state with the new values, and the past ones that the scheme still needs."""
         most = self.scheme.instants
-        slid = passes.largest(solution.w)
         motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
-            self.body.settled(motions, time - state.time, slid),
+            motions,
             _pushed(time, state.past_times, most),
             _pushed(solution.slip_rate, state.past_slip_rates, most),
             _pushed(solution.log_state, state.past_log_states, most),
