@@ -278,24 +278,23 @@ class Translation:
             part.edge[:] = sign * component * body.modes.has_edge
         inertia = body.inertia_load(1.0, [(1.0, unit)], body.zero_field())
         self.mass = body.work(inertia, unit)  # kg/m
-        used = np.flatnonzero(inertia.modes[:, component].any(axis=0))
-        self._used = slice(int(used[0]), int(used[-1]) + 1)
-        self._modes = self._of(unit).copy()
+        along_x = unit.modes[0, component]
+        self._row = along_x[: np.flatnonzero(along_x)[-1] + 1].copy()
+        self._signs = np.concatenate(
+            [np.full(layer.levels, sign) for layer, sign in zip(body.layers, signs, strict=True)]
+        )
         self._edge = unit.edge
-        weights = self._of(inertia) * body.modes.norms[self._used] / self.mass
-        self._weights = weights
+        weights = inertia.modes[:, component] * body.modes.norms / self.mass
+        self._weights = weights[:, : self._row.size].copy()
         self._edge_weights = inertia.edge / self.mass
-
-    def _of(self, field: Field) -> Array:
-        """A view of the amplitudes that a translation has, (levels, modes)."""
-        return field.modes[:, self._component, self._used]
 
     def of(self, field: Field) -> float:
         """The displacement (m) or velocity (m/s) of the centre of mass."""
-        of_modes = np.einsum("ij,ij->", self._weights, self._of(field))
+        modes = field.modes[:, self._component, : self._row.size]
+        of_modes = np.einsum("ij,ij->", self._weights, modes)
         return float(of_modes + self._edge_weights @ field.edge)
 
     def taken_from(self, field: Field, amount: float) -> None:
         """Subtract a translation (m, or m/s) from a field, in place."""
-        self._of(field)[:] -= amount * self._modes
+        kernels.translate(field.modes, self._component, -amount * self._signs, self._row)
         field.edge[:] -= amount * self._edge

@@ -251,3 +251,13 @@ def add_inertia(
     inertia_of_edge = products(stacked, near)[0]
     for j in range(levels):
         edge_out[j] = edge_load[j] + edge_mass * inertia_of_edge[j]
+
+
+@compiled_loop
+def translate(modes, component, by_level, row):
+    """Add ``by_level[j] row`` to the first modes of a component, in place."""
+    for j in range(by_level.size):
+        amount = by_level[j]
+        here = modes[j, component]
+        for m in range(row.size):
+            here[m] += amount * row[m]

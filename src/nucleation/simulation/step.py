@@ -223,12 +223,16 @@ class Dynamics:
         for free in self.body.translations:
             moved = free.of(displacement)
             inertia = s * free.mass
-            forces = np.abs(solution.tangential).sum() + np.abs(solution.normal).sum()
-            scale = forces + inertia * np.abs(displacement.modes).max()
-            if inertia * abs(moved) > UNBALANCED * scale:
+            if inertia * abs(moved) > UNBALANCED * self._forces(solution, displacement, inertia):
                 raise NewtonFailure("momentum that no load has given", Outcome.MOMENTUM)
             free.taken_from(displacement, moved)
             free.taken_from(velocity, moved / beta)
+
+    def _forces(self, solution: InterfaceSolution, displacement: Field, inertia: float) -> float:
+        """Forces (N/m) whose round-off may leave the body out of balance."""
+        largest = np.abs(displacement.modes[0]).max() + np.abs(displacement.modes[-1]).max()
+        nodal = np.abs(solution.tangential).sum() + np.abs(solution.normal).sum()
+        return float(nodal + inertia * largest)
 
     def _require_possible(
         self, state: State, solution: InterfaceSolution, imposed: Imposed
