@@ -34,49 +34,60 @@ WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which a and b count as constant
 WEAKENINGS = (0.1, 10.0)  # zeta/a that were tried
 DURATION = 1500.0  # over D/V, or over (a/zeta) D/V where that is shorter: slow slip must last it
-DISTURBANCES = np.geomspace(0.005, 0.02, 4)  # of log(phi) at the start, in the patch's middle
-LENGTHS = 10  # tried at once
-GUESS = 0.57  # L_run over L_c k_b/k_c: .45 to .62
-SHORTEST, LONGEST = 0.78, 2.0  # times the guess, of the lengths tried first
-SPACING = 1.06  # of them
-BRIEF, STRONGER = 0.2, 2.0  # times the duration and the disturbances, of the first search
-SOONER = 0.86  # times the shortest patch that runs away briefly: about the first that ever does
-PRECISION = 0.01  # relative, of L_run by the lengths and disturbances that are tried
-SHARP = 3  # lengths between those at which none and all disturbances run away: more are no use
-FEW = 0.3  # share of disturbances that may run away at the shortest length, or not at the longest
-SEARCHES = 4  # over as many ranges of lengths
-DEVIATIONS = 2.0  # standard errors that the stated error has
-LEAST_ERROR = 0.02  # relative, by the modes
+DISTURBANCES = 0.005, 0.02  # least and largest, of log(phi) at the start, in the patch's middle
+GUESS = 0.57  # L_run over L_c k_b/k_c: .4 to .62
+SHORTEST, LONGEST = 0.78, 2.0  # times the guess, of the lengths of the brief search
+SPACING, BRIEFLY = 1.06, (10, 2)  # of them; lengths and disturbances in it
+BRIEF, STRONGER = 0.2, 2.0  # times the duration and the disturbances, in it
+SOONER = 0.94  # times the length of which half the patches run away briefly: about L_run
+REACH, FIRST = 0.1, (16, 4)  # of log L to both sides of it; lengths and disturbances tried first
+CLOSE, LAST = 2.0, (6, 8)  # widths of the transition to both sides, tried last; as above
+INSIDE = 0.8  # share of what is tried to both sides in which L_run must lie
+SEARCHES = 6
+PRECISION = 0.005  # standard error of log L_run up to which the first are enough
+WIDTHS = (0.005, 0.05)  # of log L, between which that of the transition is sought
+ERROR = 0.01  # relative, over k_b/k_c: `python -m benchmarks.runaway` measures it
+LEAST_ERROR = 0.02  # relative
 
 
-class _Ladder(NamedTuple):
-    """Patches of rising length, and the times over D/V after which they run away."""
+class _Trials(NamedTuple):
+    """Patches of several lengths, and the times over D/V after which they run away."""
 
-    lengths: Array  # m
-    times: Array  # (length, disturbance)
+    lengths: Array  # m, (patch,)
+    times: Array  # (patch,)
 
-    def share(self, duration: float) -> Array:
-        """The share of the disturbances that run away in a time (D/V), of each length."""
-        return np.mean(self.times < duration, axis=1)
+    def ends(self) -> tuple[float, float]:
+        """Lengths (m): the last up to which none runs away, and the first from which all do.
 
-    def ends(self) -> tuple[int, int]:
-        """The last length up to which none runs away, or -1, and the first from which all do."""
-        share = self.share(np.inf)
-        some = np.append(share > 0.0, True)
-        not_all = np.append(True, share < 1.0)
-        return int(some.argmax()) - 1, int(np.flatnonzero(not_all)[-1])
-
-    def threshold(self, duration: float) -> tuple[float, float]:
-        """The mean of log L at which patches begin to run away, and its standard error.
-
-        Spearman's and Karber's estimate: none runs away below the lengths, and all do beyond.
+        They are 0 and inf if there is none.
         """
-        logs = np.log(self.lengths)
-        spacing = logs[1] - logs[0]
-        share = self.share(duration)
-        mean = logs[-1] + spacing * (0.5 - share.sum())
-        variance = np.sum(share * (1.0 - share)) / (self.times.shape[1] - 1) + 1.0 / 12.0
-        return float(mean), float(spacing * math.sqrt(variance))
+        runs = np.isfinite(self.times)
+        lasting = self.lengths[self.lengths < self.lengths[runs].min(initial=np.inf)]
+        running = self.lengths[self.lengths > self.lengths[~runs].max(initial=0.0)]
+        return lasting.max(initial=0.0), running.min(initial=np.inf)
+
+    def transition(self) -> tuple[float, float, float]:
+        """The log of the length of which half the patches run away, its width, and standard error.
+
+        Logistic regression: the share is ``1/(1 + exp(-(log L - middle)/width))``.
+        """
+        from scipy.optimize import minimize  # slow to load, and few processes need it
+
+        logs, runs = np.log(self.lengths), np.isfinite(self.times)
+
+        def unlikelihood(at: Array) -> float:
+            beyond = (logs - at[0]) / math.exp(at[1])
+            return float(np.sum(np.logaddexp(0.0, beyond) - runs * beyond))
+
+        narrow, wide = np.log(WIDTHS)
+        bounds = [(logs.min(), logs.max()), (narrow, wide)]
+        # from a middle: all run away that are longer, if as many as do are the longest
+        middle = np.quantile(logs, 1.0 - runs.mean())
+        found = minimize(unlikelihood, [middle, 0.5 * (narrow + wide)], bounds=bounds)
+        middle, width = found.x[0], math.exp(found.x[1])
+        share = 1.0 / (1.0 + np.exp((middle - logs) / width))
+        information = np.sum(share * (1.0 - share)) / width**2
+        return float(middle), width, float(information**-0.5)
 
 
 class _Search:
@@ -90,57 +101,60 @@ class _Search:
         _, a, zeta = patches.constants
         self.duration = DURATION * min(1.0, a / zeta)
 
-    def tried(self, lengths: Array, disturbances: Array, duration: float) -> _Ladder:
-        """Patches of rising length (m), followed for a time (D/V)."""
-        number = modes_that_resolve(self.cohesive, float(lengths[-1]))
-        times = lifetimes(self.patches, lengths, number, disturbances, duration)
-        return _Ladder(lengths, times)
+    def tried(self, lengths: Array, number: int, stronger: float, briefer: float) -> _Trials:
+        """Patches of rising length (m), each with a number of disturbances."""
+        disturbances = stronger * np.geomspace(*DISTURBANCES, number)
+        modes = modes_that_resolve(self.cohesive, float(lengths[-1]))
+        duration = briefer * self.duration
+        times = lifetimes(self.patches, lengths, modes, disturbances, duration)
+        return _Trials(np.repeat(lengths, len(disturbances)), times.ravel())
 
-    def bracketed(self) -> tuple[float, float]:
-        """Lengths (m) below which slow slip lasts, and from which it soon runs away."""
+    def brief(self) -> _Trials:
+        """Trials from lengths at which slow slip lasts to those at which it soon runs away."""
         low = max(self.stable, SHORTEST * self.guess)
-        rising: Array = SPACING ** np.arange(float(LENGTHS))
-        disturbances = STRONGER * DISTURBANCES[1::2]
+        number, disturbances = BRIEFLY
+        rising: Array = SPACING ** np.arange(float(number))
         while low < LONGEST * self.guess:
-            ladder = self.tried(low * rising, disturbances, BRIEF * self.duration)
-            none, every = ladder.ends()
-            if none < 0 and low > self.stable:
+            lengths = low * rising
+            trials = self.tried(lengths, disturbances, STRONGER, BRIEF)
+            none, every = trials.ends()
+            if none == 0.0 and low > self.stable:
                 low = max(self.stable, low / rising[-2])
-            elif every < LENGTHS:
-                sooner = SOONER * ladder.lengths[none + 1]
-                return max(self.stable, sooner), ladder.lengths[every]
+            elif every <= lengths[-1]:
+                return trials
             else:
-                low = ladder.lengths[max(none, LENGTHS // 2)]
+                low = max(none, lengths[number // 2])
         raise NoLength(
-            f"no slow slip of a patch up to {ladder.lengths[-1]:.4g} m runs away in "
+            f"no slow slip of a patch up to {lengths[-1]:.4g} m runs away in "
             f"{BRIEF * self.duration:g} D/V",
             BEYOND,
         )
 
-    def refined(self, low: float, high: float) -> _Ladder:
-        """Trials that begin between two lengths (m) and close in on where patches run away."""
+    def transition(self) -> float:
+        """The log of L_run (m), in the middle of the transition."""
+        around = self.brief().transition()[0] + math.log(SOONER)
+        reach, (number, disturbances) = REACH, FIRST
+        trials = _Trials(np.empty(0), np.empty(0))
         for _ in range(SEARCHES):
-            lengths = np.geomspace(low, high, LENGTHS)
-            ladder = self.tried(lengths, DISTURBANCES, self.duration)
-            none, every = ladder.ends()
-            first, last = ladder.share(self.duration)[[0, -1]]
-            if first > FEW and low > self.stable:
-                low = max(self.stable, SOONER * low)
-                high = lengths[min(every, LENGTHS - 1)]
-            elif last < 1.0 - FEW:
-                low = lengths[max(none, 0)]
-                high = high / SOONER
-            elif every - none > SHARP or ladder.threshold(self.duration)[1] < PRECISION:
-                return ladder
-            else:
-                low, high = lengths[max(none, 0)], lengths[min(every, LENGTHS - 1)]
-        raise NoLength(f"slow slip of a patch of {low:.4g} m has no clear end", UNKNOWN)
+            lengths = np.exp(around + np.linspace(-reach, reach, number))
+            more = self.tried(lengths, disturbances, 1.0, 1.0)
+            trials = _Trials(*map(np.append, trials, more))
+            middle, width, deviation = trials.transition()
+            if abs(middle - around) < INSIDE * reach:
+                if deviation < PRECISION or disturbances == LAST[1]:
+                    return middle
+                reach, (number, disturbances) = CLOSE * width, LAST
+            around = middle
+        length = math.exp(around)
+        raise NoLength(f"slow slip of a patch of {length:.4g} m has no clear end", UNKNOWN)
 
 
 def runaway_point(patches: Patches, critical: float) -> tuple[float, float]:
     """L_run (m) of one fault with L_c (m), and its relative error.
 
-    The error is that by the lengths and disturbances, by half the duration, and by the modes.
+    Slow slip is chaotic, so that one patch's lifetime depends on the last bits, and differs from
+    one processor to another. L_run is that of many patches. Its error is that of all faults with
+    the same k_b/k_c, by half and twice the duration, the modes and the disturbances.
     Raises NoLength if no patch is unstable or runs away, the creep opens the fault, or slow slip of
     such a fault was not tried.
     """
@@ -151,11 +165,9 @@ def runaway_point(patches: Patches, critical: float) -> tuple[float, float]:
             f"it was tried for zeta/a from {low:g} to {high:g}: zeta/a = {zeta / a:.3g}", UNKNOWN
         )
     search = _Search(patches, critical)
-    ladder = search.refined(*search.bracketed())
-    log_length, deviation = ladder.threshold(search.duration)
-    by_duration = log_length - ladder.threshold(0.5 * search.duration)[0]
-    error = math.hypot(DEVIATIONS * deviation, by_duration)
-    return math.exp(log_length), max(error, LEAST_ERROR)
+    log_length = search.transition()
+    fronts = search.cohesive * critical / (2.0 * math.pi)
+    return math.exp(log_length), max(ERROR * fronts, LEAST_ERROR)
 
 
 class Runaway(NamedTuple):

@@ -115,7 +115,7 @@ def lifetimes(
     stages = np.empty((ORDER + 2, *logs.shape))
     slow.rates(logs, stages[0])
     found = np.full(logs.shape[1:3], np.inf)
-    rows = np.arange(len(found))
+    place = np.indices(found.shape)
     time = np.zeros_like(found)
     step = np.full_like(found, FIRST_STEP)
     for _ in range(MOST_STEPS):
@@ -125,18 +125,21 @@ def lifetimes(
         np.copyto(stages[0], stages[-1], where=accepted[..., None])
         time = time + accepted * step
         fast = logs[0].max(axis=-1) > math.log(FAST)
-        found[rows] = np.minimum(found[rows], np.where(fast, time, np.inf))
+        found[*place] = np.where(fast, time, np.inf)
         lasting = ~fast & (time < duration)
         growth = 0.85 * (error + 1e-9) ** (-1.0 / ORDER)
         step = lasting * step * np.clip(growth, 0.2, 3.0)
-        kept = lasting.any(axis=1)
-        if not kept.any():
+        each = lasting.sum(axis=1)
+        if not each.any():
             return found
-        if not kept.all():
+        if not each.all() or each.max() < lasting.shape[1]:  # those that ended are dropped
+            (kept,) = np.nonzero(each)
+            order = np.argsort(~lasting[kept], axis=1, kind="stable")[:, : each.max()]
+            at = kept[:, None], order
             slow.stiffness, slow.steady = slow.stiffness[kept], slow.steady[kept]
-            rows, time, step = rows[kept], time[kept], step[kept]
-            logs = logs[:, kept]
-            stages = np.ascontiguousarray(stages[:, :, kept])
+            place, time, step = place[:, *at], time[at], step[at]
+            logs = np.ascontiguousarray(logs[:, *at])
+            stages = np.ascontiguousarray(stages[:, :, *at])
     raise NoLength(f"slow slip takes more than {MOST_STEPS} steps in {duration:g} D/V", UNKNOWN)
 
 
