@@ -110,6 +110,16 @@ class Evidence:
             raise Missing(f"The stability of the patch of {row['id']} was not computed")
         return float(self.patches[row["id"]]["stability_length"])
 
+    def with_rows(self, change: Callable[[Row], Row]) -> "Evidence":
+        """The same evidence with other rows; a change gets each row, and each realisation's."""
+
+        def changed(row: Row) -> Row:
+            return _LengthsRow(change(row), members=[change(run) for run in row["members"]])
+
+        other = dataclasses.replace(self)
+        vars(other)["_own"] = [changed(row) for row in self._own]  # in the place of the cached ones
+        return other
+
     @cached_property
     def _own(self) -> list[Row]:
         """The faults of all roles with the configuration's material, friction and loads.

@@ -5,18 +5,26 @@
 
 import itertools
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from nucleation.extraction.measures import BY_DEFINITION
+from nucleation.theory.closed_forms import thin_limit_length
+from nucleation.types import Array
 
 from ..configuration.roles import JUDGED, LONGER, PAPERS
 from ..tables.rows import Row
-from .evidence import Evidence, of_runs, on_both
+from .evidence import Evidence, mesh, of_runs, on_both
 from .friction import steady_extremes
-from .verdicts import Computation, Estimate, Missing, between
+from .theory import block
+from .verdicts import Computation, Estimate, Expected, Missing, Result, between, near_one, read
+
+LENGTHS = ("length", *BY_DEFINITION)
+"""Columns of lengths at the drop."""
 
 _SHOWN = 0.005  # m: height of Fig. S2
+_PRINTED_LENGTH = "0.15"  # m: of the paper at that height
 _INSET = 0.1  # m: height of Fig. 3's inset
 _RUPTURE = 0.1  # s after its event, by which a run contains the rupture
 
@@ -42,9 +50,88 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
     return rows
 
 
-def _height_dependence(evidence: Evidence, role: str) -> list[float]:
-    ratios = [row["length"] / row["critical_length"] for row in _heights(evidence, role)]
+def _agreement(evidence: Evidence) -> Result:
+    """L/L_c at the height of Figure S2 against the paper's own; those of all heights are counted.
+
+    The paper's range is its printed length's, over L_c by Table S1 and by the main text's friction.
+    """
+    printed = read({"number": _PRINTED_LENGTH})
+    by_text = block(evidence, _SHOWN)
+    f0, a, zeta = evidence.at_v
+    lengths = [
+        float(fault.critical_length())
+        for fault in (by_text, by_text.replace(friction=f0, a=a, zeta=zeta))
+    ]
+    value, low, high = (printed.value or 0.0) / lengths[0], printed.low / max(lengths), printed.high / min(lengths)
+    text = f"{value:.3g} ({low:.3g} to {high:.3g})"
+    expected = Expected("number", low, high, text, value)
+    shown = on_both(
+        lambda e, role: _with_range(e.row(role, "aging", _SHOWN), "length", lengths[0])
+    )(evidence)
+    assert isinstance(shown, Result)
+    return shown._replace(expected=expected, beside=_counted(evidence, "At all heights", _ratios))
+
+
+def _ratios(evidence: Evidence, role: str) -> list[float]:
+    """L/L_c at each height."""
+    return [row["length"] / row["critical_length"] for row in evidence.series(role)]
+
+
+def _of_heights(evidence: Evidence, role: str) -> list[float]:
+    """L at a height over that at a smaller one, over the theory's ratio."""
+    ratios = _ratios(evidence, role)
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
+
+
+def _counted(
+    evidence: Evidence, head: str, numbers: Callable[[Evidence, str], list[float]]
+) -> str:
+    """A sentence on how many numbers of each role are near one."""
+    sentence = f"{head} {near_one(numbers(evidence, JUDGED))}"
+    try:
+        papers = numbers(evidence, PAPERS)
+    except Missing:
+        return f"{sentence}."
+    return f"{sentence}; on {mesh(evidence.each(PAPERS))} {near_one(papers)}."
+
+
+def _miss(lengths: Array, curve: Array) -> float:
+    """Standard deviation of log(length/curve): the miss of a curve times the best factor."""
+    return float(np.std(np.log(lengths / curve)))
+
+
+def _misses(evidence: Evidence, role: str) -> dict[str, Array]:
+    """By how much each curve misses the lengths over height, by each definition of the length."""
+    rows = _heights(evidence, role)
+    heights = np.array([row["height"] for row in rows])
+    thin = thin_limit_length(heights, block(evidence, heights))
+    high = block(evidence, math.inf).critical_length()
+    curves = {
+        "the theory": np.array([row["critical_length"] for row in rows]),
+        "the square root of $H$": np.sqrt(heights),
+        "a constant": np.ones(heights.size),
+        "the shorter limit": np.minimum(thin, high),
+    }
+    by_definition = np.array([[row[name] for row in rows] for name in LENGTHS])
+    return {
+        name: np.array([_miss(lengths, curve) for lengths in by_definition])
+        for name, curve in curves.items()
+    }
+
+
+def _miss_over_others(evidence: Evidence, role: str) -> Estimate:
+    """The theory's miss over the least of the others."""
+    own, *others = _misses(evidence, role).values()
+    return between(*own / np.min(others, axis=0))
+
+
+def _height_dependence(evidence: Evidence) -> Result:
+    result = on_both(_miss_over_others)(evidence)
+    assert isinstance(result, Result)
+    misses = _misses(evidence, JUDGED).items()
+    listed = ", ".join(f"{name} by {100.0 * miss[0]:.2g} %" for name, miss in misses)
+    counted = _counted(evidence, "Of all pairs of heights", _of_heights)
+    return result._replace(beside=f"Lengths are missed by {listed}. {counted}")
 
 
 def _least_increase(evidence: Evidence, role: str) -> float:
@@ -54,7 +141,7 @@ def _least_increase(evidence: Evidence, role: str) -> float:
 
 def _relative_change(varied: Row, base: Row) -> Estimate:
     """Relative change of the length between two runs; its range is that of the definitions."""
-    changes = [varied[column] / base[column] - 1.0 for column in ("length", *BY_DEFINITION)]
+    changes = [varied[column] / base[column] - 1.0 for column in LENGTHS]
     return between(*changes)
 
 
@@ -144,12 +231,8 @@ def _shortest_step(evidence: Evidence) -> Estimate:
 NUMBERS: dict[str, Computation] = {
     "onset-time": _shown("onset_time"),
     "length-shown": _shown("length"),
-    "theory-agreement": on_both(
-        lambda e, role: [
-            _with_range(row, "length", row["critical_length"]) for row in e.series(role)
-        ]
-    ),
-    "height-dependence": on_both(_height_dependence),
+    "theory-agreement": _agreement,
+    "height-dependence": _height_dependence,
     "length-increases": on_both(_least_increase),
     "slip-law-low": _change_from_aging(0.01, "slip"),
     "slip-law-high": _change_from_aging(0.05, "slip"),

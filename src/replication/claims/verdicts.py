@@ -21,7 +21,7 @@ WIDEST_ALLOWANCE = 0.10
 """Our uncertainty widens the range of a printed number by at most this part of the number."""
 
 READINGS = (40, 33, 30, 25, 10)
-"""Differences from one (%) for which numbers are counted, where words are left to the reader."""
+"""Differences from one (%) for which numbers are counted beside words that are the reader's."""
 
 _WORDS = """
 perfect           |  0.98  | 1.02 | within 2 % of one
@@ -57,7 +57,7 @@ class Verdict(enum.StrEnum):
     GIVEN = "taken as given"
     WIDENED = "replicated within our uncertainty"
     EXPLAINED = "replicated with a deviation that is explained"
-    OPEN = "left to the reader"
+    NUMBER = "a number without a verdict"
     NOT_SUPPORTED = "not supported"
     NOT_REPLICATED = "not replicated"
     UNCHECKED = "cannot be checked"
@@ -77,8 +77,8 @@ Found = Any
 class Expected(NamedTuple):
     """The range of numbers that a statement of the paper allows.
 
-    Its kind is number, formula, bound, words or reading; `value` is the printed number or the
-    formula's. `chosen`: the reading of the words is our choice.
+    Its kind is number, formula, bound or words; `value` is the printed number or the formula's.
+    `chosen`: the reading of the words is our choice.
     """
 
     kind: str
@@ -94,6 +94,7 @@ class Result(NamedTuple):
 
     `expected` replaces that of the claim, `papers` are the numbers on the paper's mesh, which is
     `mesh` in words. `explained` has our number without the cause of a difference, and a sentence.
+    `beside` has sentences on other numbers, which do not decide.
     """
 
     found: Found
@@ -101,6 +102,7 @@ class Result(NamedTuple):
     papers: Found = None
     mesh: str = ""
     explained: tuple[Found, str] | None = None
+    beside: str = ""
 
 
 Computation = Callable[[Any], Found | Result]
@@ -138,8 +140,6 @@ def read(entry: Mapping[str, Any]) -> Expected:
             low, high, reading = WORDS[text]
             chosen = text not in REASONED
             return Expected("words", low, high, f"{text}: {reading}", chosen=chosen)
-        case {"reading": text}:
-            return Expected("reading", -math.inf, math.inf, text, 1.0)
     raise ValueError(f"expected = {entry} has no known kind")
 
 
@@ -183,17 +183,29 @@ def holds(expected: Expected, ours: Estimate) -> bool | None:
 
     Our uncertainty towards a printed number widens its range; otherwise ranges do not matter.
     """
-    value, least, most = ours
+    value, *_ = ours
     if math.isnan(value):
         return None
+    low, high = allowed(expected, ours)
+    if expected.kind in ("number", "formula"):
+        return low <= value <= high
+    return low < value < high
+
+
+def allowed(expected: Expected, ours: Estimate) -> tuple[float, float]:
+    """The ends of the range in which our number agrees with the statement."""
+    value, least, most = ours
     low, high = expected.low, expected.high
     if expected.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(expected.value or 0.0)
         low -= min(most - value, widest)
         high += min(value - least, widest)
-    if expected.kind in ("number", "formula"):
-        return low <= value <= high
-    return low < value < high
+    return low, high
+
+
+def nearest_end(expected: Expected, ours: Estimate) -> float:
+    """The value of our number at which it begins, or ceases, to agree with the statement."""
+    return min(allowed(expected, ours), key=lambda end: abs(end - ours[0]))
 
 
 def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
@@ -202,11 +214,6 @@ def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
     held = holds(expected, ours)
     if held is None:
         return Verdict.UNCHECKED, "A run has no such event."
-    if expected.kind == "reading":
-        reason = f"{_near_one(result.found).capitalize()}."
-        if result.papers is not None:
-            reason += f" On {result.mesh} {_near_one(result.papers)}."
-        return Verdict.OPEN, reason
     inside = expected.low <= ours[0] <= expected.high
     reason = _comparison(expected, ours, held, inside)
     if not held and result.explained is not None:
@@ -219,12 +226,13 @@ def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
         if same is not None:
             agrees = "holds as well" if held and same else "holds" if same else "does not hold"
             reason += f" On {result.mesh} it {agrees}, with {other[0]:.4g}."
+    reason = f"{reason} {result.beside}".rstrip()
     if held:
         return (Verdict.REPLICATED if inside else Verdict.WIDENED), reason
     return (Verdict.NOT_SUPPORTED if expected.chosen else Verdict.NOT_REPLICATED), reason
 
 
-def _near_one(found: Found) -> str:
+def near_one(found: Found) -> str:
     """How many of our numbers are within each difference from one."""
     differences = np.abs(_listed(found)[:, 0] - 1.0)
     if differences.size == 1:
@@ -244,7 +252,7 @@ def _comparison(expected: Expected, ours: Estimate, held: bool, inside: bool) ->
     if expected.kind == "number":
         widened = ", but by less than its own range" if held and not inside else ""
         where = "within" if inside else "outside"
-        return f"{value:.4g} is {where} {expected.low:g} to {expected.high:g}{widened}."
+        return f"{value:.4g} is {where} {expected.low:.4g} to {expected.high:.4g}{widened}."
     bound = expected.text.partition(": ")[2] or expected.text
     reason = f"{value:.4g} is {'' if held else 'not '}{bound}."
     nearest = min((expected.low, expected.high), key=lambda end: abs(end - value))
