@@ -36,7 +36,9 @@ def modes(name):
     """A table of modes with their rates on ``branch`` as well."""
     both = [table(name).to_dataframe().query("branch == @n").reset_index(drop=True) for n in (0, 1)]
     found = {column: ("run", both[0][column].to_numpy()) for column in both[0]}
-    rates = [f"{kind}_{part}" for kind in ("measured", "theory") for part in ("growth", "frequency")]
+    rates = [
+        f"{kind}_{part}" for kind in ("measured", "theory") for part in ("growth", "frequency")
+    ]
     for column in (*rates, "disagreement"):
         found[column] = ("run", "branch"), np.stack([own[column] for own in both], axis=1)
     del found["branch"]

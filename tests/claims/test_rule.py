@@ -17,6 +17,7 @@ from replication.claims.verdicts import (
     formula,
     holds,
     judge,
+    near_one,
     read,
 )
 from replication.claims.verdicts import worst as least_favourable
@@ -106,7 +107,6 @@ def test_words_are_intervals_with_a_reading():
         (formula(1.0), 0.9, 0.9, 0.9),
         (ABOVE, 0.9, 0.9, 1.05),
         (BELOW, 1.05, 0.9, 1.05),
-        (read({"reading": "good"}), 0.9, 0.9, 1.05),
     ],
 )
 def test_the_least_favourable_of_several_numbers_is_judged(expected, worst, low, high):
@@ -149,23 +149,20 @@ def test_verdicts(result, verdict, words_of_reason):
     assert set(REASONED) < set(WORDS)
 
 
-def test_a_word_that_is_left_to_the_reader_has_counts_and_no_verdict():
-    """It was read as within 40 %, made from the paper's own 0.64, which it can't fail."""
-    expected = read({"reading": "reasonably good"})
-    for found, counts in (
-        ([0.64, 0.72, 1.02], "3, 2, 2, 1, 1 of 3"),
-        ([0.1, 0.2], "0, 0, 0, 0, 0"),
-    ):
-        result = Result(found, papers=[0.8], mesh="its mesh")
-        verdict, reason = judge(expected, result)
-        assert verdict == Verdict.OPEN
-        assert f"Within 40, 33, 30, 25, 10 % of one are {counts}" in reason
-        assert "On its mesh the difference from one is 20 %." in reason
+def test_numbers_near_one_are_counted_beside_a_verdict():
+    """ "Reasonably good" was read as within 40 %, made from the paper's own 0.64."""
+    assert (
+        near_one([0.64, 0.72, 1.02]) == "within 40, 33, 30, 25, 10 % of one are 3, 2, 2, 1, 1 of 3"
+    )
+    assert near_one(0.8) == "the difference from one is 20 %"
+    verdict, reason = judge(THIRTEEN, Result(GOOD, beside="Others are 3."))
+    assert verdict == Verdict.REPLICATED and reason.endswith("13.5. Others are 3.")
 
 
 def made_up(monkeypatch, compute, expected=None, **more):
     monkeypatch.setitem(table.NUMBERS, "made-up", compute)
     entry = {"where": "", "statement": "It is 13.", "quotation": "$13$", "method": "", "unit": "s"}
+    entry["decided_by"] = "formula"
     if expected:
         entry["expected"] = expected
     return table.evaluate_one("made-up", entry | more, None)

@@ -145,7 +145,7 @@ def test_a_length_that_depends_on_the_height_decides_nothing(higher, left_out):
     assert row["verdict"] == ("cannot be checked" if left_out else "not supported")
     other = pairs.isel(run=slice(2, None))
     ids = "run", [f"other-{i}" for i in range(5)]
-    other = other.assign(length_ratio=0.5 * other["length_ratio"], ensemble=ids, id=ids)
+    other = other.assign(length_ratio=0.7 * other["length_ratio"], ensemble=ids, id=ids)
     other = other.assign(zeta_over_a=0.0 * other["zeta_over_a"] + 10.0)
     row = judged("pairs-smaller", xr.concat([pairs, taller, other], "run"))
     assert row["verdict"] == ("replicated" if left_out else "not supported")

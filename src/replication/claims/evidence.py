@@ -22,6 +22,9 @@ from .verdicts import Computation, Found, Missing, Result
 
 PAPERS_MESH = "the paper's mesh"
 _ELEMENTS = (400, 150)  # of the paper, along x and y
+MEASURED_STABILITY = "measured_stability_length"
+"""Column of a fault's row: the length (m) at which its simulated patch becomes unstable."""
+
 _ROUND_OFF = 1e-9  # relative difference of numbers that are equal
 
 
@@ -106,9 +109,9 @@ class Evidence:
 
     def stability_length(self, row: Row) -> float:
         """The length (m) at which the patch of a fault becomes unstable; Missing without it."""
-        if row["id"] not in self.patches:
+        if MEASURED_STABILITY not in row:
             raise Missing(f"The stability of the patch of {row['id']} was not computed")
-        return float(self.patches[row["id"]]["stability_length"])
+        return float(row[MEASURED_STABILITY])
 
     def with_rows(self, change: Callable[[Row], Row]) -> "Evidence":
         """The same evidence with other rows; a change gets each row, and each realisation's."""
@@ -133,6 +136,9 @@ class Evidence:
             for row, members in zip(faults, realisations(table), strict=True):
                 names = "evolution", "initial_state", "height"
                 own = self.base.replaced(**{name: row[name] for name in names})
+                if row["id"] in self.patches:
+                    patch = self.patches[row["id"]]
+                    row[MEASURED_STABILITY] = float(patch["stability_length"])
                 if row["fault"] == fault(own):
                     found.append(_LengthsRow(row, members=[runs[i] for i in members]))
         return found

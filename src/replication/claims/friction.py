@@ -9,6 +9,7 @@ from nucleation.model.friction.evolutions import aging, slip
 from nucleation.types import Array
 
 from ..tables.curves import logarithmic_friction
+from . import printed
 from .evidence import Evidence
 from .verdicts import Computation, Missing
 
@@ -62,7 +63,7 @@ def _friction_perturbation(evidence: Evidence) -> Array:
     rate = np.array([0.3 + 1j, 0.1 + 2j, 1j])
     state = -rate / (rate + 1.0)  # relative change of phi for a change of slip rate
     ours = a * rate + (a + zeta) * state
-    return np.abs(ours * (1.0 + rate) / (rate * (a * rate - zeta)) - 1.0)
+    return np.abs(ours / printed.friction_perturbation(rate, a, zeta) - 1.0)
 
 
 NUMBERS: dict[str, Computation] = {

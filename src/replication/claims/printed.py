@@ -30,6 +30,11 @@ def bimaterial_ratio(f_beta: float, z: float) -> float:
     return numerator / (2.0 * z)
 
 
+def friction_perturbation(rate: ComplexArray, a: float, zeta: float) -> ComplexArray:
+    """Change of friction by a slip of ell, for rates over V/ell (Eq. S-delta_f)."""
+    return rate * (a * rate - zeta) / (1.0 + rate)
+
+
 def strengthening_threshold(a: float, zeta: float) -> float:
     """The f beta from which sliding is unstable, for zeta < 0 (Sect. 4)."""
     return 2.0 * math.sqrt(-a * zeta) / (a + zeta)

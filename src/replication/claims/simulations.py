@@ -62,7 +62,11 @@ def _agreement(evidence: Evidence) -> Result:
         float(fault.critical_length())
         for fault in (by_text, by_text.replace(friction=f0, a=a, zeta=zeta))
     ]
-    value, low, high = (printed.value or 0.0) / lengths[0], printed.low / max(lengths), printed.high / min(lengths)
+    value, low, high = (
+        (printed.value or 0.0) / lengths[0],
+        printed.low / max(lengths),
+        printed.high / min(lengths),
+    )
     text = f"{value:.3g} ({low:.3g} to {high:.3g})"
     expected = Expected("number", low, high, text, value)
     shown = on_both(
@@ -83,9 +87,7 @@ def _of_heights(evidence: Evidence, role: str) -> list[float]:
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
-def _counted(
-    evidence: Evidence, head: str, numbers: Callable[[Evidence, str], list[float]]
-) -> str:
+def _counted(evidence: Evidence, head: str, numbers: Callable[[Evidence, str], list[float]]) -> str:
     """A sentence on how many numbers of each role are near one."""
     sentence = f"{head} {near_one(numbers(evidence, JUDGED))}"
     try:

@@ -19,8 +19,20 @@ from ..tables.lengths import lengths_table, over_realisations
 from ..tables.rows import Row, rows_of
 from . import friction, simulations, theory
 from . import pairs as of_two_bodies
+from .changes import CHANGES, FORMULA, least_change
 from .evidence import Evidence, caution, mesh, span
-from .verdicts import Computation, Missing, Result, Verdict, judge, read, worst
+from .verdicts import (
+    Computation,
+    Expected,
+    Missing,
+    Result,
+    Verdict,
+    holds,
+    judge,
+    nearest_end,
+    read,
+    worst,
+)
 
 Statements = Sequence[tuple[str, Iterable[tuple[str, Mapping[str, Any]]]]]
 """The entries of ``claims.yaml`` by subject and id, in pairs, which keep the paper's order."""
@@ -36,12 +48,16 @@ NUMBERS: dict[str, Computation] = {
 
 COLUMNS = (
     *("id", "subject", "where", "statement", "paper", "ours", "ours_low", "ours_high"),
-    *("on_papers_mesh", "unit", "verdict", "reason", "method"),
+    *("on_papers_mesh", "unit", "distance", "change", "verdict", "reason", "method"),
+)
+
+_SHOWN = (
+    *("where", "statement", "paper", "ours", "distance", "change", "method", "verdict", "reason"),
 )
 
 _HEADER = (
-    "| where | statement | paper | ours (range) | method | verdict | reason |",
-    "|---|---|---|---|---|---|---|",
+    "| where | statement | paper | ours (range) | distance | change | method | verdict | reason |",
+    "|---|---|---|---|---|---|---|---|---|",
 )
 
 
@@ -55,43 +71,70 @@ def evaluate(statements: Statements, evidence: Evidence | of_two_bodies.Tables) 
 
 
 def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
-    """The row of one claim."""
-    expected = read(entry["expected"]) if "expected" in entry else None
+    """The row of one claim.
+
+    `distance` is that of our number from the nearest one with another outcome, `change` the least
+    change of the evidence that has it, if simulations decide (docs/claims.md).
+    """
     note = entry.get("note", "")
-    row: Row = {"id": id, "ours": None, "uncertainty": None, "on_papers_mesh": None}
-    row |= {name: entry[name] for name in ("where", "statement", "method")}
+    row: Row = {name: entry[name] for name in ("where", "statement", "method")}
+    row |= {"id": id, "unit": entry.get("unit", "1"), "change": ""}
+    row |= dict.fromkeys(("ours", "uncertainty", "on_papers_mesh", "distance"))
+    stated = read(entry["expected"]) if "expected" in entry else None
     try:
         if entry["method"] == "none":
             raise Missing(note.rstrip("."))
-        found = NUMBERS[id](evidence)
+        expected, result = compared(id, entry, evidence)
     except Missing as missing:
-        verdict, reason = Verdict.UNCHECKED, f"{missing}."
-    else:
-        result = found if isinstance(found, Result) else Result(found)
-        expected = result.expected or expected
-        if expected is None:
-            raise ValueError(f"the claim {id} has nothing to compare with")
-        if entry.get("carried"):  # the paper says it of another problem
-            expected = expected._replace(chosen=True)
-        verdict, reason = judge(expected, result)
-        if entry.get("input"):  # the paper's or another
-            same = verdict is Verdict.REPLICATED
-            verdict = Verdict.GIVEN if same else Verdict.UNCHECKED
-            whose = " of the paper and of our runs" if same else ", and these runs have another"
-            reason = f"It is an input{whose}. {reason}"
-        reason = f"{reason} {note}".rstrip()
-        value, *ends = worst(expected, result.found)
-        if not math.isnan(value):
-            row |= {"ours": value, "uncertainty": ends}
-        if result.papers is not None:
-            other, *_ = worst(expected, result.papers)
-            row["on_papers_mesh"] = None if math.isnan(other) else other
-    return row | {
-        "paper": expected and expected.text,
-        "unit": entry.get("unit", "1"),
-        "verdict": str(verdict),
-        "reason": reason,
-    }
+        paper = stated and stated.text
+        return row | {"paper": paper, "verdict": str(Verdict.UNCHECKED), "reason": f"{missing}."}
+    verdict, reason = judge(expected, result)
+    ours = worst(expected, result.found)
+    if not math.isnan(ours[0]):
+        row |= {"ours": ours[0], "uncertainty": list(ours[1:])}
+        row["distance"] = nearest_end(expected, ours) - ours[0]
+    if result.papers is not None:
+        other, *_ = worst(expected, result.papers)
+        row["on_papers_mesh"] = None if math.isnan(other) else other
+    if verdict is not Verdict.UNCHECKED and entry["decided_by"] != FORMULA:
+        change = CHANGES[entry["decided_by"]]
+        amount = least_change(change, lambda e: outcome(id, entry, e), evidence)
+        if amount is not None:
+            row["change"] = change.text(amount)
+        elif outcome(id, entry, evidence):  # what fails by far has failed
+            verdict = Verdict.NUMBER
+            reason = (
+                f"{reason} But {change.text(change.reasonable)}, or as much less, changes nothing: "
+                "a statement with a number, or a bound nearer than that, would be a test."
+            )
+    if entry.get("input"):  # the paper's or another
+        same = verdict is Verdict.REPLICATED
+        verdict = Verdict.GIVEN if same else Verdict.UNCHECKED
+        whose = " of the paper and of our runs" if same else ", and these runs have another"
+        reason = f"It is an input{whose}. {reason}"
+    reason = f"{reason} {note}".rstrip()
+    return row | {"paper": expected.text, "verdict": str(verdict), "reason": reason}
+
+
+def compared(id: str, entry: Mapping[str, Any], evidence: Any) -> tuple[Expected, Result]:
+    """What a claim allows, and our result; raises Missing without one."""
+    found = NUMBERS[id](evidence)
+    result = found if isinstance(found, Result) else Result(found)
+    expected = result.expected or (read(entry["expected"]) if "expected" in entry else None)
+    if expected is None:
+        raise ValueError(f"the claim {id} has nothing to compare with")
+    if entry.get("carried"):  # the paper says it of another problem
+        expected = expected._replace(chosen=True)
+    return expected, result
+
+
+def outcome(id: str, entry: Mapping[str, Any], evidence: Any) -> bool | None:
+    """Whether a claim holds on some evidence; None without our number."""
+    try:
+        expected, result = compared(id, entry, evidence)
+    except Missing:
+        return None
+    return holds(expected, worst(expected, result.found))
 
 
 def counts(rows: Iterable[Row]) -> dict[str, int]:
@@ -112,9 +155,9 @@ def to_markdown(rows: list[Row]) -> str:
     summary = ", ".join(f"{number} {verdict}" for verdict, number in counts(rows).items())
     lines = [f"{len(rows)} claims: {summary}.", "", *_HEADER]
     for row in rows:
-        shown = row | {"paper": row["paper"] or "", "ours": number_text(row)}
-        names = "where", "statement", "paper", "ours", "method", "verdict", "reason"
-        lines.append("| " + " | ".join(escaped(shown[name]) for name in names) + " |")
+        distance = "" if row["distance"] is None else f"{row['distance']:+.2g}"
+        shown = row | {"paper": row["paper"] or "", "ours": number_text(row), "distance": distance}
+        lines.append("| " + " | ".join(escaped(shown[name]) for name in _SHOWN) + " |")
     return "\n".join(lines) + "\n"
 
 
