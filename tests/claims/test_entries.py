@@ -10,7 +10,16 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import ENTRIES, PAIRED, REFERENCE, ROOT, evaluated, evidence, judged
+from reference_evidence import (
+    ENTRIES,
+    PAIRED,
+    REFERENCE,
+    ROOT,
+    evaluated,
+    evidence,
+    judged,
+    of_role,
+)
 from reference_evidence import table as reference_table
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
@@ -211,6 +220,16 @@ def test_dependence_on_height_is_by_how_much_curves_miss_the_lengths(rows):
     others = np.sqrt(mine.height), 1.0 + 0.0 * mine.height, np.minimum(thin, high)
     least = min(missed(curve) for curve in others)
     assert row["ours"] == pytest.approx(missed(mine.critical_length) / least, rel=1e-3)
+
+
+@pytest.mark.parametrize("draw", range(20))
+def test_any_realisations_have_the_theorys_dependence_on_height(draw):
+    """One realisation of each height, drawn at random."""
+    table = of_role(reference_table("lengths.csv"), "converged")
+    few = table.to_dataframe().groupby("fault").sample(1, random_state=draw)
+    chosen = xr.Dataset({name: ("run", few[name].to_numpy()) for name in few})
+    row = judged("height-dependence", evidence(lengths=(chosen,)))
+    assert row["verdict"] == Verdict.REPLICATED and row["ours"] < 0.75
 
 
 def test_dependence_on_height_is_judged_at_all_heights():

@@ -15,7 +15,7 @@ from nucleation.types import Array
 
 from ..configuration.roles import JUDGED, LONGER, PAPERS
 from ..tables.rows import Row
-from .evidence import Evidence, mesh, of_runs, on_both
+from .evidence import Evidence, mesh, of_runs, on_both, span
 from .friction import steady_extremes
 from .theory import block
 from .verdicts import Computation, Estimate, Expected, Missing, Result, between, near_one, read
@@ -72,8 +72,9 @@ def _agreement(evidence: Evidence) -> Result:
     shown = on_both(
         lambda e, role: _with_range(e.row(role, "aging", _SHOWN), "length", lengths[0])
     )(evidence)
-    assert isinstance(shown, Result)
-    return shown._replace(expected=expected, beside=_counted(evidence, "At all heights", _ratios))
+    return shown._replace(
+        expected=expected, beside=_counted(evidence, r"$L/L_c$ at all heights", _ratios)
+    )
 
 
 def _ratios(evidence: Evidence, role: str) -> list[float]:
@@ -88,13 +89,18 @@ def _of_heights(evidence: Evidence, role: str) -> list[float]:
 
 
 def _counted(evidence: Evidence, head: str, numbers: Callable[[Evidence, str], list[float]]) -> str:
-    """A sentence on how many numbers of each role are near one."""
-    sentence = f"{head} {near_one(numbers(evidence, JUDGED))}"
+    """A sentence on the numbers of each role, and on how many are near one."""
+
+    def listed(role: str) -> str:
+        found = numbers(evidence, role)
+        return f"{span(found, '{:.3g}'.format)}, {near_one(found)}"
+
+    sentence = f"{head}: {listed(JUDGED)}"
     try:
-        papers = numbers(evidence, PAPERS)
+        papers = listed(PAPERS)
     except Missing:
         return f"{sentence}."
-    return f"{sentence}; on {mesh(evidence.each(PAPERS))} {near_one(papers)}."
+    return f"{sentence}; on {mesh(evidence.each(PAPERS))} {papers}."
 
 
 def _miss(lengths: Array, curve: Array) -> float:
@@ -129,10 +135,11 @@ def _miss_over_others(evidence: Evidence, role: str) -> Estimate:
 
 def _height_dependence(evidence: Evidence) -> Result:
     result = on_both(_miss_over_others)(evidence)
-    assert isinstance(result, Result)
     misses = _misses(evidence, JUDGED).items()
     listed = ", ".join(f"{name} by {100.0 * miss[0]:.2g} %" for name, miss in misses)
-    counted = _counted(evidence, "Of all pairs of heights", _of_heights)
+    counted = _counted(
+        evidence, r"$L/L_c$ at a height over that at a smaller one, all pairs", _of_heights
+    )
     return result._replace(beside=f"Lengths are missed by {listed}. {counted}")
 
 

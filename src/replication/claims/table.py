@@ -104,8 +104,8 @@ def evaluate_one(id: str, entry: Mapping[str, Any], evidence: Any) -> Row:
         elif outcome(id, entry, evidence):  # what fails by far has failed
             verdict = Verdict.NUMBER
             reason = (
-                f"{reason} But {change.text(change.reasonable)}, or as much less, changes nothing: "
-                "a statement with a number, or a bound nearer than that, would be a test."
+                f"{reason} It would hold as well with {change.text(change.reasonable)}, or as "
+                "much less, so it is no test of the runs: a number, or a nearer bound, would be."
             )
     if entry.get("input"):  # the paper's or another
         same = verdict is Verdict.REPLICATED
