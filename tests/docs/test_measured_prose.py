@@ -3,14 +3,18 @@
 Each test writes the words of the page with the numbers of today's tables, and looks for them there.
 """
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
 from asked import critical_length, stability_length
 from docs.prose import says, span, table
+from reference_evidence import evidence
 from thin_limit import thin_limit
 
 from nucleation.api import Friction
+from replication.claims.simulations import LENGTHS, misses
 
 SHOWN = 0.005  # m
 
@@ -90,21 +94,25 @@ def test_lengths_of_both_series(study):
 def test_agreement_with_the_theory():
     paper, declared = over_theory("paper"), over_theory("converged")
     own = 0.15 / of_study("paper", height=SHOWN)["critical_length"].iloc[0]
-    apart = {name: max_ratio(found) for name, found in (("d", declared), ("p", paper))}
     counts = [
         [int((found > least).sum()) for least in (0.6, 0.67, 0.7, 0.75)]
         for found in (paper, declared)
     ]
     assert counts == [[9, 7, 5, 2], [9, 9, 2, 0]]
+    papers = table("claims").set_index("id").loc["theory-agreement"].to_dict()
+    papers["paper"] = " to ".join(
+        f"{float(end):.2f}" for end in re.findall(r"\(([\d.]+) to ([\d.]+)\)", papers["paper"])[0]
+    )
+    assert papers["change"] == "lengths times 1.049"  # "5 % longer"
     rows = of_study("converged", evolution="aging", initial_state=1.0)
     wide = rows["length_high_start"] / rows["critical_length"]
     lowest = wide.groupby(rows["height"]).mean().min()
     says(
         "results.md",
-        f"$L/L_c$ is {span(paper)} on the paper's mesh and {span(declared)} declared, so the "
-        f"dependence on height agrees within {100 * (apart['p'] - 1):.0f} and "
-        f"{100 * (apart['d'] - 1):.0f} %.",
-        f"own 0.15 m is {own:.2f} of its theory",
+        f"$L/L_c$ is {span(paper)} on the paper's mesh and {span(declared)} declared.",
+        f"own 0.15 m is {own:.2f} of its theory ({papers['paper']}), and at that height ours is "
+        f"{float(papers['on_papers_mesh']):.2f} on its mesh and {papers['ours']:.2f} "
+        f"({papers['ours_low']:.2f} to {papers['ours_high']:.2f}) declared",
         "Of nine heights 9, 7, 5 and 2 are within 40, 33, 30 and 25 % of the theory on the paper's "
         "mesh, and 9, 9, 2 and none declared.",
         rf"With the edge at $0.5\,V$ the lowest is {lowest:.2f}.",
@@ -118,10 +126,32 @@ def test_agreement_with_the_theory():
     )
 
 
-def max_ratio(series):
-    """The largest ratio of a later to an earlier one of some numbers."""
-    values = series.to_numpy()
-    return max(values[j] / values[i] for j in range(values.size) for i in range(j))
+def test_dependence_on_height():
+    """Misses of the theory, the square root of H, a constant and the shorter limit, in per cent."""
+    declared, paper = (
+        dict(zip(LENGTHS, 100.0 * np.array([*misses(evidence(), role).values()]).T, strict=True))
+        for role in ("converged", "paper")
+    )
+    theory, root, constant, shorter = declared["length"]
+    high = [declared[f"length_high_{instant}"][[0, 3]] for instant in ("start", "steepest", "end")]
+    assert [own[0] > own[1] for own in high] == [True, True, False]
+    papers_theory, papers_root, *_ = paper["length"]
+    assert papers_root == min(paper["length"])
+    (first, second), (third, fourth), _ = high
+    says(
+        "results.md",
+        f"misses the declared lengths by {theory:.1f} %, $\\sqrt{{H}}$ by {root:.1f} %, the "
+        f"shorter of thin limit and half-spaces by {shorter:.1f} % and a constant by "
+        f"{constant:.0f} %",
+        f"at the drop's start ({first:.1f} and {second:.1f} %) or steepest part ({third:.1f} and "
+        f"{fourth:.1f} %) the shorter limit does",
+        f"it misses them by {papers_root:.1f} %, the theory by {papers_theory:.1f} %",
+    )
+    says(
+        "README.md",
+        f"describes the lengths over height within {theory:.0f} %",
+        f"$\\sqrt{{H}}$ does so ({papers_root:.1f} %; the theory {papers_theory:.1f} %)",
+    )
 
 
 def test_lengths_without_a_declared_perturbation():

@@ -108,7 +108,7 @@ def _miss(lengths: Array, curve: Array) -> float:
     return float(np.std(np.log(lengths / curve)))
 
 
-def _misses(evidence: Evidence, role: str) -> dict[str, Array]:
+def misses(evidence: Evidence, role: str) -> dict[str, Array]:
     """By how much each curve misses the lengths over height, by each definition of the length."""
     rows = _heights(evidence, role)
     heights = np.array([row["height"] for row in rows])
@@ -129,14 +129,14 @@ def _misses(evidence: Evidence, role: str) -> dict[str, Array]:
 
 def _miss_over_others(evidence: Evidence, role: str) -> Estimate:
     """The theory's miss over the least of the others."""
-    own, *others = _misses(evidence, role).values()
+    own, *others = misses(evidence, role).values()
     return between(*own / np.min(others, axis=0))
 
 
 def _height_dependence(evidence: Evidence) -> Result:
     result = on_both(_miss_over_others)(evidence)
-    misses = _misses(evidence, JUDGED).items()
-    listed = ", ".join(f"{name} by {100.0 * miss[0]:.2g} %" for name, miss in misses)
+    found = misses(evidence, JUDGED).items()
+    listed = ", ".join(f"{name} by {100.0 * miss[0]:.2g} %" for name, miss in found)
     counted = _counted(
         evidence, r"$L/L_c$ at a height over that at a smaller one, all pairs", _of_heights
     )
