@@ -89,13 +89,13 @@ FLIPS = {
 }
 """The change of its evidence that flips each verdict, of the order of the verdict's own margin."""
 
-NUMBERS = {
+NUMBERS = (
     "minimum-plays-no-role",
     "slip-rate-blows-up",
     "instability-faster-than-creep",
     "rupture-duration",
     "slow-creep",
-}
+)
 """Claims whose bound no reasonable change of the runs reaches."""
 
 
