@@ -7,7 +7,7 @@ import pytest
 import yaml
 from asked import critical_length, stability_length
 
-from nucleation.lengths.specimen import SPECIMEN
+from nucleation.answers.specimen import SPECIMEN
 from nucleation.model.quantities import declared
 from nucleation.model.units import parse
 from nucleation.theory.values import QUANTITIES

@@ -8,7 +8,7 @@ from asked import ROCK, weakening_patch_length
 
 from nucleation.api import Fault
 from nucleation.lengths import weakening_patch as patch_outcomes
-from nucleation.lengths.answer import process_zone
+from nucleation.answers.theory import process_zone
 from nucleation.lengths.weakening_patch import NO_WIDTH, OTHER_A, OTHER_B, patch_answer, simulated
 
 STATE_LENGTH = 40e9 * 5e-6 / (0.015 * 50e6)

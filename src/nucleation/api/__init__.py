@@ -39,7 +39,7 @@ from ..theory.status import NoLength
 
 _LATER = {
     "ExtractionSettings": "extraction.definitions",
-    "Lengths": "lengths.answer",
+    "Lengths": "answers.lengths",
     "Run": "run.run",
     "draw_samples": "lengths.draws",
     "extract": "extraction.extraction",

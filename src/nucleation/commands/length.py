@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..answers.answer import Answer
+from ..answers.drop import USUAL_STRENGTH
+from ..answers.lengths import MEANINGS, SYMBOLS, Lengths
 from ..lengths import formulas
-from ..lengths.answer import Answer
-from ..lengths.formulas import HALF_SPACES, TWO_MATERIALS, Length, of_two_materials
+from ..lengths.formulas import TWO_MATERIALS, Length, of_two_materials
 from ..lengths.in_use import LENGTHS
 from ..lengths.ranges import DRAWS, WEAKENING_RATE, parse_range
 from ..model.quantities import ParameterError, declarations, declared
@@ -41,9 +43,6 @@ _NO_LENGTH = {
 }
 """The beginning of a reason in place of a length, by the status."""
 
-_BEGINS = {"edge": "pushed at its edge", "remote": "begun in the interior"}
-"""Where the creeping patch begins, by ``--loading``."""
-
 _PERTURBED = declarations(Perturbation)
 _OF_PERTURBATION = {"perturbation": _PERTURBED["kind"], "strength": _PERTURBED["strength"]}
 """The perturbation of the length at the drop, the arguments of ``Fault.lengths``."""
@@ -57,20 +56,12 @@ _OF_PATCH = {
 }
 
 _NOTES = {
-    "perturbation": "of the length at the drop; normal_load if left out, none: without it",
-    "strength": "1e-4 if left out",
+    "perturbation": "until the patch runs away; normal_load if left out, none: without L",
+    "strength": f"{USUAL_STRENGTH:g} if left out",
     "outside_zeta": "of the surroundings of a weakening patch, for W_c and --width",
     "outside_a": "of the surroundings; that of the patch if left out",
     "width": "needs --outside-zeta",
 }
-
-_CREEPING = {
-    "stability_length": ("L_s", "it turns unstable"),
-    "runaway_length": ("L_run", "slow slip ends there, where friction weakens little"),
-    "drop_length": ("L", "the force drops (docs/drop.md)"),
-    "process_zone": ("L_pz", "process zone: a mesh has to resolve it"),
-}
-"""Symbol and meaning of the lengths of the creeping patch."""
 
 
 @click.command("length", epilog=EXIT_CODES)
@@ -79,18 +70,22 @@ _CREEPING = {
 @option(
     "weakening_rate",
     WEAKENING_RATE,
-    "of Uenishi and Rice's length; b sigma0/D if left out",
+    "of Uenishi and Rice's length, with --all; b sigma0/D if left out",
     parse_range,
 )
 @options_of(_OF_PATCH, _NOTES)
 @option("draws", DRAWS, "of uncertain parameters; default 200", default="200")
+@click.option("--all", "with_literature", is_flag=True, help="add the lengths of the literature")
 @json_option
-def command(as_json: bool, draws: int, **options: Any) -> int:
-    """Nucleation lengths of a fault: the theory's, the one at the drop, and others in use.
+def command(as_json: bool, with_literature: bool, draws: int, **options: Any) -> int:
+    """How long a slipping patch of a fault must grow before it runs away.
 
-    With --velocity and --friction it has L, at which the force drops under a perturbation. With a
-    range "5um (3 to 10)", the median and the quantiles of 5 and 95 %, it prints the quantiles of
-    each length; with L if --strength or --perturbation is given.
+    The patch begins where the fault is pushed at an edge. The answer L comes first, with the
+    lengths that it rests on: L_s, where the patch turns unstable, and L_c of a fault that slides
+    everywhere. L is one number with --friction; --velocity sets the unit of time.
+
+    With a range "5um (3 to 10)", the median and the quantiles of 5 and 95 %, it prints the
+    quantiles of each length; with L if --strength or --perturbation is given.
 
     Friction is f0 + a log(v/V) + b log(phi V/D) with NATURAL logarithms; zeta = b - a > 0 weakens.
 
@@ -128,26 +123,34 @@ def command(as_json: bool, draws: int, **options: Any) -> int:
         mode = _mode(fault)
     system = system_of_fault(fault, names, options["paper"])
     critical = found["critical_length"]
-    lines = wrapped(*system, "", "Theory of homogeneous sliding:")
+    with_literature = with_literature or options["weakening_rate"] is not None
+    lines = wrapped(found.sentence, *found.remarks, *system)
+    lines += ["", *_theory_lines(found)]
     if critical.exists:
-        lines += [*_mode_lines(fault, critical, mode), "", *_creep_lines(fault, found)]
-    else:
-        lines += wrapped(f"  no critical length: {critical.reason}")
-    lines += _literature_lines(fault, found)
+        lines += ["", "Homogeneous sliding:", *_mode_lines(fault, mode)]
     if patch:
         lines += _patch_lines(patch, of_patch["width"], critical.value)
+    if with_literature:
+        lines += _literature_lines(fault, found)
+    else:
+        lines += wrapped("", "Lengths of the literature: --all.")
     remark = f"{_moduli(fault)}, b = a + zeta, natural logarithms; all are full lengths"
     everything = {
+        "answer": found.sentence,
         "system": system,
         "parameters": parameters_of(fault),
         "mode": mode,
         "perturbation": perturbed,
         "weakening_patch": patch,
         "lengths": [
-            {"key": key, **answer._asdict(), **_WORDS.get(key, {"units": "m"})}
-            for key, answer in found.items()
+            {"key": key, **answer._asdict(), "units": "m"} for key, answer in found.items()
         ],
     }
+    if with_literature:
+        everything["literature"] = [
+            {"key": key, **answer._asdict(), **_WORDS[key]}
+            for key, answer in found.literature.items()
+        ]
     show(as_json, everything, [*lines, "", *wrapped(remark)])
     return DONE if critical.exists else CODE_OF_STABLE
 
@@ -184,16 +187,31 @@ def _moduli(fault: Fault) -> str:
     return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
 
 
-def _mode_lines(fault: Fault, critical: Answer, mode: Mapping[str, Any]) -> list[str]:
-    """Length, wavenumber and frequency of the critical mode."""
+def _theory_lines(found: Lengths) -> list[str]:
+    """L and the lengths that it rests on, with their ranges, and over L_c."""
+    critical = found["critical_length"].value
+    rows: list[Row] = []
+    for key, answer in found.items():
+        symbol = SYMBOLS[key]
+        if not answer.exists:
+            rows.append(f"  no {symbol}: {answer.reason}")
+            continue
+        span = f"{answer.value / critical:.3g} L_c" if math.isfinite(critical) else ""
+        if key != "stability_length" and answer.high > answer.low:
+            span += f" ({answer.low:.4g} to {answer.high:.4g} m)"
+        rows.append((symbol, f"{float(answer.value):.4g} m", span, MEANINGS[key]))
+    return table(rows)
+
+
+def _mode_lines(fault: Fault, mode: Mapping[str, Any]) -> list[str]:
+    """Wavenumber and frequency of the critical mode."""
     meaning = "angular frequency of the critical mode"
     frequency, unit = mode["critical_frequency"], "rad/s"
     if frequency is None:
         frequency, unit = mode["critical_frequency_over_rate"], "V/D"
         meaning += " (in rad/s with --velocity)"
     lines: list[Row] = [
-        ("L_c", f"{critical.value:.4g} m", "critical nucleation length, 2 pi/k_c"),
-        ("k_c", f"{mode['critical_wavenumber']:.4g} 1/m", "critical wavenumber"),
+        ("k_c", f"{mode['critical_wavenumber']:.4g} 1/m", "critical wavenumber, 2 pi/L_c"),
         ("omega", f"{frequency:.4g} {unit}", meaning),
     ]
     ratio = mode["speed_over_shear_wave"]
@@ -206,58 +224,37 @@ def _mode_lines(fault: Fault, critical: Answer, mode: Mapping[str, Any]) -> list
     return table(lines)
 
 
-def _creep_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
-    """L_s, L_run and L with their ranges."""
-    critical = found["critical_length"].value
-    rows: list[Row] = []
-    for key, (symbol, meaning) in _CREEPING.items():
-        answer = found.get(key)
-        if answer is None:
-            continue
-        if not answer.exists:
-            rows.append(f"  no {symbol}: {answer.reason}")
-            continue
-        span = f"{answer.value / critical:.3g} L_c"
-        if key != "stability_length" and answer.high > answer.low:
-            span += f" ({answer.low:.4g} to {answer.high:.4g} m)"
-        rows.append((symbol, f"{float(answer.value):.4g} m", span, meaning))
-        if answer.doubt:
-            rows.append(f"      DO NOT RELY ON IT: {answer.doubt}")
-    head = f"The creeping patch itself, {_BEGINS[fault.loading]} (docs/creeping_patch.md):"
-    return [*wrapped(head), *table(rows)]
-
-
-def _literature_lines(fault: Fault, found: Mapping[str, Answer]) -> list[str]:
+def _literature_lines(fault: Fault, found: Lengths) -> list[str]:
     """The lengths of the literature, by the systems for which they are: two materials first."""
     critical = found["critical_length"].value
     of_system: dict[str, list[Row]] = {}
     for length in LENGTHS:
-        if length.key in found:
-            rows = _length_rows(length, found[length.key], fault, critical)
+        if length.key in found.literature:
+            rows = _length_rows(length, found.literature[length.key], fault, critical)
             of_system.setdefault(length.system, []).extend(rows)
     lines = []
     for system in sorted(of_system, key=lambda system: system != TWO_MATERIALS):
-        lines += ["", *wrapped(f"Lengths in use, for {system}:"), *table(of_system[system])]
+        lines += ["", *wrapped(f"Lengths of the literature, for {system}:")]
+        lines += table(of_system[system])
     return lines
 
 
 def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) -> list[Row]:
-    """One length of the literature: value and formula, source, validity."""
+    """One length of the literature: value and formula, source, what it answers and for what."""
     value = float(answer.value)
-    text = f"{value:.4g} m"
-    ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
-    lowest = min(fault.single("height"), fault.single("second_height"))
-    validity = f"valid: {length.validity}"
-    if length.system in (HALF_SPACES, TWO_MATERIALS) and math.isfinite(lowest):
-        validity = f"for half-spaces (here H = {in_unit(lowest, 'm')}), {length.validity}"
-    if not math.isfinite(value):
-        text, ratio = "-", ""
-        validity = f"{_NO_LENGTH.get(str(answer.status), '')}{answer.reason}"
+    text, ratio = "-", ""
+    if answer.exists:
+        text = f"{value:.4g} m"
+        ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
     rows: list[Row] = [
         (length.title, text, ratio, length.formula),
         f"      {length.source}",
-        f"      {validity}",
+        f"      {length.question} {length.setting}",
     ]
+    if not answer.exists:
+        rows.append(f"      {_NO_LENGTH.get(str(answer.status), '')}{answer.reason}")
+    elif answer.doubt:
+        rows.append(f"      NOT THIS FAULT: {answer.doubt}")
     a, b = fault.a, fault.b
     if length.beyond and formulas.between_localised_and_crack(a, b):
         rows.append(f"      {length.beyond}")

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..answers.answer import Answer
+from ..answers.lengths import TITLES
 from ..fault import Fault
-from ..lengths.answer import TITLES, Answer
 from ..lengths.draws import QUANTILES, Draws, errors_of_quantiles, quantiles, with_never
 from ..theory.status import BEYOND, STABLE
 from . import DONE

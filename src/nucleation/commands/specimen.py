@@ -7,8 +7,9 @@ from typing import Any
 
 import click
 
-from ..lengths.answer import Answer, Lengths
-from ..lengths.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit
+from ..answers.answer import Answer
+from ..answers.lengths import Lengths
+from ..answers.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit
 from ..model.hints import RANGES
 from ..theory.status import STABLE as STABLE_SLIDING
 from ..theory.values import QUANTITIES

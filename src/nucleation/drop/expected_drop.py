@@ -12,7 +12,7 @@ from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import WEAK, Runaway, runaway_of
 from ..theory.status import VALUE, NoLength
 from .continued import trend
-from .delay import ClosedForm, Drop, growth
+from .delay import ClosedForm, Drop, Growth, growth
 from .mode_history import ModeHistory, mode_history
 
 LATEST_GROWTH = 0.85  # over the longest patch followed, up to which L_s leaves lengths for a trend
@@ -35,6 +35,8 @@ class ExpectedDrop(NamedTuple):
     """
 
     stability_length: float  # L_s
+    strength: float  # of the perturbation
+    growth: Growth  # of the oscillating mode
     law: Drop  # the law of the drop, which holds where the patch does not slip slowly
     closed_form: ClosedForm
     doubt: str  # why the answer is uncertain, empty if it is not
@@ -56,6 +58,10 @@ class ExpectedDrop(NamedTuple):
         """The largest expected length (m) at the drop."""
         later = max(LATER, self.runaway.error)
         return float(np.fmax(self.law.high, self.runaway.length * (1.0 + later)))
+
+    def at_strength(self, strength: float) -> Drop:
+        """The law of the drop at another strength of the perturbation."""
+        return self.growth.drop(strength)
 
     @property
     def slips_slowly(self) -> bool:
@@ -86,6 +92,8 @@ def expected_drop(
     _, a, zeta = patches.constants
     known = ExpectedDrop(
         stability_length=stable,
+        strength=declared.strength,
+        growth=found,
         law=found.drop(declared.strength),
         closed_form=found.closed_form(history, declared.strength),
         doubt="",

@@ -25,8 +25,8 @@ from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_
 from .flat import flat, keywords, read_parameters
 
 if TYPE_CHECKING:
-    from ..lengths.answer import Lengths
-    from ..lengths.specimen import Fit
+    from ..answers.lengths import Lengths
+    from ..answers.specimen import Fit
 
 _MISSING: Any = None
 """The default of parameters without one, so that an error can name all that are missing."""
@@ -330,21 +330,20 @@ class Fault:
     def lengths(
         self,
         perturbation: str = "normal_load",
-        strength: float = 1e-4,
+        strength: float | None = None,
         *,
         correlation_time: float = 1.0,
         correlation_length: float | None = None,
         weakening_rate: Values | None = None,
     ) -> Lengths:
-        """All nucleation lengths, each with value, range, status, reason and doubt.
+        """The length at which the patch runs away, and those that it rests on, with their ranges.
 
         Parameters
         ----------
         perturbation : {"normal_load", "drive_velocity", "strength", "state", "none"}
-            Of the length at the drop L; with "none" L_run and L are left out, which take a second
-            for each fault.
-        strength : float
-            Its relative strength.
+            What fluctuates, until the patch runs away; with "none" L and L_run are left out.
+        strength : float, optional
+            Its relative strength (standard deviation); 1e-4 by default.
         correlation_time : float
             Over D/V.
         correlation_length : float, optional
@@ -355,22 +354,40 @@ class Fault:
         Returns
         -------
         Lengths
-            By key: ``critical_length`` L_c, ``stability_length`` L_s, ``runaway_length`` L_run,
-            ``drop_length`` L, ``process_zone``, and those of the literature. ``dataset()`` makes a
-            Dataset of it.
+            By key: ``drop_length`` L, at which the patch runs away, ``stability_length`` L_s,
+            ``critical_length`` L_c, ``runaway_length`` L_run and ``process_zone``. Its ``sentence``
+            is the answer in words, ``literature`` has the lengths of the literature, and
+            ``dataset()`` makes a Dataset of it.
+
+        Examples
+        --------
+        >>> granite = Fault(
+        ...     shear_modulus="30GPa", poisson_ratio=0.25, normal_stress="50MPa",
+        ...     a=0.010, b=0.015, slip_distance="5um",
+        ... )
+        >>> granite.lengths()["stability_length"].value.round(2)
+        1.95
         """
-        from ..lengths import answer
+        from ..answers.lengths import lengths_of
 
-        found = answer.answers_of_theory(self)
-        if perturbation != "none":
-            from ..drop.answer import answers_of_drop
+        if perturbation == "none":
+            return lengths_of(self, None, weakening_rate)
+        if correlation_length is None and perturbation in ALONG_X:
+            correlation_length = roughness_length(self, self.single("b"))
+        scale = 1.0 if correlation_length is None else correlation_length
+        given = 0.0 if strength is None else strength
+        declared = Perturbation(perturbation, given, correlation_time, scale)
+        return lengths_of(self, declared, weakening_rate)
 
-            if correlation_length is None and perturbation in ALONG_X:
-                correlation_length = roughness_length(self, self.single("b"))
-            scale = 1.0 if correlation_length is None else correlation_length
-            declared = Perturbation(perturbation, strength, correlation_time, scale)
-            found |= answers_of_drop(self, declared)
-        return answer.Lengths(found | answer.answers_of_literature(self, weakening_rate))
+    def literature(self, weakening_rate: Values | None = None) -> Lengths:
+        """The lengths of the literature alone, closed forms; W (Pa/m) is of Uenishi and Rice's.
+
+        The ``doubt`` of each names how this fault differs from the setting of the length.
+        """
+        from ..answers.lengths import Lengths
+        from ..answers.literature import answers_of_literature
+
+        return Lengths(answers_of_literature(self, weakening_rate))
 
     def specimen(
         self,
@@ -398,7 +415,7 @@ class Fault:
         Fit
 
         """
-        from ..lengths.specimen import specimen_fit
+        from ..answers.specimen import specimen_fit
 
         return specimen_fit(self, unknown, length, criterion, within)
 

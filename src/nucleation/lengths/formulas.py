@@ -130,13 +130,16 @@ def nan0(values: Numbers) -> Numbers:
 
 @dataclasses.dataclass(frozen=True)
 class Length:
-    """One length of the literature, in words and as a function."""
+    """One length of the literature, in words and as a function; a full length (m)."""
 
     key: str
     title: str
     formula: str
     source: str
-    validity: str
+    question: str
+    """What it answers."""
+    setting: str
+    """For which friction and creep, in words."""
     compute: Callable[[Any], Numbers]
     """The length (m) from a Setting."""
     needs: str = "zeta > 0"
@@ -144,6 +147,8 @@ class Length:
     beyond: str = ""
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
+    evolution: str | None = None
+    """The evolution of the state for which it is; None for either."""
 
     def evaluate(self, fault: FaultLike, weakening_rate: Numbers) -> Numbers:
         """The length (m) of a fault, NaN outside the validity; W in Pa/m."""
@@ -178,15 +183,37 @@ class Length:
             key=f"{self.key}_two_materials",
             formula=self.formula.replace("mu*", "M"),
             source=f"{self.source}; M of Aldam et al. (2017), Eq. (8)",
-            validity=f"{self.validity}; normal stress hardly changed by slip",
+            setting=f"{self.setting}; normal stress hardly changed by slip",
             system=TWO_MATERIALS,
             needs=f"{self.needs} and f |beta| < {NEGLIGIBLE}",
         )
 
     def words(self) -> dict[str, str]:
         """Unit, title, formula, source, validity, system and condition, as attributes."""
-        names = ("title", "formula", "source", "validity", "system", "needs", "beyond")
+        names = ("title", "formula", "source", "question", "setting", "system", "needs", "beyond")
         return {"units": "m"} | {name: getattr(self, name) for name in names}
+
+    def unlike(self, fault: FaultLike, height: float, second_height: float, differs: bool) -> str:
+        """How one fault differs from the bodies and the law for which the length is.
+
+        Heights are in m; `differs` is whether the bodies are of two materials.
+        """
+        lowest = min(height, second_height)
+        found = []
+        if fault.zone_thickness is not None:
+            found.append("bodies without a zone: here there is one")
+        if self.system == RIGID_BASE:
+            if np.any(np.isfinite(fault.second_shear_modulus)):
+                found.append("a rigid base: here the second body is deformable")
+            if fault.far_side not in ("traction", "free"):
+                found.append(f"a free far side: here it is {fault.far_side}")
+        elif math.isfinite(lowest):
+            found.append(f"half-spaces: here H = {lowest:.4g} m")
+        if differs and self.system == HALF_SPACES:
+            found.append("bodies of one material: here they differ")
+        if self.evolution not in (None, fault.evolution):
+            found.append(f"the {self.evolution} law: here it is the {fault.evolution} law")
+        return f"for {'; for '.join(found)}" if found else ""
 
 
 def of_two_materials(fault: FaultLike) -> tuple[Numbers, Numbers]:

@@ -45,7 +45,8 @@ _OF_ONE_MATERIAL = (
         title="homogeneous sliding",
         formula="pi mu* D/(zeta sigma0)",
         source="Rice and Ruina (1983); Aldam et al. (2017), Eq. (6)",
-        validity=_STEADY,
+        question="above which wavelength is steady sliding unstable?",
+        setting=_STEADY,
         compute=lambda s: s.plane(math.pi),
     ),
     Length(
@@ -53,7 +54,8 @@ _OF_ONE_MATERIAL = (
         title="Rice-Ruina h*",
         formula="(pi/4) mu* D/(zeta sigma0)",
         source="Rice and Ruina (1983); Lapusta and Liu (2009)",
-        validity=f"{_STEADY}; a spring block at K_c",
+        question="how large may a patch that moves like one spring block be?",
+        setting=_STEADY,
         compute=lambda s: s.plane(0.25 * math.pi),
     ),
     *(
@@ -62,7 +64,8 @@ _OF_ONE_MATERIAL = (
             title=f"conventional, eta = {words}",
             formula="eta mu D/(zeta sigma0)",
             source="Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
-            validity=f"{_STEADY}; {end} of the crack models",
+            question="what does a spring block as stiff as a crack estimate?",
+            setting=f"{_STEADY}; {end} of the crack models",
             compute=methodcaller("conventional", eta),
         )
         for end, words, eta in zip(
@@ -74,7 +77,8 @@ _OF_ONE_MATERIAL = (
         title="state evolution L_b",
         formula="mu* D/(b sigma0)",
         source="Dieterich (1992); Rubin and Ampuero (2005)",
-        validity="far above steady state; a mesh has to resolve it",
+        question="over which length does friction fall behind a front?",
+        setting="far above steady state",
         needs="b > 0",
         compute=Setting.state_evolution,
     ),
@@ -83,9 +87,11 @@ _OF_ONE_MATERIAL = (
         title="Rubin-Ampuero, fixed length",
         formula="2 x 1.3774 mu* D/(b sigma0)",
         source="Rubin and Ampuero (2005), 2 L_nu",
-        validity="aging law, far above steady state; a/b < 0.3781",
+        question="how long is a patch that accelerates?",
+        setting="aging law, far above steady state; a/b < 0.3781",
         needs=f"a/b < {formulas.LOCALISED_LIMIT}",
         beyond=_GAP,
+        evolution="aging",
         compute=lambda s: valid(
             s.a < formulas.LOCALISED_LIMIT * s.b, formulas.LOCALISED_FACTOR * s.state_evolution()
         ),
@@ -95,9 +101,11 @@ _OF_ONE_MATERIAL = (
         title="Rubin-Ampuero, expanding",
         formula="(2/pi) mu* b D/[(b - a)^2 sigma0]",
         source="Rubin and Ampuero (2005), 2 L_infinity",
-        validity="aging law, crack-like expansion; 1/2 < a/b < 1",
+        question="how long does a patch that accelerates become as it expands?",
+        setting="aging law, crack-like expansion; 1/2 < a/b < 1",
         needs="1/2 < a/b < 1",
         beyond=_GAP,
+        evolution="aging",
         compute=_crack,
     ),
     Length(
@@ -105,7 +113,8 @@ _OF_ONE_MATERIAL = (
         title="Uenishi-Rice",
         formula="1.158 mu*/W, W = b sigma0/D unless given",
         source="Uenishi and Rice (2003)",
-        validity="strength falls linearly with slip, without direct effect",
+        question="when is a patch unstable whose strength falls by W per slip?",
+        setting="strength falls linearly with slip, without direct effect",
         needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
         compute=lambda s: valid(
             s.weakening_rate > 0.0, formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
@@ -117,8 +126,8 @@ _OF_ONE_MATERIAL = (
         formula="1.158 mu* D/(zeta sigma0)",
         source="Viesca and Garagash (2025), first scenario, by our derivation; "
         "Uenishi and Rice (2003)",
-        validity="patch in steady creep, in surroundings that creep at V; else W_c by "
-        "--outside-zeta",
+        question="how long may a patch of fixed length be among surroundings that creep at V?",
+        setting="patch in steady creep, rigid surroundings; else W_c, by --outside-zeta",
         compute=lambda s: s.plane(formulas.FINITE_PATCH),
     ),
     Length(
@@ -126,7 +135,8 @@ _OF_ONE_MATERIAL = (
         title="pinned patch, steady load",
         formula="C(a/b) mu* D/(zeta sigma0)",
         source="Viesca and Garagash (2025), second scenario, by our computation of C",
-        validity="velocity weakening, patch of fixed length under a rising load, either law",
+        question="how long may a patch of fixed length be between stuck ends under a rising load?",
+        setting="velocity weakening, either law",
         needs=f"0 < a/b < {NEAREST}",
         compute=_loaded_patch,
     ),
@@ -135,7 +145,8 @@ _OF_ONE_MATERIAL = (
         title="thin layer, Hk -> 0",
         formula="2 pi sqrt[2 mu* H D/(zeta sigma0)]",
         source="Aldam et al. (2017), Eq. (11)",
-        validity=f"{_STEADY}; 2 pi H/L << 1",
+        question="above which wavelength is steady sliding unstable?",
+        setting=f"{_STEADY}; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"zeta > 0 and 2 pi H/L < {formulas.THIN}",
         compute=lambda s: s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi),
@@ -145,9 +156,11 @@ _OF_ONE_MATERIAL = (
         title="thin layer, aging law",
         formula="2 pi sqrt[2 mu* H D/(b sigma0)]",
         source="Viesca (2016)",
-        validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
+        question="how long is a patch that accelerates?",
+        setting="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
+        evolution="aging",
         compute=lambda s: s.thin(2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution())),
     ),
 )

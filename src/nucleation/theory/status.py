@@ -1,10 +1,13 @@
 """Why there is no length: the words that answers of all kinds share.
 
-A length that is NaN has one of three statuses beside it, and a reason in words.
+A length that is NaN has one of four statuses beside it, and a reason in words.
 """
 
 VALUE = "value"
 """There is a length."""
+
+BETWEEN = "between"
+"""The length is between the ends of its range; the reason says what would make it one number."""
 
 STABLE = "stable"
 """Sliding is stable: no patch of any length nucleates."""

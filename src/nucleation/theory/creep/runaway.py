@@ -207,7 +207,7 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """L_run (m), its relative error, its status and the reason for it, of each fault.
 
     With a velocity and f it is that of the friction law, else of constant a and b: that one
-    :func:`nucleation.drop.answer.answers_of_drop` leaves out, since it takes a second.
+    :func:`nucleation.answers.drop.run_away` leaves out, since it takes a second.
     """
     known = fault.velocity is not None and fault.friction is not None
 

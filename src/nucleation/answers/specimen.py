@@ -12,7 +12,7 @@ from ..model.settings import Block
 from ..theory.status import BEYOND, VALUE
 from ..theory.values import QUANTITIES, FaultLike, Values, checked, numbers_of
 from ..types import Array
-from .answer import answers_of_theory
+from . import theory
 
 UNKNOWNS = Quantity(
     "parameter to find", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"
@@ -113,7 +113,7 @@ def specimen_fit(
         reason = _of_shortest(criterion, found, values, unknown)
     elif not intervals:
         middle = fault.replace(**{unknown: values[values.size // 2]})
-        answer = answers_of_theory(middle)[CRITERIA[criterion]]
+        answer = getattr(theory, CRITERIA[criterion])(middle)
         status, reason = str(answer.status), str(answer.reason)
     unit = QUANTITIES[unknown].unit
     return Fit(unknown, unit, intervals, (low, high), exists, status, reason)
