@@ -56,8 +56,9 @@ def specimen_fit(unknown, length, criterion="critical", within=None, **fault):
 
 
 def lengths(weakening_rate=None, **fault):
-    """All lengths but L_run and L."""
-    return Fault(**fault).lengths("none", weakening_rate=weakening_rate)
+    """All lengths but L_run and L, those of the literature too."""
+    found = Fault(**fault).lengths("none", weakening_rate=weakening_rate)
+    return type(found)(found | found.literature)
 
 
 def lengths_in_use(weakening_rate=None, **fault):

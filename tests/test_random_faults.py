@@ -108,8 +108,8 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
             assert np.isclose(ends, given["slip_distance"], rtol=1e-5).any() or not ends.size
         stable = float(fault.replace(loading=loading).stability_length())
     assert math.isnan(stable) or 0.05 * critical < stable < 1.2 * LONGEST * critical
-    assert found["homogeneous_sliding"].value > 0.0
-    for answer in found.values():
+    assert found.literature["homogeneous_sliding"].value > 0.0
+    for answer in (*found.values(), *found.literature.values()):
         assert answer.exists == (answer.status == "value") == (answer.reason == "")
         assert not answer.exists or 0.0 < answer.low <= answer.value <= answer.high
     stability = found["stability_length"]
@@ -128,10 +128,12 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
         flat["second_body"] = "rigid"
     words = [w for k, x in flat.items() for w in (f"--{k.replace('_', '-')}", option(x))]
     perturbed = ["--strength", "1e-5"] if number % 15 == 5 else ["--perturbation", "none"]
-    code = commands.run(["length", *words, *perturbed, "--json"])
+    code = commands.run(["length", *words, *perturbed, "--all", "--json"])
     ended = capsys.readouterr()
     assert code == (0 if found["critical_length"].exists else 3), ended.err
-    told = {entry["key"]: entry for entry in json.loads(ended.out)["lengths"]}
+    told = json.loads(ended.out)
+    told = {entry["key"]: entry for entry in (*told["lengths"], *told["literature"])}
+    found = found | found.literature
     assert found.keys() - told.keys() <= {"runaway_length", "drop_length"}
     for key, entry in told.items():
         assert entry["value"] == (found[key].value if found[key].exists else None), key

@@ -230,7 +230,7 @@ def test_rubin_and_ampueros_length_is_the_one_that_the_note_has():
     on = evidence()
     _, a, zeta = on.friction.expansion(on.velocity)
     fault = theory.main_text(on, a=a, zeta=zeta)
-    found = fault.lengths()["rubin_ampuero_localised"].value
+    found = fault.literature()["rubin_ampuero_localised"].value
     scale = fault.shear_modulus * fault.slip_distance / (fault.zeta * fault.normal_stress)
     assert found / scale > 4.0 / 3.0
     assert rf"$\eta = {found / scale:.2f}$" in judged("literature-eta", on)["reason"]

@@ -44,3 +44,13 @@ class Answer(NamedTuple):
 
 
 FIELDS = len(Answer._fields)
+
+
+def short(strength: float) -> str:
+    """A relative strength as people write it.
+
+    >>> short(1e-4), short(0.03)
+    ('1e-4', '3e-2')
+    """
+    digits, power = f"{strength:.15e}".split("e")
+    return f"{float(digits):g}e{int(power)}"

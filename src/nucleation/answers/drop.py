@@ -19,9 +19,9 @@ from ..model.settings import Perturbation
 from ..theory.creep.patches import Patches
 from ..theory.critical import at_each
 from ..theory.spectrum import Systems
-from ..theory.status import BETWEEN, BEYOND, EDGE_ALONE, UNKNOWN, VALUE, NoLength
+from ..theory.status import BETWEEN, BEYOND, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike
-from .answer import FIELDS, Answer
+from .answer import FIELDS, Answer, short
 
 if TYPE_CHECKING:
     from ..drop.expected_drop import ExpectedDrop
@@ -35,6 +35,8 @@ STRENGTHS = (1e-7, 1e-2)
 
 USUAL_STRENGTH = 1e-4
 """Relative noise if none is given."""
+
+_REMOTE = "under a load from afar it depends on the weak spot where the patch begins"
 
 _ALIKE = 1.02
 """Ratio of lengths up to which they are one number: L_run is known to 2 %."""
@@ -53,7 +55,7 @@ def run_away(fault: FaultLike, declared: Perturbation | None, usual: Perturbatio
         one: Systems, critical: float, velocity: float, distance: float, age: float
     ) -> tuple[object, ...]:
         if fault.loading != "edge":
-            none = Answer.none(UNKNOWN, EDGE_ALONE)
+            none = Answer.none(UNKNOWN, _REMOTE)
             return *none, *none
         if math.isnan(velocity) and not math.isnan(age):
             none = Answer.none(UNKNOWN, "needs velocity: the age of the interface is in seconds")
@@ -116,16 +118,18 @@ class _Known:
             )
             low = min(shortest.low, longest.low)
             high = max(shortest.high, longest.high)
-            return longest._replace(low=low, high=high, basis=basis), runaway
+            return shortest._replace(low=low, high=high, basis=basis), runaway
         from ..theory.creep.lengths import stability_length_of
 
         low = stability_length_of(self.patches, self.critical)
         if shortest.exists:
             low = min(low, shortest.low)
-        noise = f"noise of {loud.strength:g} to {faint.strength:g}"
+        noise = ""
+        if declared is None:
+            noise = f"on the noise (here {short(faint.strength)} to {short(loud.strength)}), and "
         reason = (
-            f"it depends on the noise ({noise}) and on the friction coefficient ({slick:g} to "
-            f"{rough:g}), which sets how strongly a load acts: with both it is one number"
+            f"it depends {noise}on the friction coefficient (here {slick:g} to {rough:g}), which "
+            "sets how strongly a load acts; with the friction coefficient it is one number"
         )
         return Answer(math.nan, low, longest.high, BETWEEN, reason), runaway
 
@@ -166,11 +170,11 @@ def _drop(known: ExpectedDrop) -> Answer:
 def _basis(known: ExpectedDrop) -> str:
     """How the length depends on the noise."""
     if known.slips_slowly:
-        return "slow slip lasts up to it, so that it hardly depends on the noise"
+        return "slow slip lasts up to this length, whatever the noise"
     strength = known.strength
     texts = []
     for noise in (0.1 * strength, 10.0 * strength):
         length = np.fmax(known.at_strength(noise).length, known.runaway.length)
         if np.isfinite(length):
-            texts.append(f"{length:.3g} m with {noise:.2g}")
-    return f"it depends on the noise: {', '.join(texts)}" if texts else ""
+            texts.append(f"{length:.3g} m ({short(noise)})")
+    return f"with other noise it is {', '.join(texts)}" if texts else ""

@@ -11,7 +11,7 @@ from ..lengths.in_use import LENGTHS
 from ..model.settings import Perturbation
 from ..theory.status import BETWEEN, STABLE
 from ..theory.values import FaultLike, Values, labelled
-from .answer import Answer
+from .answer import Answer, short
 from .drop import USUAL_STRENGTH, run_away
 from .literature import answers_of_literature
 from .theory import critical_length, process_zone, stability_length
@@ -68,11 +68,11 @@ class Lengths(dict[str, Answer]):
     Examples
     --------
     >>> from nucleation.api import PAPER
-    >>> found = PAPER.lengths()
+    >>> found = PAPER.lengths(strength=1e-5)
     >>> round(float(found["critical_length"].value), 3), found["drop_length"].status
     (0.238, 'value')
-    >>> print(found.sentence)
-    The patch runs away at 0.1624 m (0.1597 to 0.1652 m) under a normal load that fluctuates by 0.0001.
+    >>> found.sentence.split(" (")[0]
+    'The patch runs away at 0.1626 m'
     """
 
     perturbation: Perturbation | None
@@ -98,18 +98,15 @@ class Lengths(dict[str, Answer]):
             turns = turns.replace("It turns", "The patch turns") or f"No L_s: {stable.reason}."
             return f"{turns} Where it runs away depends on a perturbation, and none was given."
         drop = self["drop_length"]
-        noise = f"{_NOISE[self.perturbation.kind]} {self.perturbation.strength:g}"
+        noise = f"{_NOISE[self.perturbation.kind]} {short(self.perturbation.strength)}"
         if drop.exists:
             return f"The patch runs away at {with_range(drop)} {noise}."
+        reason = drop.reason
         if drop.status == BETWEEN:
-            return (
-                f"The patch runs away between {drop.low:.4g} and {drop.high:.4g} m: {drop.reason}."
-            )
+            return f"The patch runs away between {drop.low:.4g} and {drop.high:.4g} m: {reason}."
         if drop.status == STABLE:
-            return f"No patch runs away: {drop.reason}."
-        return (
-            f"The length at which the patch runs away is not known: {drop.reason}. {turns}".strip()
-        )
+            return f"No patch runs away: {self['critical_length'].reason or reason}."
+        return f"The length at which the patch runs away is not known: {reason}. {turns}".strip()
 
     @property
     def remarks(self) -> list[str]:
@@ -117,7 +114,7 @@ class Lengths(dict[str, Answer]):
         drop = self.get("drop_length")
         if drop is None or not drop.exists:
             return []
-        found = [f"Noise: {drop.basis}."] if drop.basis else []
+        found = [f"{drop.basis[0].upper()}{drop.basis[1:]}."] if drop.basis else []
         return [*found, f"DO NOT RELY ON IT: {drop.doubt}."] if drop.doubt else found
 
     def dataset(self) -> xr.Dataset:

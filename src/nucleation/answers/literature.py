@@ -45,8 +45,10 @@ def _answer(one: Length, length: Numbers, differ: Any, fault: FaultLike) -> Answ
             return VALUE
         return STABLE if zeta <= 0.0 else UNKNOWN
 
-    def unlike(value: float, *own: float) -> str:
-        return one.unlike(fault, *own) if np.isfinite(value) else ""
+    def unlike(value: float, height: float, second_height: float, differ: float) -> str:
+        if not np.isfinite(value):
+            return ""
+        return one.unlike(fault, min(height, second_height), bool(differ))
 
     texts = [
         _elementwise(status_of, length, fault.zeta),

@@ -96,6 +96,7 @@ def command(as_json: bool, with_literature: bool, draws: int, **options: Any) ->
     """
     perturbed = {n: options[n] for n in _OF_PERTURBATION if options[n] is not None}
     of_patch = {name: options[name] for name in _OF_PATCH}
+    with_literature = with_literature or options["weakening_rate"] is not None
     with printed_warnings():
         fault, names, drawn = given_fault(options, draws)
         if drawn:
@@ -107,7 +108,14 @@ def command(as_json: bool, with_literature: bool, draws: int, **options: Any) ->
             rate = drawn.values.get("weakening_rate", options["weakening_rate"])
             perturbed = perturbed or {"perturbation": "none"}
             return print_quantiles(
-                fault, names, drawn, options["paper"], as_json, **perturbed, weakening_rate=rate
+                fault,
+                names,
+                drawn,
+                options["paper"],
+                with_literature,
+                as_json,
+                **perturbed,
+                weakening_rate=rate,
             )
         found = fault.lengths(**perturbed, weakening_rate=options["weakening_rate"])
         patch = None
@@ -123,7 +131,6 @@ def command(as_json: bool, with_literature: bool, draws: int, **options: Any) ->
         mode = _mode(fault)
     system = system_of_fault(fault, names, options["paper"])
     critical = found["critical_length"]
-    with_literature = with_literature or options["weakening_rate"] is not None
     lines = wrapped(found.sentence, *found.remarks, *system)
     lines += ["", *_theory_lines(found)]
     if critical.exists:

@@ -23,13 +23,20 @@ _REASONS = 3  # of those why draws lack a length, that are named
 
 
 def print_quantiles(
-    fault: Fault, names: Collection[str], drawn: Draws, paper: bool, as_json: bool, **options: Any
+    fault: Fault,
+    names: Collection[str],
+    drawn: Draws,
+    paper: bool,
+    with_literature: bool,
+    as_json: bool,
+    **options: Any,
 ) -> int:
     """Print the quantiles of all lengths of the draws of a fault; returns the exit code."""
+    found = fault.lengths(**options)
+    shown = found | found.literature if with_literature else found
     size = max(np.size(x) for x in drawn.values.values())
     answers = {
-        key: Answer(*(np.broadcast_to(x, (size,)) for x in answer))
-        for key, answer in fault.lengths(**options).items()
+        key: Answer(*(np.broadcast_to(x, (size,)) for x in answer)) for key, answer in shown.items()
     }
     medians = {name: float(np.median(x)) for name, x in dict(fault).items() if np.ndim(x)}
     system = system_of_fault(fault.replace(**medians), names, paper)
@@ -42,9 +49,14 @@ def print_quantiles(
         "beyond": int(np.sum(statuses["stability_length"] == BEYOND)),
     }
     lengths = [_described(key, answer) for key, answer in answers.items()]
-    found = {"system": system, "uncertain": list(drawn.uncertain), **counts, "lengths": lengths}
-    show(as_json, found, _lines(found))
-    return DONE if lengths[0]["share"] > 0.0 else CODE_OF_STABLE
+    everything = {
+        "system": system,
+        "uncertain": list(drawn.uncertain),
+        **counts,
+        "lengths": lengths,
+    }
+    show(as_json, everything, _lines(everything))
+    return DONE if counts["stable"] < size else CODE_OF_STABLE
 
 
 def _described(key: str, answer: Answer) -> dict[str, Any]:

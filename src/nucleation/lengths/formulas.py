@@ -193,12 +193,11 @@ class Length:
         names = ("title", "formula", "source", "question", "setting", "system", "needs", "beyond")
         return {"units": "m"} | {name: getattr(self, name) for name in names}
 
-    def unlike(self, fault: FaultLike, height: float, second_height: float, differs: bool) -> str:
+    def unlike(self, fault: FaultLike, lowest: float, differs: bool) -> str:
         """How one fault differs from the bodies and the law for which the length is.
 
-        Heights are in m; `differs` is whether the bodies are of two materials.
+        The height of the lower body is in m; `differs` is whether they are of two materials.
         """
-        lowest = min(height, second_height)
         found = []
         if fault.zone_thickness is not None:
             found.append("bodies without a zone: here there is one")
