@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from nucleation import commands
+from nucleation.answers.lengths import with_range
 from nucleation.api import Fault
 from nucleation.lengths.formulas import TWO_MATERIALS
 from nucleation.lengths.in_use import LENGTHS
@@ -180,7 +181,7 @@ def test_the_length_at_the_drop(nucleation, found):
     assert value_of(told, "drop_length") == pytest.approx(expected.value, rel=1e-12)
     text = nucleation(*WORDS, *own, "--strength", "1e-5").out
     assert ["L", f"{expected.value:.4g}", "m"] in [line.split()[:3] for line in text.splitlines()]
-    assert text.startswith(f"The patch runs away at {expected.value:.4g} m (")
+    assert text.startswith(f"The patch runs away at {with_range(expected)} ")
     assert "no L" not in nucleation(*WORDS, "--perturbation", "none").out
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -72,7 +73,7 @@ class Lengths(dict[str, Answer]):
     >>> round(float(found["critical_length"].value), 3), found["drop_length"].status
     (0.238, 'value')
     >>> found.sentence.split(" (")[0]
-    'The patch runs away at 0.1626 m'
+    'The patch runs away at 0.163 m'
     """
 
     perturbation: Perturbation | None
@@ -170,11 +171,16 @@ class Lengths(dict[str, Answer]):
 
 
 def with_range(answer: Answer) -> str:
-    """A length with its range (m)."""
-    text = f"{answer.value:.4g} m"
-    if answer.high > 1.0001 * answer.low:
-        text += f" ({answer.low:.4g} to {answer.high:.4g} m)"
-    return text
+    """A length with its range (m), in the digits that the range leaves.
+
+    >>> with_range(Answer(4.1602, 4.0349, 4.5762, "value", ""))
+    '4.2 m (4.0 to 4.6 m)'
+    """
+    value, low, high = (float(x) for x in answer[:3])
+    if not high > low * (1.0 + 1e-4):
+        return f"{value:.4g} m"
+    digits = max(-math.floor(math.log10(0.5 * (high - low))), 0)
+    return f"{value:.{digits}f} m ({low:.{digits}f} to {high:.{digits}f} m)"
 
 
 def lengths_of(
