@@ -122,9 +122,18 @@ WARNED = {
     "time steps too long": (GOOD | {"longest_step": 0.8}, ""),
     "simulated time too short": (
         GOOD | {"end_time": 5.0},
-        "end_time = 5 s, but the patch needs about 8.59 s to become unstable",
+        "end_time = 5 s, but the patch needs about 9.25 s to become unstable, at L_s = 0.134 m",
     ),
-    "block short": (GOOD | {"block_length": 0.4}, ""),
+    "simulated time may end before the drop": (
+        GOOD | {"zeta_over_a": 0.4, "end_time": 150.0},
+        "s until the force drops, at L = ",
+    ),
+    "block short": (
+        GOOD | {"block_length": 0.25},
+        "block_length = 0.25 m, but the patch becomes up to 0.181 m long until the force drops; "
+        "recommended is 0.302 m or more",
+    ),
+    "tolerance too large": (GOOD | {"tolerance": 0.5}, "tolerance = 0.5 is the error of log"),
     "perturbation lost in the mesh's noise": (
         GOOD | {"perturbation": "normal_load", "strength": 1e-4},
         "strength = 0.0001 with 9.1 elements to a process zone",
@@ -143,6 +152,34 @@ def test_warning_names_study_run_and_numbers(kind):
     (warning,) = advice(run, interface="main_text")
     name = configure(study(run, interface="main_text")).runs[0].id
     assert warning.startswith(f"studies.s: {kind} ({name})")
+    assert text in warning
+
+
+REMOTE = {
+    "height": 1.0,
+    "n_x": 401,
+    "n_y": 16,
+    "grading": 64.0,
+    "loading": "remote",
+    "stress_rate": 1e4,
+    "second_body": "deformable",
+    "end_time": 60.0,
+    "block_length": 2.0,
+}
+
+
+@pytest.mark.parametrize(
+    ("changed", "text"),
+    [
+        ({"end_time": 30.0}, "simulated time too short (s-"),
+        ({"end_time": 30.0}, "end_time = 30 s, but the shear stress needs about 4"),
+        ({"block_length": 0.4}, "block_length = 0.4 m is the period along x"),
+    ],
+)
+def test_a_remote_load_is_warned_of_an_early_end_and_a_short_period(changed, text):
+    """Nothing was said: the strength is reached after 44 s, and L_c is .8 m."""
+    assert advice(REMOTE) == []
+    (warning,) = advice(REMOTE | changed)
     assert text in warning
 
 
@@ -184,7 +221,7 @@ def test_the_summary_counts_runs_and_has_the_worst_mesh():
     zone = worst.run.process_zone(worst.run.growth_time(worst.critical_length))
     assert f"3 runs have a coarse mesh, with {zone / along:.2g} elements" in text
     assert worst.id in text and text.endswith("list.txt lists them")
-    ((_, coarse),) = warned(configure(study(GOOD | {"block_length": 0.4})).runs)
+    ((_, coarse),) = warned(configure(study(GOOD | {"block_length": 0.25})).runs)
     assert coarse == []
 
 

@@ -97,6 +97,42 @@ def test_half_spaces_become_high_and_long_blocks():
     assert run.fault.stability_length() == pytest.approx(high.stability_length(), rel=0.03)
 
 
+PMMA = Fault(
+    shear_modulus=2.4e9,
+    poisson_ratio=0.35,
+    friction=0.4,
+    a=0.01,
+    b=0.013,
+    slip_distance=1e-6,
+    normal_stress=1e6,
+    velocity=1e-5,
+    density=1200.0,
+    height=4e-3,
+    second_shear_modulus=math.inf,
+)
+LOAD = {"perturbation": "normal_load", "strength": 1e-4}
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"b": 0.012, "height": 0.05},
+        {"b": 0.015, "height": math.inf, "second_shear_modulus": 2.4e9},
+        {"b": 0.017, "height": 0.02, "evolution": "slip"},
+        {"b": 0.05, "height": 0.02},
+    ],
+)
+def test_a_run_lasts_and_reaches_beyond_its_drop(changed):
+    """Weak faults ended before it: their block and end were multiples of L_c and its time."""
+    run = Run(PMMA.replace(**changed), **LOAD)
+    assert run.reach.unstable < run.reach.drop < run.reach.latest
+    assert run.stepping.end_time > 1.45 * run.growth_time(run.reach.latest)
+    assert run.block.length > run.reach.latest / 0.6
+    assert run.reach.latest <= run.longest_reach
+    assert run.fault.height > run.reach.latest or math.isfinite(PMMA.replace(**changed).height)
+
+
 @pytest.mark.parametrize(
     ("changed", "message"),
     [

@@ -7,8 +7,10 @@ those that a user plans with.
 import math
 from collections.abc import Iterator
 
+from ..drop.expected_drop import NEAR_END
 from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION
 from .complete import element_height
+from .reach import longest_reach, reach_of
 from .run import Run
 
 Advice = tuple[str, float, str]
@@ -21,9 +23,9 @@ NOISE_OF_MESH = "perturbation lost in the mesh's noise"
 OF_MESHES = (COARSE_X, COARSE_Y, ROUGHNESS, NOISE_OF_MESH)
 """Topics of warnings about meshes."""
 
-
-_UNSTABLE = 0.55
-"""Length over the theory's critical length at which the creeping patch turns unstable."""
+TOO_EARLY = "simulated time too short"
+BEFORE_DROP = "simulated time may end before the drop"
+LOOSE = "tolerance too large"
 
 _ELEMENTS_PER_ZONE = 3.0
 """Fewest elements per process zone that resolve the front (Day and others, 2005)."""
@@ -51,8 +53,8 @@ on a mesh with twice as many.
 _STEPS_PER_PERIOD = 8.0
 """Fewest time steps per period of the nucleating mode."""
 
-_SHORT_BLOCK = 2.0
-"""Block length over the critical length below which the far end affects the patch."""
+_LOOSE = 0.1
+"""Largest tolerance of the local error with which L is that of the default within some per cent."""
 
 
 def advice(run: Run, critical: float) -> Iterator[Advice]:
@@ -89,32 +91,69 @@ def advice(run: Run, critical: float) -> Iterator[Advice]:
             f"longest_step = {longest:g} D/V makes {period / longest:.2g} steps in a period of the "
             f"nucleating mode; recommended is {period / _STEPS_PER_PERIOD:.2g} or less",
         )
+    tolerance = run.stepping.tolerance
+    if tolerance > _LOOSE:
+        yield (
+            LOOSE,
+            tolerance,
+            f"tolerance = {tolerance:g} is the error of log slip rate and log state that a step "
+            f"may have; recommended is {_LOOSE:g} or less",
+        )
     if run.fault.loading == "edge":
         yield from _of_patches(run, critical)
         yield from _of_perturbation(run, critical)
+    elif run.heterogeneity.varies == "none":
+        yield from _of_remote_load(run, critical)
 
 
 def _of_patches(run: Run, critical: float) -> Iterator[Advice]:
-    """Times, blocks and starts in which no patch grows from the edge to L_c (m)."""
-    end = run.stepping.end_time
-    earliest = run.growth_time(_UNSTABLE * critical)
-    if end < earliest:
+    """Times and blocks in which no patch grows from the edge until the force drops; L_c in m."""
+    end, length = run.stepping.end_time, run.block.length
+    # nothing is asked of the theory where time and block are enough for the longest patch there is
+    most = longest_reach(run.fault, critical)
+    if end >= run.growth_time(most) and NEAR_END * length >= most:
+        return
+    reach = reach_of(run.fault, run.law, run.start, run.perturbation, critical)
+    stable, due = run.growth_time(reach.unstable), run.growth_time(reach.drop)
+    if end < due or end < stable:
+        unstable = ""
+        if not math.isnan(stable):
+            unstable = (
+                f"about {stable:.3g} s to become unstable, at L_s = {reach.unstable:.3g} m, and "
+            )
         yield (
-            "simulated time too short",
-            earliest / end,
-            f"end_time = {end:g} s, but the patch needs about {earliest:.3g} s to become unstable "
-            f"and {run.growth_time(critical):.3g} s to reach the theory's critical length, "
-            f"{critical:.3g} m",
+            TOO_EARLY if end < stable else BEFORE_DROP,
+            due / end,
+            f"end_time = {end:g} s, but the patch needs {unstable}about {due:.3g} s until the "
+            f"force drops, at L = {reach.drop:.3g} m (theory's critical length: {critical:.3g} m)",
         )
-    length = run.block.length
-    if length < _SHORT_BLOCK * critical:
+    if reach.latest > NEAR_END * length:
         yield (
             "block short",
+            reach.latest / length,
+            f"block_length = {length:g} m, but the patch becomes up to {reach.latest:.3g} m long "
+            f"until the force drops; recommended is {reach.latest / NEAR_END:.3g} m or more. "
+            "A shorter block may have an event all the same, but its far end changes it",
+        )
+
+
+def _of_remote_load(run: Run, critical: float) -> Iterator[Advice]:
+    """Times and periods in which nothing nucleates under a remote load; L_c in m."""
+    end, length, due = run.stepping.end_time, run.block.length, run.growth_time(critical)
+    if end < due:
+        yield (
+            TOO_EARLY,
+            due / end,
+            f"end_time = {end:g} s, but the shear stress needs about {due:.3g} s to reach the "
+            f"interface's strength, at stress_rate = {run.start.stress_rate:g} Pa/s",
+        )
+    if length < critical:
+        yield (
+            "period short",
             critical / length,
-            f"block_length = {length:g} m is {length / critical:.3g} times the theory's "
-            f"critical length, {critical:.3g} m; recommended are 4 to 6 times. A block shorter "
-            "than that length may have an event all the same, as a patch turns unstable at "
-            "less, but the block's far end changes it",
+            f"block_length = {length:g} m is the period along x, and homogeneous sliding is "
+            f"unstable from the theory's critical length on, {critical:.3g} m: nothing will "
+            "nucleate",
         )
 
 

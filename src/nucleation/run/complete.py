@@ -1,27 +1,35 @@
 """The parameters of a run that follow from its fault: sizes of blocks and mesh, times, scales."""
 
+import dataclasses
 import itertools
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from ..drop.expected_drop import NEAR_END, THICK_REACH
 from ..fault import Fault
 from ..model.friction import Friction
 from ..model.friction.constants import AGE, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
-from ..model.settings import Start
+from ..model.settings import Perturbation, Start
 from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from ..theory.stiffness import SATURATION
 from ..theory.values import ZONE
 from .names import OF_GROUPS, OF_PARTS, sections
+from .reach import longest_reach, reach_of
+
+_Part = TypeVar("_Part", Start, Perturbation)
 
 HIGH = 4.0
 """Height of the blocks over L_c: their L_s is within 2 % of that of half-spaces."""
+
+HIGHER = 1.25
+"""Their least height over the length of the patch when the force drops."""
 
 LONG = 35.0
 """Length of blocks in place of half-spaces over L_c: the far end has no effect on the drop."""
@@ -33,7 +41,7 @@ _ELEMENTS = 6.0  # to a process zone, twice as many as resolve the front
 _ROWS = (16, 24, 32, 48, 64, 96)  # of elements, that are tried for the mesh of a half-space
 _GRADINGS = np.geomspace(1.0, 300.0, 60).round(1).tolist()  # of these meshes
 
-_LATEST_END = 1.5  # end of a run over the estimated time until the critical length
+_LATEST_END = 1.5  # end of a run over the estimated time until its longest patch
 _AFTER_EVENT = 10.0  # time after the event over D/V
 
 _THIN = 1e-3  # layer number k H at which a body is thin
@@ -100,25 +108,49 @@ def complete(
                 "(m)"
             ) from None
         critical = math.nan
-    if math.isinf(fault.height) or math.isinf(fault.second_height):
-        fault, sizes = _as_blocks(fault, law, critical)
-        found = sizes | found
-    found.setdefault("block_length", rounded(USUAL_LENGTH * critical))
     b = fault.a + fault.zeta
     if "correlation_length" not in found and b > 0.0:
         found["correlation_length"] = roughness_length(fault, b)
-    of_start = {name: found[name] for name in OF_GROUPS["start"] if name in found}
+    start, declared = _part("start", Start, found), _part("perturbation", Perturbation, found)
+    longest = (
+        math.nan if math.isnan(critical) else latest_length(fault, law, start, declared, critical)
+    )
+    if math.isinf(fault.height) or math.isinf(fault.second_height):
+        fault, sizes = _as_blocks(fault, law, critical, longest)
+        found = sizes | found
+    if "block_length" not in found:
+        length = max(USUAL_LENGTH * critical, longest / NEAR_END)
+        found["block_length"] = rounded(length)
     if "end_time" not in found and not math.isnan(critical):
-        found |= late_end(fault, Start(**of_start), critical) | found
+        found |= late_end(fault, start, longest) | found
     return flat(fault, law) | found
 
 
-def late_end(fault: Fault, start: Start, critical: float) -> dict[str, float]:
+def _part(group: str, cls: type[_Part], values: Mapping[str, Any]) -> _Part:
+    """A part of a run from the values that are given, by name."""
+    names = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
+    return cls(**{field.name: values[name] for name, field in names if name in values})
+
+
+def latest_length(
+    fault: Fault, law: Friction, start: Start, declared: Perturbation, critical: float
+) -> float:
+    """The length (m) by which a fault with L_c (m) has dropped: the larger of L_c and the theory's.
+
+    The theory is asked, which takes a second or two, only where friction weakens so little that its
+    L can be beyond L_c.
+    """
+    if fault.loading != "edge" or longest_reach(fault, critical) <= critical:
+        return critical
+    return max(critical, reach_of(fault, law, start, declared, critical).latest)
+
+
+def late_end(fault: Fault, start: Start, longest: float) -> dict[str, float]:
     """An end time after the latest event, and a short time after the event (s).
 
-    The estimated time until L_c (m) is an upper bound of the event's time.
+    The event is due when the patch has its longest length (m), of :func:`latest_length`.
     """
-    end = float(f"{_LATEST_END * time_to_length(fault, start, critical):.2g}")
+    end = float(f"{_LATEST_END * time_to_length(fault, start, longest):.2g}")
     after = _AFTER_EVENT * fault.slip_distance / fault.velocity
     return {"end_time": end, "time_after_event": min(after, end)}
 
@@ -128,8 +160,13 @@ def rounded(length: float) -> float:
     return float(f"{length:.4g}")
 
 
-def _as_blocks(fault: Fault, law: Friction, critical: float) -> tuple[Fault, dict[str, Any]]:
-    """The fault with blocks in place of half-spaces, and the length and the mesh of the blocks."""
+def _as_blocks(
+    fault: Fault, law: Friction, critical: float, longest: float
+) -> tuple[Fault, dict[str, Any]]:
+    """The fault with blocks in place of half-spaces, and the length and the mesh of the blocks.
+
+    Its L_c and its longest patch are in m.
+    """
     if math.isnan(critical):
         raise ParameterError(
             "height = inf m is not allowed: sliding is stable at every wavelength, and the blocks "
@@ -137,9 +174,9 @@ def _as_blocks(fault: Fault, law: Friction, critical: float) -> tuple[Fault, dic
         )
     deformable = math.isfinite(fault.second_shear_modulus)
     names = ("height", "second_height") if deformable else ("height",)
-    high = rounded(HIGH * critical)
+    high = rounded(max(HIGH * critical, HIGHER * longest))
     fault = fault.replace(**{name: high for name in names if math.isinf(getattr(fault, name))})
-    length = rounded(LONG * critical)
+    length = rounded(max(LONG * critical, (high + longest) / THICK_REACH))
     element = zone_length(fault, law) / _ELEMENTS
     number = math.ceil(length / element)
     if (number % 2 == 1) != (fault.loading == "remote"):

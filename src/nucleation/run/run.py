@@ -16,12 +16,12 @@ from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
 from ..model.quantities import ParameterError
 from ..model.settings import Block, Perturbation, Start, Stepping
-from ..theory.evaluation import single_system
 from .complete import complete, flat, time_to_length, zone_length
 from .names import GROUPS, OF_GROUPS, OF_LAWS, OF_PARTS, read, sections
 
 if TYPE_CHECKING:
     from ..theory.creep.patches import Patches
+    from .reach import Reach
 
 
 class Body(NamedTuple):
@@ -220,16 +220,23 @@ class Run:
 
         They begin at the edge that is pushed, or in the interior under a remote load.
         """
-        from ..theory.creep.patches import Patches
+        from .reach import patches_of
 
-        fault = self.fault
-        found = Patches(
-            single_system(fault), self.law, fault.velocity, evolution=self.law.evolution
-        )
-        if fault.loading == "edge":
-            return found
-        rate = self.start.stress_rate * self.memory_time / fault.normal_stress
-        return dataclasses.replace(found, loading="remote", load_rate=rate)
+        return patches_of(self.fault, self.law, self.start)
+
+    @property
+    def longest_reach(self) -> float:
+        """A length (m) that no drop is beyond, in no time."""
+        from .reach import longest_reach
+
+        return longest_reach(self.fault, self.critical_length)
+
+    @property
+    def reach(self) -> Reach:
+        """L_s, the expected L and the upper end of its range (m), by theory."""
+        from .reach import reach_of
+
+        return reach_of(self.fault, self.law, self.start, self.perturbation, self.critical_length)
 
 
 def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:

@@ -2,7 +2,14 @@
 
 from collections.abc import Iterable
 
-from nucleation.run.advice import NOISE_OF_MESH, OF_MESHES, ROUGHNESS, advice, elements_per_zone
+from nucleation.run.advice import (
+    BEFORE_DROP,
+    NOISE_OF_MESH,
+    OF_MESHES,
+    ROUGHNESS,
+    advice,
+    elements_per_zone,
+)
 
 from .roles import REFINEMENTS
 from .runs import StudyRun
@@ -19,6 +26,8 @@ def warned(runs: Iterable[StudyRun]) -> list[tuple[str, list[StudyRun]]]:
         meant: tuple[str, ...] = ()
         if run.role in (*REFINEMENTS, "patch_theory"):  # these measure the noise
             meant = (ROUGHNESS, NOISE_OF_MESH)
+        if run.role in ("patch_theory", "patch_convergence"):  # these are about L_s
+            meant = (*meant, BEFORE_DROP)
         for topic, badness, text in advice(run.run, run.critical_length):
             if topic not in meant:
                 found.setdefault((run.study, topic), []).append((badness, text, run))

@@ -10,7 +10,7 @@ import numpy as np
 
 from nucleation.fault import Fault
 from nucleation.model.quantities import ParameterError
-from nucleation.run.complete import late_end, rounded
+from nucleation.run.complete import late_end, latest_length, rounded
 from nucleation.run.names import parameters
 from nucleation.run.run import Run
 from nucleation.theory.critical import stability_reason
@@ -133,7 +133,8 @@ def _completed(
         follows["block_length"] = rounded(over_critical * critical)
     given = {*settings.stepping, *values}
     if "end_time" not in given and not math.isnan(critical):
-        times = late_end(run.fault, run.start, critical)
+        longest = latest_length(run.fault, run.law, run.start, run.perturbation, critical)
+        times = late_end(run.fault, run.start, longest)
         follows |= {name: time for name, time in times.items() if name not in given}
     return run.replaced(**follows) if follows else run
 
