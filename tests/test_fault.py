@@ -87,6 +87,7 @@ def test_velocity_and_friction_are_asked_for():
     assert granite.density == 1200.0 and "1200 of PMMA (the paper's)" in Fault.__doc__
 
 
+@pytest.mark.answers
 def test_one_length_at_the_drop():
     """It was 1.068 m in one place and 1.314 m in another: slow slip lasts up to L_run."""
     found = Fault(**GRANITE, velocity=1e-6, friction=0.65).lengths()

@@ -94,6 +94,7 @@ def runs_away_by_differences(ratio, length, nodes=40, duration=1500.0):
     return bool(found.t_events[0].size)
 
 
+@pytest.mark.answers
 @pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "length"), [(0.2, 1.49), (0.5, 1.045), (1.5, 0.717)])
 def test_thin_limit_by_two_routes(ratio, length):
@@ -105,6 +106,7 @@ def test_thin_limit_by_two_routes(ratio, length):
     assert runs_away_by_differences(ratio, 1.03 * found)
 
 
+@pytest.mark.answers
 @pytest.mark.parametrize(("ratio", "length"), [(0.2, 3.1), (0.5, 1.65)])
 def test_half_spaces_by_another_code(ratio, length):
     """Another code with 64 modes, within .15 L_c; with 16, 50 L_b long, it would be 2.57 at 0.2."""
@@ -116,6 +118,7 @@ ROW = r"\| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) % \|"
 STATED = [tuple(map(float, row)) for row in re.findall(ROW, page("drop.md"))]
 
 
+@pytest.mark.answers
 @pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "thin", "half_spaces", "error"), STATED)
 def test_the_page_states_lengths_within_their_error(ratio, thin, half_spaces, error):
@@ -234,6 +237,7 @@ def last_bits(ratio, bodies, draw):
     return over_critical(ratio, bodies, **changed)
 
 
+@pytest.mark.answers
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "bodies"), [(0.2, "half-spaces"), (0.5, "half-spaces"), (0.2, "thin")]
