@@ -103,7 +103,7 @@ def test_agreement_with_the_theory():
     papers["paper"] = " to ".join(
         f"{float(end):.2f}" for end in re.findall(r"\(([\d.]+) to ([\d.]+)\)", papers["paper"])[0]
     )
-    assert papers["change"] == "lengths times 1.049"  # "5 % longer"
+    assert papers["change"] == "lengths multiplied by 1.049"  # "5 % longer"
     rows = of_study("converged", evolution="aging", initial_state=1.0)
     wide = rows["length_high_start"] / rows["critical_length"]
     lowest = wide.groupby(rows["height"]).mean().min()

@@ -89,7 +89,7 @@ def _flip(flipped: Callable[[float], bool], reasonable: float) -> float | None:
 
 
 def _times(amount: float) -> str:
-    return f"times {math.exp(amount):.4g}"
+    return f"multiplied by {math.exp(amount):.4g}"
 
 
 def _of_rows(
@@ -124,7 +124,9 @@ def _scaled(
 def _tilted(what: str, symbol: str, columns: Iterable[str], by: str) -> Change:
     """Columns times a power of another column."""
     factor = _of_rows(columns, lambda row, x: row[by] ** x)
-    return Change(what, _EXPONENT, factor, lambda x: f"times {symbol} to the power of {x:.3g}")
+    return Change(
+        what, _EXPONENT, factor, lambda x: f"multiplied by {symbol} to the power of {x:.3g}"
+    )
 
 
 def _measure(what: str, column: str, reasonable: float = _MANY) -> Change:
