@@ -153,13 +153,15 @@ def test_a_weakening_patch(nucleation, found):
     """W_c, and what a patch of a width does; refused without its surroundings."""
     around = ("--outside-zeta", "-0.005")
     smallest = float(asked.weakening_patch_length(outside_zeta=-0.005, **FAULT))
-    told = found(*around, "--width", "2m")["weakening_patch"]
+    creep = ("--velocity", "1e-8m/s")
+    told = found(*around, *creep, "--width", "2m")["weakening_patch"]
     assert told["smallest_width"] == pytest.approx(smallest)
     assert told["width_ratio"] == pytest.approx(2.0 / smallest)
     assert told["outcome"].startswith("events, simulated from")
     slow = found(*around, "--width", "2m", "--velocity", "1m/s", "--density", "2700")
     assert "was not tried" in slow["weakening_patch"]["outcome"]
     text = nucleation(*WORDS, *around, "--width", "2m").out
+    assert "give the velocity (--velocity)" in " ".join(text.split())
     assert "aging law, 1200 kg/m^3" in text
     text = nucleation(*WORDS, *around, "--width", "1m").out
     told = " ".join(text.split())

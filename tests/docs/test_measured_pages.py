@@ -216,7 +216,7 @@ def test_outcomes_in_the_library_are_those_of_the_reference():
 
 
 def test_limits_of_the_simulated_patches_are_stated():
-    """Widths that one slip rate alone was simulated at, and peaks that no mesh resolves."""
+    """Widths that one slip rate alone was simulated at, and the speed of events."""
     found = table("weakening_patches").round({"zeta_over_a": 3, "strengthening": 2})
     one_rate = 0
     for row in pd.DataFrame(simulated()).itertuples():
@@ -228,12 +228,13 @@ def test_limits_of_the_simulated_patches_are_stated():
         one_rate += here["velocity"].nunique() == 1
     events = found[found["outcome"] == "event"]
     peaks = (events["fastest"] / events["dynamic_rate"]).sort_values(ascending=False)
-    assert peaks.iloc[0] > 3e4 and peaks.iloc[1] > 4e3
+    raised = (found["width_ratio"] / found["period_ratio"]).max()
     says(
         "creeping_patch.md",
         f"Of the {len(simulated())} widths from which events are stated, {one_rate} were simulated",
-        f"{peaks.iloc[2]:.0f} $v_d$",
-        f"all others are {peaks.iloc[-1]:.1f} to {peaks.iloc[3]:.0f} $v_d$",
+        f"So the {(found['outcome'] == 'undecided').sum()} patches that reach half the rate",
+        f"Peaks of events are {peaks.iloc[-1]:.1f} to {peaks.iloc[0]:.0f} $v_d$",
+        f"The period raises $W_c$ by {100 * (raised - 1):.1f} % at most",
     )
 
 

@@ -9,7 +9,14 @@ from asked import ROCK, weakening_patch_length
 from nucleation.answers.theory import process_zone
 from nucleation.api import Fault
 from nucleation.lengths import weakening_patch as patch_outcomes
-from nucleation.lengths.weakening_patch import NO_WIDTH, OTHER_A, OTHER_B, patch_answer, simulated
+from nucleation.lengths.weakening_patch import (
+    BY_VELOCITY,
+    NO_WIDTH,
+    OTHER_A,
+    OTHER_B,
+    patch_answer,
+    simulated,
+)
 
 STATE_LENGTH = 40e9 * 5e-6 / (0.015 * 50e6)
 
@@ -33,7 +40,7 @@ def test_process_zone(changed, zone):
 def patch(row, **changed):
     """A fault and its surroundings with one of the simulated frictions."""
     zeta = row.zeta_over_a * ROCK["a"]
-    fault = {**ROCK, "b": ROCK["a"] + zeta, "plane": "antiplane"} | changed
+    fault = {**ROCK, "b": ROCK["a"] + zeta, "plane": "antiplane", "velocity": 1e-8} | changed
     outside = {"outside_zeta": -row.strengthening * zeta}
     if row.varies == OTHER_A:
         outside["outside_a"] = fault["b"] - outside["outside_zeta"]
@@ -111,6 +118,15 @@ def test_nothing_is_promised_of_other_faults(changed, words):
     assert told(fault, around, 2.0) == f"slow slip or events: {words} was not tried"
 
 
+def test_without_a_velocity_it_is_asked_for():
+    """Which of both it is depends on V; creep below W_c does not."""
+    row = simulated()[0]
+    fault, around = patch(row, velocity=None)
+    for ratio in (1.05, 0.5 * (1.0 + row.events_from), 2.0):
+        assert told(fault, around, ratio) == BY_VELOCITY
+    assert told(fault, around, 0.9) == "it creeps"
+
+
 def test_natural_faults_at_plate_rates_were_tried():
     """With 2700 kg/m^3, and W over the height just as in the simulations."""
     row = simulated()[0]
@@ -130,6 +146,8 @@ def test_weak_patch_of_the_report():
         "slip_distance": 5e-7,
         "normal_stress": 1e6,
         "plane": "antiplane",
+        "velocity": 1e-5,
+        "density": 1200.0,
     }
     found = patch_answer(Fault(**fault), -0.00136, width=3.6)
     assert found["width_ratio"] == pytest.approx(1.41, abs=0.01)

@@ -51,6 +51,8 @@ _ROUNDING = 1e-6  # relative, of zeta/a and r
 
 NO_WIDTH = "no W_c: the patch is stable, or its surroundings are not"
 
+BY_VELOCITY = "slow slip or events: it depends on the slip rate V; give the velocity (--velocity)"
+
 
 class Simulated(NamedTuple):
     """Simulations with one friction: zeta/a of the patch, and r = -zeta_out/zeta."""
@@ -115,11 +117,14 @@ def patch_answer(
     outcome = ""
     if width is not None:
         untried = _untried(fault, width)
-        outcome = _outcome(ratio, untried, _bounds(fault, outside_zeta, outside_a))
+        bounds = _bounds(fault, outside_zeta, outside_a)
+        outcome = _outcome(ratio, untried, bounds, fault.velocity is not None)
     return {"smallest_width": smallest, "width_ratio": ratio, "outcome": outcome}
 
 
-def _outcome(ratio: float, untried: str, bounds: tuple[float, float] | None) -> str:
+def _outcome(
+    ratio: float, untried: str, bounds: tuple[float, float] | None, velocity_known: bool
+) -> str:
     """The behaviour in words, by W/W_c, why it was not simulated, and the simulated bounds."""
     if math.isnan(ratio):
         return NO_WIDTH
@@ -127,6 +132,8 @@ def _outcome(ratio: float, untried: str, bounds: tuple[float, float] | None) -> 
         return "it creeps"
     if untried or bounds is None:
         return f"slow slip or events: {untried or 'such friction'} was not tried"
+    if not velocity_known:
+        return BY_VELOCITY
     slow, event = bounds
     if ratio <= slow:
         return "slow slip; no event was simulated"
