@@ -161,7 +161,7 @@ def test_other_heterogeneity_is_refused(change):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("elements", "said", "simulated"),
-    [(12, "it creeps", "creep"), (14, "slow slip; no event", "slow slip"), (22, "events", "event")],
+    [(12, "it creeps", "creep"), (14, "slow slip or events", "slow slip"), (22, "events", "event")],
 )
 def test_what_is_said_of_a_patch_agrees_with_a_coarse_simulation(elements, said, simulated):
     """zeta/a = 0.5 and r = 1 on half of the study's elements: 0.97, 1.13 and 1.77 W_c."""
