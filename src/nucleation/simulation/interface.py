@@ -35,8 +35,6 @@ from .drive import Imposed
 from .event import Outcome
 
 ROUNDING = 1e-14  # relative, of displacements
-DESCENTS = 6  # of Newton's method for one node alone, from at most twice the load to be balanced
-LARGEST_ASINH = 700.0
 UNCHANGED = 1e-3  # change of a slip rate that friction does not see, in units of the tolerance
 MOST_ITERATIONS = 8  # of Newton's method
 MOST_ITERATIONS_FROM_REST = 50
@@ -183,8 +181,8 @@ class Interface:
             solved = _solved(operator, friction[1:], residual, damping, active, beta)
             linear = residual, elastic, damping, active, solved
             if law.asinh_of_rate:
-                change = passes.direction(*linear)
-                v = _updated_by_asinh(rates[1:], change, damping, elastic, least[1:])
+                step = np.full(rates.size, law.step_at_rest(psi))
+                v = passes.updated_by_asinh(rates, *linear, least, step)
             else:
                 v = passes.updated(rates, *linear, law.regularisation_slip_rate)
             rates, w, change_of_w, reach = passes.moved(
@@ -227,33 +225,3 @@ def _solved(
         if info:
             raise NewtonFailure("the interface's tangent is singular")
     return solved
-
-
-def _updated_by_asinh(
-    v: Array, change: Array, damping: Array, elastic: Array, scale: Array
-) -> Array:
-    """``v + change`` to first order, for friction proportional to ``asinh(v / scale)``.
-
-    Stuck nodes slip more slowly than their neighbours by tens of orders of magnitude. There a
-    tangent does not show where the root is, from below as little as from above. So each node solves
-    its own balance ``E v + c asinh(v/s)``, with Newton's slope: ``E`` plus the damping. With
-    ``v = s sinh z`` the balance is convex in z, and Newton's method descends to its root from the
-    smaller one of the bounds that E and c give.
-    """
-    strength = damping * np.hypot(v, scale)
-    curved = strength > 0.0  # not where friction weakens within the step
-    s = scale[curved]
-    c = strength[curved]
-    e = elastic[curved]
-    old = v[curved]
-    wanted = e * old + c * np.arcsinh(old / s) + (e + damping[curved]) * change[curved]
-    size = np.abs(wanted)
-    z = np.minimum(size / c, np.arcsinh(size / (e * s)))
-    z = np.minimum(z, LARGEST_ASINH)
-    for _ in range(DESCENTS):
-        excess = e * s * np.sinh(z) + c * z - size
-        slope = e * s * np.cosh(z) + c
-        z -= excess / slope
-    updated = v + change
-    updated[curved] = np.copysign(s * np.sinh(z), wanted)
-    return updated

@@ -13,6 +13,8 @@ from ..model.friction import evolutions
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / scale) in a first guess
 SLOW_IN_EVENT = 1e-3  # slip rates below this part of the fastest one need no relative accuracy
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
+LARGEST_ASINH = 709.0  # whose hyperbolic sine is finite
+SETTLED = 1e-8  # change of asinh(v / s), relative, after which the next one is round-off
 
 
 @compiled
@@ -97,6 +99,56 @@ def updated(before, residual, elastic, damping, active, solved, v0):
         else:
             new[i] = v + change
     return new
+
+
+@compiled
+def updated_by_asinh(before, residual, elastic, damping, active, solved, scale, step):
+    """The same to first order, for friction ``c (asinh(v/s) + step v/hypot(v, s))``.
+
+    Stuck nodes slip more slowly than their neighbours by tens of orders of magnitude. There a
+    tangent does not show where the root is, from below as little as from above. So each node solves
+    its own balance of ``E v`` and friction with Newton's slope: ``E`` plus the damping. Where
+    friction weakens within the step it moves along the tangent.
+    """
+    new = direction(residual, elastic, damping, active, solved)
+    for i in range(new.size):
+        v, s, e = before[i + 1], scale[i + 1], elastic[i]
+        size = np.hypot(v, s)
+        c = damping[i] * size / (1.0 + step[i + 1] * (s / size) ** 2)
+        if c > 0.0:
+            friction = c * (np.arcsinh(v / s) + step[i + 1] * (v / size))
+            wanted = e * v + friction + (e + damping[i]) * new[i]
+            z = balanced_asinh(abs(wanted), e * s, c, step[i + 1])
+            new[i] = np.copysign(s * np.sinh(z), wanted)
+        else:
+            new[i] = v + new[i]
+    return new
+
+
+@compiled
+def balanced_asinh(size, e, c, step):
+    """The root z of ``e sinh z + c (z + step tanh z) = size``; not finite if `size` is not.
+
+    Each term alone bounds the root from above. Without a step the left side is convex: from there
+    Newton's method descends to the root, until it does not move any more. With one it may leave the
+    bracket, which is then halved.
+    """
+    low, high = 0.0, min(size / c, np.arcsinh(size / e), LARGEST_ASINH)
+    z = high
+    while True:
+        grown = np.exp(z)
+        sinh, cosh = 0.5 * (grown - 1.0 / grown), 0.5 * (grown + 1.0 / grown)
+        excess = e * sinh + c * (z + step * (sinh / cosh)) - size
+        if excess > 0.0:
+            high = z
+        else:
+            low = z
+        change = excess / (e * cosh + c * (1.0 + step / (cosh * cosh)))
+        if not low <= z - change <= high:
+            change = z - 0.5 * (low + high)
+        z -= change
+        if not abs(change) > SETTLED * (1.0 + z):
+            return z
 
 
 @compiled

@@ -152,7 +152,10 @@ class Friction(Checked):
     """
 
     asinh_of_rate: ClassVar[bool] = False
-    """Whether f is proportional to ``asinh(v / linear_below(psi))`` at fixed state."""
+    """Whether f is proportional to ``asinh(v/s) + step v/hypot(v, s)`` at fixed state.
+
+    s is :meth:`linear_below`, and the step :meth:`step_at_rest`.
+    """
 
     def __new__(cls, law: str = "", *_: Any, **values: Any) -> Self:
         if cls is not Friction:
@@ -200,6 +203,10 @@ class Friction(Checked):
     def linear_below(self, log_state: ArrayLike) -> Any:
         """Slip rate (m/s) below which friction is linear in it: about its scale of change there."""
         return self.regularisation_slip_rate
+
+    def step_at_rest(self, log_state: ArrayLike) -> Any:
+        """The step of f across rest, over its slope by log v; zero where asinh(v/s) has it all."""
+        return 0.0
 
     def coefficient_and_slopes(
         self, slip_rate: ArrayLike, log_state: ArrayLike

@@ -65,6 +65,10 @@ class Law(Friction):
         """``s = 2 v* exp(-(f0 + b log(v* phi/D)) / a)`` (m/s), with ``f = a asinh(v/s)``."""
         return _scale(np.asarray(log_state, dtype=float), self.constants)
 
+    def step_at_rest(self, log_state: ArrayLike) -> Array:
+        """What s would have to be smaller by, where it would underflow: part of its logarithm."""
+        return _step(np.asarray(log_state, dtype=float), self.constants)
+
     @property
     def constants(self) -> tuple[float, ...]:
         """a, b, f0, v* and D."""
@@ -89,11 +93,11 @@ class Law(Friction):
         """
         a, b = constants[:2]
         s = _scale(psi, constants)
-        by_size = 1.0 / np.hypot(v, s)
-        # where s would underflow, asinh(v/s) is log(2 v/s), which the rest of the exponent shifts
-        beyond = np.maximum(_exponent(psi, constants) - _LARGEST_EXPONENT, 0.0)
-        angle = np.arcsinh(v / s) + np.sign(v) * beyond
-        return a * angle, a * by_size, b * (v * by_size)
+        size = np.hypot(v, s)
+        step = _step(psi, constants)
+        angle = np.arcsinh(v / s) + step * (v / size)
+        by_rate = a / size * (1.0 + step * (s / size) ** 2)
+        return a * angle, by_rate, b * (v / size)
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
@@ -137,6 +141,15 @@ def _scale(psi: Array, constants: tuple[float, ...]) -> Array:
     exponent = _exponent(psi, constants)
     exponent = np.minimum(np.maximum(exponent, -_LARGEST_EXPONENT), _LARGEST_EXPONENT)
     return 2.0 * constants[3] * np.exp(-exponent)
+
+
+def _step(psi: Array, constants: tuple[float, ...]) -> Array:
+    """What is left of the exponent where s would underflow.
+
+    There asinh(v/s) is log(2 v/s), which this part shifts. At rest the shift passes through zero
+    over a few s, so that each stress has a slip rate.
+    """
+    return np.maximum(_exponent(psi, constants) - _LARGEST_EXPONENT, 0.0)
 
 
 def _exponent(psi: Array, constants: tuple[float, ...]) -> Array:
