@@ -95,11 +95,15 @@ def test_forces_of_creep_are_static_however_long_the_steps(crossings, periodic):
     np.testing.assert_allclose(found.normal, static.normal, atol=1e-6 * largest)
 
 
+@pytest.mark.parametrize(("crossings", "bound"), [(0.2, 1e-9), (1e5, 1e-3)])
 @pytest.mark.parametrize("name", ["periods", "periods on rollers"])
-def test_momentum_of_each_layer_is_the_impulse_of_its_load_and_of_friction(name):
-    """Within waves; the layers' momenta are equal and opposite."""
+def test_momentum_of_each_layer_is_the_impulse_of_its_load_and_of_friction(name, crossings, bound):
+    """In steps that resolve waves, and in long ones, where inertia is near the stiffness's round-off.
+
+    The layers' momenta are equal and opposite.
+    """
     body = PAIRS[name]
-    rung = rung_below(0.2 * body.crossing_time)
+    rung = rung_below(crossings * body.crossing_time)
     duration = 200.0 * rung_value(rung)
 
     def shear(time):
@@ -116,7 +120,7 @@ def test_momentum_of_each_layer_is_the_impulse_of_its_load_and_of_friction(name)
         momentum = state.motions[0].momentum
         moment = [momentum, moment[0]]
         largest = max(largest, abs(momentum))
-        assert momentum == pytest.approx(impulse[0], abs=1e-9 * largest)
+        assert momentum == pytest.approx(impulse[0], abs=bound * largest)
         (velocity,) = [part.modes for part in body.parts(state.motions[0].velocity)[1:]]
         lower = body.layers[1]
         below = lower.material.density * lower.row_sums @ velocity[:, 0] @ body.modes.x_integral

@@ -200,11 +200,12 @@ class Dynamics:
         return solution, displacement, velocity
 
     def inertia(self, step: Step) -> float:
-        """The weight (1/s^2) of inertia in a step: zero where a body that moves freely has none.
+        """The weight (1/s^2) of inertia in a step: zero where blocks that move freely have none.
 
-        Held by its inertia alone, such a body would follow the round-off of its stiffness.
+        Held by its inertia alone, such a pair would follow the round-off of its stiffness. A
+        period's translation is a mode of its own, and slip all along it has inertia alone.
         """
-        free = bool(self.body.translations)
+        free = bool(self.body.translations) and self.body.modes.has_edge
         return 0.0 if free and step.s * self.body.crossing_time**2 < INERT else step.s
 
     def _hold(
