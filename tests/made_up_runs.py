@@ -16,7 +16,7 @@ def record(period=0.1, parameters=PARAMETERS, onset=ONSET):
     velocity = parameters.fault.velocity
     slips = time[:, None] >= np.arange(x.size) * period - 1e-9
     rate = np.where(slips, velocity, 1e-6 * velocity)
-    rate[-2:] *= 100.0
+    rate[-2:] *= 800.0  # v_d is 705 V
     force = -1e4 * np.minimum(1.0 + 0.1 * time / onset, 1.1)
     force[-2:] *= [0.99, 0.8]
     return xr.Dataset(

@@ -49,8 +49,8 @@ def test_numbers_of_a_steady_front():
     for end in ("", "_low", "_high"):
         assert found[f"patch_rate{end}"] == pytest.approx(VELOCITY)
     assert found["onset_rate"] == pytest.approx(VELOCITY)
-    assert found["largest_rate"] == pytest.approx(100.0 * VELOCITY)
-    assert found["rupture_time"] == pytest.approx(0.0)  # 1 mm/s is not exceeded
+    assert found["largest_rate"] == pytest.approx(800.0 * VELOCITY)
+    assert found["rupture_time"] == pytest.approx(2e-3)  # two steps above 1 mm/s
     assert found["regular_share"] == pytest.approx(1.0, abs=0.03)
     opened = run.assign(sigma_yy=run["sigma_yy"].copy(deep=True))
     opened["sigma_yy"][-1, 5] = -0.1 * STRESS  # in the rupture
@@ -62,14 +62,12 @@ def test_numbers_of_a_steady_front():
     assert ONSET / found["drop_time"] > 1e3
 
 
-@pytest.mark.parametrize(
-    ("slower", "faster", "time"), [(9.9, 101.0, 2e-3), (10.1, 101.0, np.nan), (9.9, 99.0, np.nan)]
-)
-def test_ends_of_the_acceleration(slower, faster, time):
+@pytest.mark.parametrize(("slower", "time"), [(9.9, 2e-3), (10.1, np.nan)])
+def test_ends_of_the_acceleration(slower, time):
     """From the onset on, which is two steps of 1 ms before the end."""
     run = made_up()
     fastest = run["maximal_slip_rate"].values.copy()
-    fastest[-3:] = VELOCITY * np.array([slower, 50.0, faster])
+    fastest[-3:] = VELOCITY * np.array([slower, 50.0, 800.0])
     fastest[:-3] = VELOCITY
     found = measure(Record(run.assign(maximal_slip_rate=("step", fastest))))
     assert found["acceleration_time"] == pytest.approx(time, nan_ok=True)

@@ -5,17 +5,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nucleation.extraction import extraction
 from nucleation.extraction.definitions import find_onset
-from nucleation.extraction.extraction import Record
+from nucleation.extraction.extraction import Record, extract
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation import start
+from nucleation.simulation import event, start
 from nucleation.simulation.event import (
+    FAST,
     FEW,
     Outcome,
     front_width,
     has_dropped,
     long_after,
-    patch_is_fast,
+    patch_runs_away,
+    runaway_rate,
 )
 from nucleation.simulation.run import simulate
 from nucleation.simulation.start import composed
@@ -125,12 +128,14 @@ def test_a_free_corner_that_slips_is_no_event(strained_corner):
 )
 def test_whose_burst_it_is(kind, time, position, expected):
     parameters = PAPER_RUN.replaced(loading=kind, stress_rate=1.0 if kind == "remote" else 0.0)
-    slow, fast = 9.0 * parameters.fault.velocity, 11.0 * parameters.fault.velocity
-    assert not patch_is_fast(parameters, False, time, slow, position)
-    assert patch_is_fast(parameters, False, time, fast, position) == expected
-    later = patch_is_fast(parameters, expected, time + 1e-3, fast, 0.9)
+    velocity = parameters.fault.velocity
+    slow, burst, fast = 9.0 * velocity, 600.0 * velocity, 800.0 * velocity
+    assert not patch_runs_away(parameters, False, time, slow, position)
+    assert patch_runs_away(parameters, False, time, fast, position) == expected
+    assert not patch_runs_away(parameters, False, time, burst, position), "it may come to rest"
+    later = patch_runs_away(parameters, expected, time + 1e-3, burst, 0.9)
     assert later == expected, "until the burst is over"
-    assert not patch_is_fast(parameters, later, time + 2e-3, slow, position)
+    assert not patch_runs_away(parameters, later, time + 2e-3, slow, position)
 
 
 COARSE = PAPER_RUN.replaced(
@@ -194,7 +199,45 @@ def test_a_run_that_its_mesh_cant_resolve_says_so(square):
     assert "; no event: the drop at t = 0.4" in status
     force = np.abs(made["driving_force"].values)
     always = np.ones(force.size, dtype=bool)
-    masks = record._fast, always, ~always
+    masks = record._runs_away, always, ~always
     first = find_onset(record.step_time, force, COARSE.memory_time, 0.02, *masks)
     at_first = record.lengths[record.frames_at(record.step_time[[first.start]])[0]]
     assert at_first < (FEW + 1) * X[1] < record.lengths_at_drop[0, 0]
+
+
+@pytest.mark.parametrize(("velocity", "over"), [(1e-6, 1000.0), (1e-5, 705.0), (1e-2, 10.0)])
+def test_the_rate_of_a_runaway_patch(velocity, over):
+    """``v_d = 2 a sigma0 c_s/mu`` of the paper's fault is 7.05 mm/s."""
+    law = {"a": 0.0068, "zeta": 0.016, "friction": 0.41}
+    parameters = PAPER_RUN.replaced(velocity=velocity, **law)
+    assert runaway_rate(parameters) == pytest.approx(over * velocity, rel=2e-3)
+
+
+NOISY = COARSE.replaced(
+    perturbation="normal_load", strength=0.03, seed=1, end_time=20.0, time_after_event=0.0
+)
+
+
+@pytest.mark.slow
+def test_bursts_under_a_strong_load_are_no_events():
+    """At 4.58 s it slips at 10 V under a falling load, comes to rest, and was called an event."""
+    record = Record(simulate(NOISY))
+    onset = record.step_time[record.onset.start]
+    before = record.fastest[record.step_time < onset]
+    assert before.max() > FAST * NOISY.fault.velocity
+    assert record.fastest.max() > runaway_rate(NOISY)
+    after = record.fastest[record.step_time >= onset]
+    assert (np.diff(np.flatnonzero(after > FAST * NOISY.fault.velocity)) == 1).all(), "one burst"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rate", [50.0, 2000.0])
+def test_onset_and_length_do_not_depend_on_the_rate_of_a_runaway(monkeypatch, rate):
+    """Up to a noise of 1e-3 it decides when a run knows its event, not when that began."""
+    noisy = NOISY.replaced(strength=1e-3)
+    expected = extract(simulate(noisy))
+    monkeypatch.setattr(event, "runaway_rate", lambda run: rate * run.fault.velocity)
+    monkeypatch.setattr(extraction, "runaway_rate", event.runaway_rate)
+    found = extract(simulate(noisy))
+    assert found["onset_time"] == pytest.approx(expected["onset_time"], rel=1e-9)
+    assert found["length"] == pytest.approx(expected["length"], rel=1e-9)

@@ -19,7 +19,6 @@ from ..model.units import Checked
 from ..simulation.event import SLIPPING, has_dropped
 from ..types import Array
 
-RUPTURE = 1000.0  # slip rate over V at which the loading no longer matters
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
 
 MEASURED = declared("""
@@ -84,7 +83,7 @@ def find_onset(
     force: Array,
     window: float,
     drop: float,
-    fast: NDArray[np.bool_],
+    runs_away: NDArray[np.bool_],
     long_enough: NDArray[np.bool_],
     ruptures: NDArray[np.bool_],
 ) -> Onset | None:
@@ -97,8 +96,8 @@ def find_onset(
     window, drop : float
         Time (s) within which the force has to fall, and the fraction by which
         (:func:`~nucleation.simulation.event.has_dropped`).
-    fast, long_enough, ruptures : ndarray of bool, shape (steps,)
-        Whether the patch slips fast at these times, whether it has been longer than a few elements
+    runs_away, long_enough, ruptures : ndarray of bool, shape (steps,)
+        Whether the patch runs away at these times, whether it has been longer than a few elements
         by then, and whether the interface slips as fast as in a rupture.
 
     Returns
@@ -107,7 +106,7 @@ def find_onset(
         None if there is no event.
     """
     maxima: list[tuple[float, float]] = []
-    steps = list(zip(time.tolist(), force.tolist(), fast.tolist(), strict=True))
+    steps = list(zip(time.tolist(), force.tolist(), runs_away.tolist(), strict=True))
 
     def falls(step: int) -> bool:
         dropped = has_dropped(maxima, window, drop, *steps[step])

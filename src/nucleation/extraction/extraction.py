@@ -15,9 +15,16 @@ from numpy.typing import NDArray
 
 from ..datasets import DatasetError
 from ..run.run import Run
-from ..simulation.event import WINDOW, Outcome, long_after, patch_is_fast, patch_lengths
+from ..simulation.event import (
+    WINDOW,
+    Outcome,
+    long_after,
+    patch_lengths,
+    patch_runs_away,
+    runaway_rate,
+)
 from ..types import Array
-from .definitions import MEASURED, RUPTURE, ExtractionSettings, Onset, find_onset
+from .definitions import MEASURED, ExtractionSettings, Onset, find_onset
 
 
 def parameters_of(dataset: xr.Dataset) -> Run:
@@ -61,27 +68,27 @@ class Record:
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
         long = long_after(self.run, self.x, self.time, self.simulation["slip_rate"].values)
-        ruptures = self.fastest > RUPTURE * self.velocity
+        ruptures = self.fastest > runaway_rate(self.run)
         return find_onset(
             self.step_time,
             np.abs(self.simulation["driving_force"].values),
             WINDOW * self.run.memory_time,
             self.settings.drop,
-            self._fast,
+            self._runs_away,
             self.step_time > long,
             ruptures & (self.run.fault.loading == "edge"),
         )
 
     @property
-    def _fast(self) -> NDArray[np.bool_]:
-        """Whether the patch slips fast at each step; another solver records no position."""
+    def _runs_away(self) -> NDArray[np.bool_]:
+        """Whether the patch runs away at each step; another solver records no position."""
         places = np.zeros(self.step_time.size)
         if "fastest_position" in self.simulation:
             places = self.simulation["fastest_position"].values
         found = [False]
         # lists, as numbers of arrays take four times as long
         for step in np.transpose([self.step_time, self.fastest, places]).tolist():
-            found.append(patch_is_fast(self.run, found[-1], *step))
+            found.append(patch_runs_away(self.run, found[-1], *step))
         return np.array(found[1:])
 
     @property

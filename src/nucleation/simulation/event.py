@@ -8,13 +8,15 @@ While the patch creeps, the driving force changes over seconds; in the event it 
 milliseconds. An event needs three things:
 
 - the force falls by a given fraction below its largest value of the last memory time D/V;
-- the interface slips fast at that moment. Otherwise a decaying oscillation of the creeping patch or
-  a fluctuating load would count as an event. Where an edge is pushed, the patch itself has to slip
-  fast: fast slip at the free corner of the far end does not drive an event;
+- the patch runs away: in the same burst it has slipped at 1000 V, or at the rate at which inertia
+  limits it. A burst of the creeping patch comes to rest, and under a strong fluctuating load it may
+  slip at tens of V and lower the force. Where an edge is pushed, the patch itself has to be the
+  fastest: fast slip at the free corner of the far end does not drive an event;
 - the patch is longer than a few elements, since slip that the mesh cannot resolve is fast as well.
 """
 
 import enum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +42,8 @@ class Outcome(enum.StrEnum):
 
 
 WINDOW = 1.0  # in units of D/V
-FAST = 10.0  # slip rate over V that the creeping patch does not reach
+FAST = 10.0  # slip rate over V below which a burst is over
+RUNAWAY = 1000.0  # slip rate over V that no burst that comes to rest reaches
 NEAR = 0.5  # part of the block, from a pushed edge, in which its patch is sought
 SLIPPING = 0.01  # slip rate over V at the edge of the patch
 FEW = 4  # elements: a patch has more of them when its event begins
@@ -80,18 +83,37 @@ def long_after(run: Run, x: Array, times: Array, slip_rates: Array) -> float:
     return float(times[first - 1 : first + 1].mean())
 
 
-def patch_is_fast(run: Run, before: bool, time: float, rate: float, position: float) -> bool:
-    """Whether the patch slips fast after a step (s, m/s, m), given whether it did before.
+def patch_runs_away(run: Run, before: bool, time: float, rate: float, position: float) -> bool:
+    """Whether the patch runs away after a step (s, m/s, m), given whether it did before.
 
-    A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
-    pushed, a burst belongs to the patch once its fastest point is in the half of the block next to
-    the edge, later than the memory time D/V. Under other loads the patch may be anywhere.
+    It does from :func:`runaway_rate` on until the burst is over, when nothing slips faster than
+    :data:`FAST`. Where an edge is pushed, the burst belongs to the patch if its fastest point is in
+    the half of the block next to the edge, later than the memory time D/V. Under other loads the
+    patch may be anywhere.
     """
     if rate <= FAST * run.fault.velocity:
         return False
-    if before or run.fault.loading != "edge":
+    if before:
+        return True
+    if rate <= runaway_rate(run):
+        return False
+    if run.fault.loading != "edge":
         return True
     return bool(time > run.memory_time and position <= NEAR * run.block.length)
+
+
+@lru_cache(maxsize=16)  # asked for after each step
+def runaway_rate(run: Run) -> float:
+    """Slip rate (m/s) at which a patch runs away: the lower one of 1000 V and v_d.
+
+    At ``v_d = 2 a sigma0 c_s/mu`` radiation damps slip as much as the direct effect does (Rice,
+    1993), so that a rupture need not be faster.
+    """
+    fault = run.fault
+    speed = run.upper.material.shear_wave_speed
+    inertial = 2.0 * fault.single("a") * fault.single("normal_stress") * speed
+    inertial /= fault.single("shear_modulus")
+    return max(min(RUNAWAY * fault.single("velocity"), inertial), FAST * fault.single("velocity"))
 
 
 def has_dropped(

@@ -11,7 +11,7 @@ from ..model.settings import STUCK_BELOW
 from ..run.run import Run
 from ..types import Array, Arrays
 from . import passes
-from .event import FEW, RESOLVED, WINDOW, front_width, has_dropped, long_after, patch_is_fast
+from .event import FEW, RESOLVED, WINDOW, front_width, has_dropped, long_after, patch_runs_away
 from .recorded import RECORDED
 from .step import Dynamics, State, StepReport
 
@@ -49,7 +49,7 @@ class Recorder:
         self._last_frame_step = 0
         self._energy = _Energy(dynamics) if self._fields == INTERFACE else None
         self._maxima: list[tuple[float, float]] = []  # of the force
-        self._patch_is_fast = False
+        self._runs_away = False
         self._event_time = np.inf
         self._onset_time = np.inf
         self._short_drop_time = np.inf  # of the first drop with too short a patch
@@ -79,15 +79,15 @@ class Recorder:
             interface.iterations,
         )
         self._rows.append(row)
-        fast = patch_is_fast(self.run, self._patch_is_fast, state.time, fastest, position)
-        self._patch_is_fast = fast
+        runs_away = patch_runs_away(self.run, self._runs_away, state.time, fastest, position)
+        self._runs_away = runs_away
         dropped = has_dropped(
             self._maxima,
             WINDOW * self.run.memory_time,
             self.run.stepping.event_drop,
             state.time,
             abs(report.driving_force),
-            fast,
+            runs_away,
         )
         if dropped and np.isinf(self._event_time):
             # it is the event if the patch was long enough when the drop began
@@ -154,7 +154,7 @@ class Recorder:
             "last_frame_step": np.array(self._last_frame_step),
             "watched": np.array(self._maxima),
             "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
-            "own_burst": np.array(self._patch_is_fast),
+            "own_burst": np.array(self._runs_away),
             **({} if self._energy is None else self._energy.to_arrays()),
         }
 
@@ -169,7 +169,7 @@ class Recorder:
         self._last_frame_step = int(arrays["last_frame_step"])
         self._maxima = [tuple(one) for one in arrays["watched"].tolist()]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
-        self._patch_is_fast = bool(arrays["own_burst"])
+        self._runs_away = bool(arrays["own_burst"])
         if self._energy is not None:
             self._energy.restore(arrays)
 
