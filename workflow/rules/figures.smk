@@ -209,3 +209,19 @@ rule draw_study:
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),
     shell:
         JOB
+
+
+rule figure_blind:
+    """Blind faults: simulated against predicted lengths"""
+    input:
+        blind=f"{RESULTS}/blind.nc",
+        recipe=recipe("figure_blind"),
+    output:
+        drawn("figure_blind"),
+    log:
+        f"{RESULTS}/logs/figures/figure_blind.log",
+    localrule: True
+    params:
+        call="replication.figures.figure_blind:draw",
+    shell:
+        JOB

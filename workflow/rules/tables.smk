@@ -186,3 +186,54 @@ rule patch_outcomes:
         "Widths of weakening patches at which slow slip ends and events begin"
     shell:
         JOB
+
+
+rule blind_predicted:
+    """L of the blind faults by theory alone"""
+    input:
+        recipe=recipe("blind_predicted"),
+    output:
+        multiext(f"{RESULTS}/blind_predicted", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/blind_predicted.log",
+    params:
+        call="replication.tables.blind:blind_predictions",
+        loads=lambda wildcards: laws_of(runs_for("blind")),
+        runs=lambda wildcards: as_dicts(first_realisations(runs_for("blind"))),
+    shell:
+        JOB
+
+
+rule gather_blind:
+    """Drops of the blind faults beside the predictions that were kept before, and today's"""
+    input:
+        drops=needed(lambda: table_of("blind"), "study with role: blind"),
+        predictions=f"{RESULTS}/blind_predicted.nc",
+        predicted=ours("results/reference/blind_predicted.csv"),
+        recipe=recipe("gather_blind"),
+    output:
+        multiext(f"{RESULTS}/blind", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/blind.log",
+    params:
+        call="replication.tables.blind:blind_files",
+        loads=lambda wildcards: laws_of(runs_for("blind")),
+        runs=lambda wildcards: as_dicts(first_realisations(runs_for("blind"))),
+    shell:
+        JOB
+
+
+rule blind_coverage:
+    """Parts of the blind realisations in the predicted ranges, by half and regime"""
+    input:
+        blind=f"{RESULTS}/blind.nc",
+        recipe=recipe("blind_coverage"),
+    output:
+        f"{RESULTS}/blind_coverage.csv",
+    log:
+        f"{RESULTS}/logs/blind_coverage.log",
+    localrule: True
+    params:
+        call="replication.tables.blind:coverage_files",
+    shell:
+        JOB

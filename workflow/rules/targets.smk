@@ -72,6 +72,14 @@ rule patch_convergence:
         f"{RESULTS}/patch_convergence.csv",
 
 
+rule blind:
+    """Blind faults: predictions, simulations, coverage and figure"""
+    input:
+        rules.gather_blind.output,
+        rules.blind_coverage.output,
+        rules.figure_blind.output,
+
+
 # Checks of the results; they make no result.
 rule check:
     """List results that are stale, incomplete, damaged or foreign"""

@@ -77,6 +77,8 @@ ROLES = {
     "weakening": _Role(several=True, one_by_one=False),
     # faults that the expected drop was not fitted to, for `other_faults`
     "other_faults": _Role(one_by_one=False),
+    # faults whose L was predicted before it was simulated, for `blind`
+    "blind": _Role(one_by_one=False),
     # weakening patches in a fault that strengthens
     WEAKENING_PATCHES: _Role(runs=(_REMOTE, _FRICTION_VARIES)),
     # heights and weakenings, for `figure_map`

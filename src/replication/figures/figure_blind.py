@@ -1,0 +1,55 @@
+"""Blind faults: simulated L against L predicted before, with ranges."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from nucleation.pictures import style
+
+_KINDS = {
+    "rigid": ("rigid base", "o", style.BLACK),
+    "equal": ("equal bodies", "s", style.BLUE),
+    "different": ("different bodies", "D", style.VERMILLION),
+}
+
+
+@style.styled()
+def draw(blind: xr.Dataset) -> Figure:
+    """Draw L/L_c simulated against predicted; bars are ranges, open marks have a doubt."""
+    figure, panels = style.panels(8.0, columns=2, squeeze=False)
+    critical = blind["critical_length"]
+    for axes, half, letter in zip(panels.flat, ("calibrate", "test"), "ab", strict=True):
+        for below, (label, marker, colour) in _KINDS.items():
+            own = blind.isel(
+                run=np.flatnonzero((blind["half"] == half) & (blind["below"] == below))
+            )
+            scale = critical.values[
+                np.flatnonzero((blind["half"] == half) & (blind["below"] == below))
+            ]
+            value, low, high = (
+                own[f"expected_{name}"].values / scale for name in ("length", "low", "high")
+            )
+            simulated = own["length"].values / scale
+            doubted = own["doubt"].values != ""
+            for chosen, face in ((~doubted, colour), (doubted, "none")):
+                errors = [value[chosen] - low[chosen], high[chosen] - value[chosen]]
+                axes.errorbar(
+                    value[chosen],
+                    simulated[chosen],
+                    xerr=errors,
+                    fmt=marker,
+                    ms=3.5,
+                    lw=0.6,
+                    color=colour,
+                    markerfacecolor=face,
+                    label=label if face == colour else None,
+                )
+        ends = (0.25, 4.0)
+        axes.plot(ends, ends, color=style.GUIDE, lw=0.7)
+        axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
+        axes.set(title=f"({letter}) half to {half}", xlabel="Predicted $L/L_c$")
+        style.plain_numbers(axes.xaxis)
+        style.plain_numbers(axes.yaxis)
+    panels[0, 0].set_ylabel("Simulated $L/L_c$")
+    style.legend(panels[0, 0])
+    return figure
