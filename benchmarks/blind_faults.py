@@ -7,11 +7,12 @@ The rule was stated before any of these faults was simulated, and the faults wer
   (antiplane in one of five), ``zeta/a`` from 0.2 to 50 (log-uniform) and the strength of a
   fluctuating normal load from 1e-5 to 1e-3 (log-uniform);
 - then all else: H over L_c from 0.03 to 2 (log-uniform), f, a, the material, sigma0, D and V;
-- block and end follow from the longest patch that is known for such a fault
-  (`nucleation.run.reach.longest_reach`) by the project's limits on far ends, the mesh from the
+- block and end follow from L_c, and for ``zeta/a`` below 2 from the upper end of the predicted
+  range of L if that is larger, by the project's limits on far ends; the mesh follows from the
   advice for the strength, the steps from that for the period of the mode;
-- what was drawn second is drawn again while elements along x times steps exceed MOST_WORK, at most
-  TRIES times, and then the fault as a whole: simulations shall take seconds.
+- what was drawn second is drawn again while elements along x times steps exceed MOST_WORK (below
+  zeta/a = SLOWEST: MOST_OF_SLOWEST), at most TRIES times, and then the fault as a whole: a
+  simulation shall take seconds.
 
 Even faults (0, 2, ...) may be used to calibrate ranges and doubts, odd ones test them.
 """
@@ -28,14 +29,16 @@ from nucleation.fault import Fault
 from nucleation.model.friction import USUAL_LAW
 from nucleation.model.friction.constants import AGE, own_law
 from nucleation.model.quantities import ParameterError
-from nucleation.model.settings import Start
+from nucleation.model.settings import Perturbation, Start
 from nucleation.run.complete import element_height, time_to_length, zone_length
-from nucleation.run.reach import longest_reach
+from nucleation.run.reach import reach_of
+from nucleation.theory.creep.runaway import WEAK
 
 SEED = 20261128
 FAULTS = 72
 REALISATIONS = 3
 MOST_WORK = 2.0e6  # elements along x times steps
+SLOWEST, MOST_OF_SLOWEST = 0.5, 8.0e6  # zeta/a below which patches slip slowly for long; work
 TRIES = 40
 LONGEST_STEP = 0.2  # over D/V
 LATE = 1.5  # end over the time until the longest patch
@@ -140,17 +143,32 @@ def fault_of(own: dict[str, Any], drawn: dict[str, Any]) -> Fault:
     )
     scale = fault.shear_modulus * fault.slip_distance / (fault.zeta * fault.normal_stress)
     low, high = 1e-4 * scale, 1e4 * scale
-    for _ in range(60):  # the L_c by which the heights are in its units
+    for _ in range(30):  # the L_c by which the heights are in its units
         length = math.sqrt(low * high)
         sized = fault.replace(**{name: rounded(over * length) for name, over in heights.items()})
         low, high = (length, high) if sized.critical_length() > length else (low, length)
     return sized
 
 
-def run_of(own: dict[str, Any], fault: Fault) -> tuple[dict[str, Any], float]:
-    """Block, mesh and times of a fault, and its work."""
+def planned(own: dict[str, Any], fault: Fault) -> tuple[dict[str, Any], float]:
+    """Block, mesh and times of a fault, and its work; the theory of L takes a second or two."""
     critical = float(fault.critical_length())
-    longest = longest_reach(fault, critical)
+    found, work = run_of(own, fault, critical)
+    if own["zeta_over_a"] >= WEAK or not work <= most_work(own):
+        return found, work
+    declared = Perturbation("normal_load", own["strength"], correlation_time=2.0)
+    reach = reach_of(fault, fault.law(), Start(), declared, critical)
+    return run_of(own, fault, max(critical, reach.latest))
+
+
+def most_work(own: dict[str, Any]) -> float:
+    """The largest work of a fault's simulation."""
+    return MOST_OF_SLOWEST if own["zeta_over_a"] < SLOWEST else MOST_WORK
+
+
+def run_of(own: dict[str, Any], fault: Fault, longest: float) -> tuple[dict[str, Any], float]:
+    """Block, mesh and times for a patch that becomes `longest` (m), and the work."""
+    critical = float(fault.critical_length())
     height = fault.height
     block = longest / NEAR_END
     if height > THICK * 0.5 * longest:
@@ -186,10 +204,10 @@ def drawn_fault(rng: Generator) -> dict[str, Any]:
             drawn = {name: rounded(value) for name, value in rest(rng, own).items()}
             try:
                 fault = fault_of(own, drawn)
-                run, work = run_of(own, fault)
+                run, work = planned(own, fault)
             except ParameterError:  # no law has such constants
                 continue
-            if math.isnan(work) or work > MOST_WORK:
+            if not work <= most_work(own):
                 continue
             law = vars(fault.law())
             scales = [

@@ -10,7 +10,7 @@ from ..fault import Fault
 from ..model.friction import Friction
 from ..model.settings import Perturbation, Start
 from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import WEAK
+from ..theory.creep.runaway import GUESS, LONGEST, WEAK
 from ..theory.creep.slow_slip import cohesive_wavenumber
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
@@ -18,8 +18,9 @@ from ..theory.status import NoLength
 QUIET = Perturbation(kind="normal_load", strength=1e-9)
 """In place of no perturbation: what a fine mesh does by itself (docs/drop.md)."""
 
-_MOST_OF_RUNAWAY = 0.75
-"""Longest drop over L_c k_b/k_c where friction weakens little: L_run is 0.45 to 0.62 of it."""
+_MOST_OF_RUNAWAY = 1.3 * GUESS * LONGEST
+"""Longest drop over L_c k_b/k_c where friction weakens little, since L_run is sought up to GUESS
+LONGEST times that."""
 
 
 class Reach(NamedTuple):
