@@ -114,3 +114,33 @@ def test_a_notebook_shows_values_with_units():
     shown = Fault(**ROCK)._repr_html_().splitlines()
     assert "normal_stress         50000000.0 Pa" in shown
     assert "a                     0.01" in shown
+
+
+def test_evolution_and_law_are_one_thing():
+    """The fault said slip, and its law, lengths and simulations were those of aging."""
+    slip = PAPER.replace(height=0.05, evolution="slip")
+    assert slip.evolution == slip.law().evolution == "slip"
+    assert Fault.from_dict(slip.to_dict()) == slip
+    assert slip.replace(friction_law=PAPER.friction_law).evolution == "aging"
+    lengths = [float(f.lengths(strength=1e-4)["drop_length"].value) for f in (slip, PAPER)]
+    assert lengths[0] == pytest.approx(0.4271, rel=0.01)
+    with pytest.raises(ParameterError, match="evolution = 'slip' is not allowed with a friction"):
+        Fault(**ROCK, velocity=1e-6, evolution="slip", friction_law=PAPER.friction_law)
+
+
+def test_a_law_by_its_name_alone_is_refused():
+    """It was an AttributeError."""
+    with pytest.raises(ParameterError, match="friction_law = 'dieterich_ruina' is not allowed"):
+        Fault(**ROCK, velocity=1e-6, friction=0.6, friction_law="dieterich_ruina")
+
+
+def test_faults_of_arrays_are_compared_by_their_values():
+    """== was a ValueError, and hash a TypeError."""
+    many = Fault(**ROCK | {"normal_stress": [5e7, 1e8]})
+    same = many.replace()
+    assert many == same and hash(many) == hash(same)
+    assert many != Fault(**ROCK) and many != many.replace(normal_stress=[5e7, 2e8])
+
+
+def test_none_is_the_default_of_a_height():
+    assert Fault(**ROCK, height=None, density=None) == Fault(**ROCK)

@@ -174,14 +174,15 @@ def test_a_weakening_patch(nucleation, found):
     assert "outside_zeta is not allowed beside ranges" in ranges.err
 
 
-def test_the_length_at_the_drop(nucleation, found):
+def test_the_length_at_the_drop(nucleation):
     """It was 1.07 m in one place and 1.31 m in another; a below f/300 was refused."""
-    own = ("--velocity", "1um/s", "--friction", "0.74", "--height", "10cm", "--a", "0.002")
-    told = found(*own, "--strength", "1e-5")
+    own = ("--velocity", "1um/s", "--friction", "0.74", "--height", "10cm", "--strength", "1e-5")
+    own = (*(word if word != "0.010" else "0.002" for word in WORDS), *own)
+    told = json.loads(nucleation(*own, "--json").out)
     fault = Fault(**FAULT | {"a": 0.002}, velocity=1e-6, friction=0.74, height=0.1)
     expected = fault.lengths(strength=1e-5)["drop_length"]
     assert value_of(told, "drop_length") == pytest.approx(expected.value, rel=1e-12)
-    text = nucleation(*WORDS, *own, "--strength", "1e-5").out
+    text = nucleation(*own).out
     assert ["L", f"{expected.value:.4g}", "m"] in [line.split()[:3] for line in text.splitlines()]
     assert text.startswith(f"The patch runs away at {with_range(expected)} ")
     assert "no L" not in nucleation(*WORDS, "--perturbation", "none").out
@@ -192,3 +193,9 @@ def test_a_closed_output_is_no_error(nucleation, monkeypatch):
     monkeypatch.setattr(sys, "stdout", None)
     monkeypatch.setattr(sys, "stderr", None)
     assert commands.run(WORDS) == 0
+
+
+def test_an_option_given_twice_is_refused(nucleation):
+    """The last one counted, in silence."""
+    ended = nucleation(*WORDS, "--slip-distance", "6um")
+    assert ended.code == 2 and "--slip-distance is given twice: 5e-06 and 6e-06" in ended.err

@@ -118,7 +118,7 @@ GRANITE = (
     "50MPa",
 )
 MOVED = ("--velocity", "1mm/yr", "--friction", "0.6")
-RANGE = ("--poisson-ratio", "0.25 (0.2 to 0.3)", "--draws", "20")
+RANGE = ("--friction", "0.6 (0.5 to 0.7)", "--draws", "20")
 COMMANDS = {
     "length": ("length", *GRANITE, *MOVED),
     "patch": ("length", *GRANITE, "--outside-zeta", "-0.005", "--width", "1m"),

@@ -84,8 +84,26 @@ def option(
         type=value_of,
         metavar=metavar,
         help="; ".join([*parts, note] if note else parts),
+        cls=_Once,
         **settings,
     )
+
+
+class _Once(click.Option):
+    """An option that is refused if it is given twice, in place of the last value in silence."""
+
+    def __init__(self, *words: Any, **settings: Any) -> None:
+        if "default" in settings:
+            settings["default"] = [settings["default"]]
+        settings["multiple"] = True
+        super().__init__(*words, **settings)
+
+    def process_value(self, ctx: click.Context, value: Any) -> Any:
+        given = super().process_value(ctx, value) or [None]
+        if len(given) > 1:
+            values = " and ".join(str(one) for one in given)
+            raise click.UsageError(f"{self.opts[0]} is given twice: {values}", ctx)
+        return given[0]
 
 
 def options_of(
@@ -115,6 +133,7 @@ source_options = together(
     click.option(
         "--parameters",
         "file",
+        cls=_Once,
         type=click.Path(exists=True, dir_okay=False, path_type=Path),
         help="YAML or JSON file of parameters by the names of options, optionally with units",
     ),
@@ -163,14 +182,7 @@ def given_fault(
     base = PAPER if options["paper"] else None
     if base is None:
         given = {**sought, **given}
-        law = given.get("friction_law") or given.keys() & {*LAW_NAMES}
-        for name in required(given.get("plane", "strain")):
-            if name not in given and not (law and name == "a"):
-                place = f"in {options['file']}" if options["file"] else "or --parameters FILE"
-                raise ParameterError(
-                    f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all "
-                    "other parameters from the paper by --paper"
-                )
+        _require_all(given, options["file"])
     from ..lengths.ranges import Range
 
     drawn = None
@@ -183,6 +195,18 @@ def given_fault(
         given = drawn.values
     own = keywords(given)
     return (base.replace(**own) if base else Fault(**own)), names, drawn
+
+
+def _require_all(given: Mapping[str, Any], file: Path | None) -> None:
+    """Raise a ParameterError, with what to do, if a fault lacks a parameter without a default."""
+    law = given.get("friction_law") or given.keys() & {*LAW_NAMES}
+    for name in required(given.get("plane", "strain")):
+        if name not in given and not (law and name == "a"):
+            place = f"in {file}" if file else "or --parameters FILE"
+            raise ParameterError(
+                f"{name} is missing: give --{name.replace('_', '-')} {place}, or take all "
+                "other parameters from the paper by --paper"
+            )
 
 
 def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
@@ -208,6 +232,7 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
     others = {name: x for name, x in given.items() if name not in flat}
     if options["paper"] or not _OF_FAULT & names:
         return PAPER_RUN.replaced(**of_fault).completed(**others), names, True
+    _require_all(of_fault, options["file"])
     return Run(Fault(**keywords(of_fault)), **others), names, False
 
 

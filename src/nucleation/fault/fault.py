@@ -19,7 +19,7 @@ from ..model.quantities import ParameterError, declared
 from ..model.settings import ALONG_X, Perturbation
 from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
-from ..theory.evaluation import bodies_differ, completed, evaluate, require_broadcast
+from ..theory.evaluation import PMMA, bodies_differ, completed, evaluate, require_broadcast
 from ..theory.spectrum import Systems
 from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_of
 from .flat import flat, keywords, read_parameters
@@ -36,7 +36,7 @@ _OF_LAW = ("friction", "a", "zeta", "slip_distance")
 """The constants that a friction law has at V."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class Fault:
     """Two bodies in frictional contact that slide steadily; scalars, arrays or DataArrays.
 
@@ -63,7 +63,7 @@ class Fault:
         changes the normal stress, and so does the length at the drop.
     velocity : array_like, optional
         Sliding velocity V (m/s); rates, frequencies and the length at the drop need it.
-    height : array_like
+    height : array_like, optional
         Height (m) of the first body; inf, the default, makes it a half-space.
     second_shear_modulus : array_like, optional
         mu (Pa) of the second body; that of the first one by default, inf for a rigid body.
@@ -86,12 +86,12 @@ class Fault:
         Where the creeping patch begins: at an edge that is pushed, or in the interior under a load
         from afar. The bodies' `far_side` sets the boundary condition there.
     evolution : str
-        Evolution of the state, that of `friction_law` by default, else ``aging``.
+        Evolution of the state, ``aging`` by default; a `friction_law` has its own.
     friction_law : Friction, optional
         The full law, which gives the local a(v), b(v) along a creeping patch; needs `velocity`.
         Those of f, a, zeta and D that are not given are the law's, expanded about V; a law has the
         values that are given. By default a and b are constant.
-    density : array_like
+    density : array_like, optional
         Mass density (kg/m3), 1200 of PMMA (the paper's) by default; only inertia depends on it.
     second_density : array_like, optional
         The same of the second body; that of the first one by default.
@@ -136,7 +136,7 @@ class Fault:
     loading: str = "edge"
     evolution: str | None = None
     friction_law: Friction | None = None
-    density: Any = 1200.0
+    density: Any = PMMA
     second_density: Any = None
     initial_state: Any = None
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
@@ -168,8 +168,25 @@ class Fault:
             lines.append(shown if unit == "1" else f"{shown} {unit}")
         return f"<pre>{html.escape(chr(10).join(lines))}</pre>"
 
+    def __eq__(self, other: object) -> bool:
+        """Whether all parameters are equal, arrays in all their values."""
+        if not isinstance(other, Fault):
+            return NotImplemented
+        return all(map(_equal, self._compared, other._compared))
+
+    def __hash__(self) -> int:
+        # faults that are equal have equal numbers, whichever kind of array holds them
+        return hash(tuple(tuple(np.ravel(x).tolist()) for x in self._compared))
+
+    @property
+    def _compared(self) -> list[Any]:
+        """What two equal faults share: all parameters but the registry of their units."""
+        return [getattr(self, field.name) for field in dataclasses.fields(self) if field.compare]
+
     def _follows(self, name: str) -> bool:
         """Whether a value follows from others: zeta has b's, the first body or the law has it."""
+        if name == "evolution":
+            return self.friction_law is not None
         first = name.removeprefix("second_")
         if first != name:
             return getattr(self, name) is getattr(self, first)
@@ -190,6 +207,9 @@ class Fault:
         kept = {name: self[name] for name in self.keys() if name not in changes}
         if "b" in changes:
             kept.pop("zeta", None)
+        law = kept.get("friction_law")
+        if law is not None and changes.get("evolution") is not None:
+            kept["friction_law"] = law.changed({"evolution": changes["evolution"]})
         return type(self)(**kept | changes)
 
     @classmethod
@@ -442,6 +462,15 @@ class Fault:
     def _require_velocity(self) -> None:
         if self.velocity is None:
             raise ParameterError("velocity (m/s) is missing: rates and frequencies depend on it")
+
+
+def _equal(first: Any, second: Any) -> bool:
+    """Whether two values of a parameter are the same; arrays of one kind, shape and values."""
+    if type(first) is not type(second):
+        return False
+    if np.ndim(first):
+        return bool(first.equals(second) if labelled(first) else np.array_equal(first, second))
+    return bool(first == second)
 
 
 _own = inspect.signature(Fault.__init__).parameters.values()

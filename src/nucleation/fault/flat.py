@@ -89,7 +89,7 @@ def flat(fault: FaultLike) -> dict[str, Any]:
         names.remove("friction_law")
         own = dict(vars(law))
         found["friction_law"] = own.pop("law")
-        left_out = ["evolution"]
+        left_out: list[str] = []
         if {"friction", "a", "zeta"} & set(names):  # others than the law's
             left_out += law.set_by_expansion
             names += [n for n in ("friction", "a", "zeta") if n not in names]

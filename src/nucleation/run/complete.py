@@ -269,6 +269,11 @@ def time_to_length(fault: Fault, start: Start, length: float) -> float:
     sliding at V, plus that of the interface's greater age at the start.
     """
     if fault.loading != "edge":
+        if not start.stress_rate > 0.0:
+            raise ParameterError(
+                f"stress_rate = {start.stress_rate:g} Pa/s is not allowed with loading = "
+                f"{fault.loading}, which it drives: it must lie in (0, 1e15) Pa/s"
+            )
         omega = fault.initial_state * fault.velocity / fault.slip_distance
         peak = fault.friction + (fault.a + fault.zeta) * np.log1p(omega)
         missing = peak * fault.normal_stress - start.initial_shear_stress

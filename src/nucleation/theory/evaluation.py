@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.friction import Friction
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError, refusal
 from ..model.units import is_quantity
@@ -19,6 +21,8 @@ from .values import QUANTITIES, WORDS, ZONE, FaultLike, Values, checked, labelle
 
 _USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 """NumPy's own settings, whatever the caller's are."""
+
+PMMA = 1200.0  # kg/m3, the density of the paper's blocks
 
 _OF_BODY = ("shear_modulus", "poisson_ratio")
 OF_SYSTEMS = (
@@ -141,6 +145,8 @@ def completed(given: Mapping[str, Any]) -> dict[str, Any]:
     Raises a ParameterError if one is missing, given twice or out of its range.
     """
     found = dict(given)
+    for name, default in (("height", math.inf), ("density", PMMA)):
+        found[name] = default if found[name] is None else found[name]
     _expand(found)
     missing = [name for name in required(found["plane"]) if found[name] is None]
     if missing:
@@ -208,8 +214,17 @@ def _expand(found: dict[str, Any]) -> None:
         return
     if found["velocity"] is None:
         raise ParameterError("velocity is missing: a friction law is expanded about it")
-    if found["evolution"] is None:
-        found["evolution"] = law.evolution
+    if not isinstance(law, Friction):
+        raise ParameterError(
+            f"friction_law = {law!r} is not allowed: it must be a law such as "
+            'Friction(law="dieterich_ruina"); Fault.from_dict takes laws by name'
+        )
+    if found["evolution"] not in (None, law.evolution):
+        raise ParameterError(
+            f"evolution = {found['evolution']!r} is not allowed with a friction law whose own is "
+            f"{law.evolution}: give it to the law alone"
+        )
+    found["evolution"] = law.evolution
     known = {"slip_distance": law.slip_distance}
     if found["a"] is None or found["friction"] is None:
         speed = checked("velocity", found["velocity"], QUANTITIES["velocity"])

@@ -13,7 +13,7 @@ import numpy as np
 
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.model.hints import hint
-from nucleation.model.quantities import ParameterError, Quantity, declarations, refusal
+from nucleation.model.quantities import ParameterError, Quantity, declarations
 from nucleation.model.settings import STUCK_BELOW
 from nucleation.model.units import in_si
 from nucleation.run.checks import contradictions, memory_problem
@@ -150,7 +150,10 @@ class Reader:
         try:
             value = in_si(place, value, entry)
             if not (value is None or entry.worded or abs(value) <= sys.float_info.max):
-                raise ParameterError(refusal(place, value, entry))
+                raise ParameterError(
+                    f"{place} = {value!r}{entry.unit_suffix} is not allowed: a simulation needs a "
+                    "finite number; blocks 4 L_c high are as half-spaces"
+                )
         except ParameterError as error:
             is_evolution = place.endswith("friction_law") and value in list(EVOLUTIONS)
             advice = "; the evolution of the state is called evolution" if is_evolution else ""
