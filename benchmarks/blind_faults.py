@@ -24,12 +24,11 @@ from typing import Any
 import numpy as np
 from numpy.random import Generator
 
-from nucleation.drop.expected_drop import NEAR_END, THICK, THICK_REACH
 from nucleation.fault import Fault
 from nucleation.model.friction import USUAL_LAW
 from nucleation.model.friction.constants import AGE, own_law
 from nucleation.model.quantities import ParameterError
-from nucleation.model.settings import Perturbation, Start
+from nucleation.model.settings import NEAR_END, THICK, THICK_REACH, Perturbation, Start
 from nucleation.run.complete import element_height, time_to_length, zone_length
 from nucleation.run.reach import reach_of
 from nucleation.theory.creep.runaway import WEAK

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.settings import Perturbation
+from ..model.settings import NEAR_END, THICK, THICK_REACH, Perturbation
 from ..theory.creep.lengths import stability_length_of
 from ..theory.creep.patches import Patches
 from ..theory.creep.runaway import WEAK, Runaway, runaway_of
@@ -23,9 +23,6 @@ LATER = 0.10
 are from 1 % below to 10 % above L_run; the error of L_run itself counts, too."""
 
 SLIP_BURSTS = 0.3  # zeta/a below which, by the slip law, bursts hardly lower the force
-NEAR_END = 0.6  # patch length over the block's up to which a thin block's far end has no effect
-THICK = 0.5  # height over the patch's length above which a block is thick
-THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
 
 
 class ExpectedDrop(NamedTuple):

@@ -26,6 +26,15 @@ edges of the patch at larger slip rates.
 
 MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
 
+NEAR_END = 0.6
+"""Length of the patch over the block's up to which a thin block's far end has no effect."""
+
+THICK = 0.5
+"""Height over the patch's length above which a block is thick."""
+
+THICK_REACH = 0.2
+"""(L + H) over the block's length up to which a thick block's far end has no effect."""
+
 KINDS = ("none", "drive_velocity", "normal_load", "strength", "state")
 IN_TIME = ("drive_velocity", "normal_load", "state")
 """Kinds of perturbations that change in time; the time steps must resolve them."""

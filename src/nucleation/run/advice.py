@@ -7,8 +7,7 @@ those that a user plans with.
 import math
 from collections.abc import Iterator
 
-from ..drop.expected_drop import NEAR_END
-from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION
+from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION, NEAR_END
 from .complete import element_height
 from .reach import longest_reach, reach_of
 from .run import Run

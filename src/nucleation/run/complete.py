@@ -8,13 +8,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..drop.expected_drop import NEAR_END, THICK_REACH
 from ..fault import Fault
 from ..model.friction import Friction
 from ..model.friction.constants import AGE, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
-from ..model.settings import Perturbation, Start
+from ..model.settings import NEAR_END, THICK_REACH, Perturbation, Start
 from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength

@@ -2,25 +2,23 @@
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..fault import Fault
 from ..model.friction import Friction
 from ..model.settings import Perturbation, Start
-from ..theory.creep.patches import Patches
-from ..theory.creep.runaway import GUESS, LONGEST, WEAK
-from ..theory.creep.slow_slip import cohesive_wavenumber
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
+
+if TYPE_CHECKING:
+    from ..theory.creep.patches import Patches
 
 QUIET = Perturbation(kind="normal_load", strength=1e-9)
 """In place of no perturbation: what a fine mesh does by itself (docs/drop.md)."""
 
-_MOST_OF_RUNAWAY = 1.3 * GUESS * LONGEST
-"""Longest drop over L_c k_b/k_c where friction weakens little, since L_run is sought up to GUESS
-LONGEST times that."""
+_LATER = 1.3  # longest drop over the longest L_run that is sought
 
 
 class Reach(NamedTuple):
@@ -31,11 +29,13 @@ class Reach(NamedTuple):
     latest: float  # upper end of its range
 
 
-def patches_of(fault: Fault, law: Friction, start: Start) -> Patches:
+def patches_of(fault: Fault, law: Friction, start: Start) -> "Patches":
     """The creeping patches of a single fault with a friction law.
 
     They begin at the edge that is pushed, or in the interior under a remote load.
     """
+    from ..theory.creep.patches import Patches  # a simulation does without, as without all below
+
     one = single_system(fault)
     if fault.loading == "edge":
         return Patches(one, law, fault.velocity, evolution=law.evolution)
@@ -50,10 +50,15 @@ def longest_reach(fault: Fault, critical: float) -> float:
 
     It is L_c, and where friction weakens little above all L_run that is known.
     """
+    from ..theory.creep.patches import Patches
+    from ..theory.creep.runaway import GUESS, LONGEST, WEAK
+    from ..theory.creep.slow_slip import cohesive_wavenumber
+
     if fault.zeta >= WEAK * fault.a:
         return critical
     wavenumber = cohesive_wavenumber(Patches(single_system(fault)), critical)
-    return max(1.0, _MOST_OF_RUNAWAY * critical * wavenumber / (2.0 * math.pi)) * critical
+    ratio = critical * wavenumber / (2.0 * math.pi)
+    return max(1.0, _LATER * GUESS * LONGEST * ratio) * critical
 
 
 @lru_cache(maxsize=256)  # realisations share it
