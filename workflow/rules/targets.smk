@@ -58,6 +58,15 @@ rule figure_studies:
         shared(of_studies),
 
 
+for study in settings.studies:
+
+    rule:
+        name:
+            f"figure_study_{study}"
+        input:
+            f"{RESULTS}/figures/study_{study}.png",
+
+
 rule pairs:
     """Two deformable bodies: lengths over the theory of the same pair, and verdicts"""
     input:

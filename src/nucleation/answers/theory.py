@@ -10,7 +10,7 @@ from ..theory.creep.lengths import stability_answers
 from ..theory.critical import at_each, stability_reason
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
-from ..theory.status import STABLE, VALUE, NoLength
+from ..theory.status import BEYOND, STABLE, VALUE, NoLength
 from ..theory.values import FaultLike, where
 from ..types import Array
 from .answer import Answer
@@ -27,6 +27,8 @@ def critical_length(fault: FaultLike) -> Answer:
     def point(one: Systems, critical: float) -> tuple[float, str, str]:
         if np.isnan(critical):
             raise NoLength(stability_reason(one), STABLE)
+        if np.isinf(critical):
+            raise NoLength("it is beyond the largest number", BEYOND)
         return critical, VALUE, ""
 
     rows = at_each(fault, point, rows=3)

@@ -31,6 +31,7 @@ ZOOMS = 4
 LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
 HALVINGS = 60  # of k, in the search among long waves
 TOGETHER = 50  # systems that are searched at once, so that their arrays stay in the cache
+BEYOND_ROUND_OFF = 1.01  # ratio of wavenumbers whose stability round-off does not confuse
 ROUND_OFF = 1e-16  # change of log k at which a search ends
 
 
@@ -124,7 +125,8 @@ def largest_crossings(systems: Systems) -> Array:
     g, rho = systems._replace(pair=pair).load_and_coupling(one)
     k = marginal_stiffness(rho, systems.a, systems.zeta)[1] / g
     k = np.where(k > 0.0, k, np.nan)
-    has_layers = np.isfinite(np.minimum.reduce(systems.pair.thicknesses))
+    thinnest = np.minimum.reduce(systems.pair.thicknesses)
+    has_layers = np.isfinite(thinnest) & ~(k * thinnest >= SATURATION)
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
     for start in range(0, layered.size, TOGETHER):
         chosen = layered[start : start + TOGETHER]
@@ -150,7 +152,8 @@ def _brackets(systems: Systems) -> Array:
     contrast = np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
     bottom = LONG_WAVES * contrast / np.fmax.reduce(finite)  # all layers are thin
     high = SATURATION / np.fmin.reduce(finite)
-    top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])  # stable beyond
+    top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])
+    top = BEYOND_ROUND_OFF * top  # stable beyond
     rows = np.arange(bottom.size)
     k = _spaced(bottom, top, POINTS)
     margin = _margins(systems, k)

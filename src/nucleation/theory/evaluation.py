@@ -24,6 +24,10 @@ _USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
 PMMA = 1200.0  # kg/m3, the density of the paper's blocks
 
+RIGID = 1e20
+"""Ratio of the moduli above which round-off does not tell the stiffer body from a rigid one."""
+
+_SECOND_MODULUS = "second_shear_modulus"
 _OF_BODY = ("shear_modulus", "poisson_ratio")
 OF_SYSTEMS = (
     "shear_modulus",
@@ -68,7 +72,9 @@ def evaluate(
         shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
         flat = [np.broadcast_to(x, shape).ravel() for x in inputs]
         found: NDArray = np.empty((flat[0].size, rows), dtype=dtype)
-        rigid = np.isinf(flat[names.index("second_shear_modulus")])
+        first, second = (flat[names.index(name)] for name in ("shear_modulus", _SECOND_MODULUS))
+        rigid = second > RIGID * first
+        flat[names.index(_SECOND_MODULUS)] = np.where(rigid, np.inf, second)
         for kind in (rigid, ~rigid):
             chosen = np.flatnonzero(kind)
             if chosen.size == 0:

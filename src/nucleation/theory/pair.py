@@ -72,7 +72,9 @@ class Layers(NamedTuple):
         stiff = 1.0 + share * (1.0 / ratio - 1.0)
         changed = self.shear_modulus * np.where(ratio > 1.0, soft, stiff)
         modulus = np.where(share < 1.0, changed, self.zone.shear_modulus)
-        added = np.minimum(thick - height, 0.5 * self.height)
+        # neither too low for the zone nor lower than the thickness itself
+        room = np.maximum(self.height - thickness, 0.0)
+        added = np.minimum(np.minimum(thick - height, 0.5 * self.height), room)
         return self._replace(
             height=self.height - added, zone=self.zone._replace(height=thick, shear_modulus=modulus)
         )

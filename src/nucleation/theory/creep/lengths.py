@@ -36,6 +36,7 @@ FACTOR = 1.12  # from one length to the next
 PRECISION = 1e-9  # relative, of L_s for a given number of modes
 STEP = 1e-3  # of log L, in the derivative of the growth rate
 LARGEST_ERROR = 1e-3  # relative, of L_s, beyond which there are twice as many modes
+LARGEST_LINEAR = 0.1  # relative error beyond which it is no derivative any more
 NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 
 
@@ -47,6 +48,8 @@ def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
     homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its creep
     opens the fault.
     """
+    if math.isinf(critical):
+        raise NoLength("L_c is beyond the largest number", BEYOND)
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
     _, a, zeta = patches.constants
@@ -60,9 +63,34 @@ def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
 
 def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[float, float]:
     """Length (m) at which a pair of modes begins to grow, by a search from another; and error."""
+    length = _first_growing(patches, start, critical)
+    rates = patches.at(length).eigenvalues
+    pairs = rates[rates.imag > 0.0]
+    rate = complex(pairs[0] if pairs.size else rates[0])
+
+    def growth_near(other: float, number: int | None = None) -> float:
+        """Growth of another patch (m), in the mode with the nearest rate."""
+        near = patches.at(other, number).eigenvalues
+        return float(near[np.abs(near - rate).argmin()].real)
+
+    before, after = (growth_near(length * math.exp(step)) for step in (-STEP, STEP))
+    slope = (after - before) / (2.0 * STEP)
+    fewer = 3 * patches.number // 4
+    with_fewer_modes = growth_near(length, fewer)
+    error = abs(with_fewer_modes - rate.real) / slope if slope > 0.0 else math.inf
+    if error > LARGEST_LINEAR:  # where the mode with the nearest rate is another one
+        error = abs(_first_growing(patches, start, critical, fewer) / length - 1.0)
+    return length, error + PRECISION + extrapolation_error(patches.one, length)
+
+
+def _first_growing(
+    patches: Patches, start: float, critical: float, number: int | None = None
+) -> float:
+    """Length (m) from which on a mode grows, by a search from another and in a number of modes."""
 
     def growths(log_lengths: Iterable[float], _: object = None) -> Array:
-        return np.array([patches.at(math.exp(at)).eigenvalues[0].real for at in log_lengths])
+        rates = (patches.at(math.exp(at), number).eigenvalues for at in log_lengths)
+        return np.array([of_one[0].real for of_one in rates])
 
     step = math.log(FACTOR)
     longest = math.log(LONGEST * critical)
@@ -79,21 +107,7 @@ def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[floa
                 BEYOND,
             )
     (log_length,) = roots(growths, np.array([low]), np.array([high]), PRECISION)
-    length = math.exp(log_length)
-    rates = patches.at(length).eigenvalues
-    pairs = rates[rates.imag > 0.0]
-    rate = complex(pairs[0] if pairs.size else rates[0])
-
-    def growth_near(other: float, number: int | None = None) -> float:
-        """Growth of another patch (m), in the mode with the nearest rate."""
-        near = patches.at(other, number).eigenvalues
-        return float(near[np.abs(near - rate).argmin()].real)
-
-    before, after = (growth_near(length * math.exp(step)) for step in (-STEP, STEP))
-    slope = (after - before) / (2.0 * STEP)
-    with_fewer_modes = growth_near(length, 3 * patches.number // 4)
-    error = abs(with_fewer_modes - rate.real) / slope + PRECISION
-    return length, error + extrapolation_error(patches.one, length)
+    return math.exp(log_length)
 
 
 def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ...model.friction import Friction
 from ...types import Array, ComplexArray
+from ..status import NoLength
 from .response import PatchResponse
 
 SLOWEST = 1e-6  # least slip rate over V: friction's logarithm diverges at rest
@@ -110,7 +111,10 @@ class FrozenPatch:
     @cached_property
     def eigenvalues(self) -> ComplexArray:
         """All eigenvalues Lambda (1/s), fastest growing first."""
-        values: ComplexArray = np.asarray(np.linalg.eigvals(self.matrix), dtype=complex)
+        matrix = self.matrix
+        if not np.isfinite(matrix).all():
+            raise NoLength("the equations of its patches have no finite numbers")
+        values: ComplexArray = np.asarray(np.linalg.eigvals(matrix), dtype=complex)
         return values[np.argsort(-values.real)]
 
     def oscillating(self, frequency: float) -> complex:

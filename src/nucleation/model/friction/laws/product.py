@@ -94,6 +94,8 @@ class Law(Friction):
         ``f = A R``, ``a = A V R'`` and ``a + zeta = b R (V/w)^2 / (1 + phi*/phi)``. The last gives
         b, with R = f/A; the others are linear in theta and xi.
         """
+        if not f > 0.0:
+            raise ParameterError(f"f = {f:g} must be positive")
         v = velocity
         v0 = self.regularisation_slip_rate
         scale = self.slip_rate_scale
