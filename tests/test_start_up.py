@@ -54,7 +54,7 @@ making.make(recipe, "theory", store.Store("store"), 1, False)
 """
 HALF_SPACES = (
     "length --shear-modulus=30GPa --poisson-ratio=0.25 --normal-stress=50MPa --a=0.010 --b=0.015 "
-    "--slip-distance=5um"
+    "--slip-distance=5um --perturbation=none"
 )
 DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
 PLAIN = ["--help", "simulate --help", DRY_RUN]
