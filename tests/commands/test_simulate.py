@@ -184,3 +184,12 @@ def test_a_strengthening_control_run_with_its_length(nucleation, tmp_path):
     )
     shown = nucleation("show", output)
     assert shown.code == 0 and "theory: no critical length: sliding is stable" in shown.out
+
+
+def test_a_pipe_as_checkpoint_is_refused(nucleation, tmp_path):
+    """The command waited for it for good, deaf to SIGTERM."""
+    os.mkfifo(tmp_path / "run.checkpoint.npz")
+    words = ("--paper", "--height", "5mm", "--n-x", "40", "--n-y", "2", "--end-time", "0.02s")
+    ended = nucleation("simulate", tmp_path / "run.nc", *words)
+    assert ended.code == 2 and "it is a pipe and no file" in ended.err
+    assert not (tmp_path / "run.nc").exists()

@@ -1,5 +1,6 @@
 """A record reads a run once, by one definition of everything; its onset and length are known."""
 
+import made_up_runs
 import numpy as np
 import pytest
 import xarray as xr
@@ -8,6 +9,7 @@ from extraction.test_definitions import force_record
 from scipy.linalg import eig
 from scipy.optimize import brentq
 
+from nucleation.datasets import DatasetError
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extract
 from nucleation.extraction.growth import frozen_patch
@@ -15,6 +17,7 @@ from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import Operator
 from nucleation.model.friction import Friction
+from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.event import slipping_edge
 from nucleation.simulation.run import simulate
@@ -189,3 +192,19 @@ def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):
         weights = patch.amplitude(values[i])
         known = left[:, i].conj() / (left[:, i].conj() @ own)
         np.testing.assert_allclose(weights, known, rtol=0, atol=1e-6 * np.abs(known).max())
+
+
+@pytest.mark.parametrize("name", ["slip_rate", "driving_force", "maximal_slip_rate", "step_time"])
+def test_a_record_with_a_number_that_is_none_is_refused(name):
+    """A slip rate that was NaN from some frame on gave L = 0.0637 m in place of 0.1543 m."""
+    damaged = made_up_runs.record().copy(deep=True)
+    damaged[name][-50:] = np.nan
+    with pytest.raises(DatasetError, match=f"{name} is not finite from entry"):
+        extract(damaged)
+
+
+def test_parameters_nested_too_deeply_are_refused():
+    """It was a RecursionError."""
+    nested = made_up_runs.record().assign_attrs(parameters="[" * 100_000 + "]" * 100_000)
+    with pytest.raises(ParameterError, match="nested too deeply"):
+        extract(nested)

@@ -60,7 +60,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         elif is_simulation:
             found |= outcome(dataset)
         event = extract(dataset) if plot else {}
-    except (KeyError, ValueError, TypeError, AttributeError) as error:
+    except (KeyError, ValueError, TypeError, AttributeError, RecursionError) as error:
         reason = f"{error} is missing" if isinstance(error, KeyError) else error
         raise DatasetError(f"{file} is no {kind} of this version: {reason}") from error
     # no control characters, which a terminal would obey

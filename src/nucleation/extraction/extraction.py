@@ -51,6 +51,21 @@ class Record:
         self.time = simulation["time"].values
         self.step_time = simulation["step_time"].values
         self.fastest = simulation["maximal_slip_rate"].values
+        self._require_finite()
+
+    def _require_finite(self) -> None:
+        """Raise a DatasetError if a number that is read is none; a run that failed may end so."""
+        if str(self.simulation.attrs.get("status")).startswith("failed"):
+            return
+        for name in self.simulation.variables:
+            values = self.simulation[name].values
+            if values.dtype.kind != "f" or np.isfinite(values).all():
+                continue
+            along = values.reshape(len(values), -1) if values.ndim else values.reshape(1, 1)
+            first = int(np.argmin(np.isfinite(along).all(axis=1)))
+            raise DatasetError(
+                f"{name} is not finite from entry {first} on: the record can't be read"
+            )
 
     def require(self, *names: str) -> None:
         """Make sure of variables that not every level of recording has.

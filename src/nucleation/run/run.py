@@ -126,7 +126,11 @@ class Run:
     @classmethod
     def from_json(cls, text: str) -> Self:
         """The inverse of :meth:`to_json`."""
-        return cls.from_dict(json.loads(text))
+        try:
+            values = json.loads(text)
+        except RecursionError:
+            raise ParameterError("the parameters are nested too deeply for a run") from None
+        return cls.from_dict(values)
 
     def replaced(self, **values: Any) -> Self:
         """A copy with other parameters of the fault, its friction or the run, by name.

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..datasets import code
-from ..datasets.files import replacing
+from ..datasets.files import refuse_pipe, replacing
 from ..model.friction import plugins
 from ..model.quantities import ParameterError
 from ..run.run import Run
@@ -62,6 +62,7 @@ class _Checkpoint:
         """
         if not self.path.exists():
             return None
+        refuse_pipe(self.path)
         resumes = False
         try:
             with np.load(self.path, allow_pickle=False) as stored:
