@@ -156,3 +156,23 @@ def test_records_of_earlier_versions_are_refused():
     text = PAPER_RUN.to_dict() | {"height": "high"}
     with pytest.raises(ParameterError, match="height = 'high' is not allowed"):
         Run.from_dict(text)
+
+
+CHANGES = {
+    "regularisation_slip_rate": 1e-11,
+    "reference_slip_rate": 2e-6,
+    "zeta_over_a": 0.006,
+    "height": 3.0,
+    "second_body": math.inf,
+    "friction_law": GRANITE.law().changed({"regularisation_slip_rate": 1e-11}),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_the_advice_for_a_parameter_of_the_fault_can_be_followed(name):
+    """It was fault.replace(regularisation_slip_rate=...), which is refused."""
+    with pytest.raises(ParameterError, match="is a parameter of the fault") as refused:
+        Run(GRANITE, **{name: {"friction_law": "product", "second_body": "rigid"}.get(name, 1e-7)})
+    advised = str(refused.value).split(": ", 1)[1].removesuffix(" changes it")
+    changed = eval(advised.replace("...", "value"), {"fault": GRANITE, "value": CHANGES[name]})
+    assert changed != GRANITE and Run(changed, block_length=9.0).fault.velocity == GRANITE.velocity

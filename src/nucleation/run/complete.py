@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..fault import Fault
+from ..fault.flat import LAW_NAMES
 from ..model.friction import Friction
 from ..model.friction.constants import AGE, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
@@ -42,6 +43,9 @@ _GRADINGS = np.geomspace(1.0, 300.0, 60).round(1).tolist()  # of these meshes
 
 _LATEST_END = 1.5  # end of a run over the estimated time until its longest patch
 _AFTER_EVENT = 10.0  # time after the event over D/V
+
+_FIELDS = {"second_body": "second_shear_modulus", "zeta_over_a": "zeta"}
+"""The fault's own names of what a run calls otherwise."""
 
 _THIN = 1e-3  # layer number k H at which a body is thin
 _FRESH = 1e-12  # Omega of an interface that has only just come to rest
@@ -91,9 +95,7 @@ def complete(
         )
     for name in values:
         if name not in OF_PARTS:
-            raise ParameterError(
-                f"{name} is a parameter of the fault: fault.replace({name}=...) changes it"
-            )
+            raise ParameterError(f"{name} is a parameter of the fault: {_change(name)} changes it")
     law = law or fault.law()
     if fault.initial_state is None:
         fault = fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
@@ -123,6 +125,13 @@ def complete(
     if "end_time" not in found and not math.isnan(critical):
         found |= late_end(fault, start, longest) | found
     return flat(fault, law) | found
+
+
+def _change(name: str) -> str:
+    """The expression that gives a fault another value of a parameter which no run has."""
+    if name in LAW_NAMES:
+        return f"fault.replace(friction_law=fault.law().changed({{{name!r}: ...}}))"
+    return f"fault.replace({_FIELDS.get(name, name)}=...)"
 
 
 def _part(group: str, cls: type[_Part], values: Mapping[str, Any]) -> _Part:
