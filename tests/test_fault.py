@@ -144,3 +144,10 @@ def test_faults_of_arrays_are_compared_by_their_values():
 
 def test_none_is_the_default_of_a_height():
     assert Fault(**ROCK, height=None, density=None) == Fault(**ROCK)
+
+
+def test_a_notebook_shows_both_bodies_and_the_law():
+    shown = dict(line.split()[:2] for line in PAPER._repr_html_().splitlines())
+    assert shown["second_shear_modulus"] == "inf"
+    shown = Fault(**ROCK)._repr_html_()
+    assert "second_poisson_ratio  0.25" in shown and "friction_law          None" in shown

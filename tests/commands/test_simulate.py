@@ -9,9 +9,12 @@ import subprocess
 import numpy as np
 import pytest
 
+from nucleation.api import PAPER
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
+from nucleation.model.quantities import ParameterError
+from nucleation.run.advice import RunWarning
 from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.checkpoints import simulation_code
@@ -193,3 +196,32 @@ def test_a_pipe_as_checkpoint_is_refused(nucleation, tmp_path):
     ended = nucleation("simulate", tmp_path / "run.nc", *words)
     assert ended.code == 2 and "it is a pipe and no file" in ended.err
     assert not (tmp_path / "run.nc").exists()
+
+
+def test_an_entry_of_a_plan_is_a_whole_sentence(nucleation, tmp_path):
+    """It ended within a bracket: "height of the body (inf"."""
+    ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
+    assert "height of the body (inf: half-space)" in ended.out
+
+
+def test_a_plan_has_all_values_of_a_second_body_like_the_first(nucleation, tmp_path):
+    words = [*SMALL[:-1], "deformable"]
+    plan = planned(nucleation("simulate", tmp_path / "run.nc", *words, "--dry-run"))
+    like = ("shear_modulus", "poisson_ratio", "density", "height", "n_y", "grading")
+    assert {name: plan[f"second_{name}"] for name in like} == {name: plan[name] for name in like}
+
+
+@pytest.mark.slow
+def test_the_library_warns_of_a_run_as_the_command_does(nucleation, tmp_path):
+    """It said nothing of meshes, blocks and times."""
+    ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--paper", "--dry-run")
+    said = {line.removeprefix("Warning: ") for line in ended.err.splitlines()}
+    short = {"block_length": 0.9, "n_x": 16, "n_y": 2, "end_time": 0.02}
+    with pytest.warns(RunWarning) as caught:
+        PAPER.simulate(**short, progress=False)
+    assert {str(warning.message) for warning in caught} == said
+
+
+def test_the_library_refuses_what_the_command_refuses():
+    with pytest.raises(ParameterError, match=r"strength = 0.001 is not allowed with perturbation"):
+        PAPER.simulate(block_length=0.9, n_x=16, n_y=2, end_time=0.02, strength=1e-3)

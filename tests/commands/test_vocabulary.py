@@ -102,3 +102,28 @@ def test_another_law_has_the_scales_of_its_fault(nucleation, tmp_path):
     found = nucleation("simulate", tmp_path / "run.nc", *fault, *law, "--dry-run", "--json")
     own = json.loads(found.out)["parameters"]
     assert own["slip_rate_scale"] == pytest.approx(1e-8) and own["state_scale"] == 1e3
+
+
+SECOND = {
+    (): "Second body: deformable, like the first.",
+    ("--second-poisson-ratio", "0.25"): "second_poisson_ratio = 0.25",
+    ("--second-height", "3m"): "Second body: deformable, like the first in all else.",
+    ("--second-body", "rigid"): "Second body: rigid.",
+}
+
+
+@pytest.mark.parametrize("given", SECOND)
+def test_a_command_names_the_second_body(nucleation, given):
+    """A value given like the first body's was not in "Given", and a body like the first nowhere."""
+    assert SECOND[given] in nucleation("length", *words(alone(FAULT)), *given, *QUIET).out
+
+
+@pytest.mark.parametrize("law", ["none, a and b are constant", "dieterich_ruina", "product"])
+def test_a_command_names_the_law_and_its_evolution(nucleation, law):
+    own = alone(FAULT)
+    given = ["--friction-law", law] if law == "product" else []
+    if law.startswith("none"):
+        own.pop("--velocity")
+    out = nucleation("length", *words(own), *given, *QUIET).out
+    (line,) = (line for line in out.splitlines() if line.startswith("Friction law: "))
+    assert law in line and line.endswith("evolution: aging.")

@@ -91,12 +91,26 @@ def _simulate(self: Fault, *, progress: bool | None = None, **settings: Any) -> 
     -------
     Dataset
         The record, as of :func:`simulate`.
+
+    Raises
+    ------
+    ParameterError
+        If values contradict each other. A RunWarning warns of meshes, blocks and times that are
+        unlikely to give the intended results, as `nucleation simulate` does.
     """
     require("solver")
+    from ..run.advice import RunWarning, advice
+    from ..run.checks import contradictions
     from ..run.run import Run
     from ..simulation.progress import simulate
 
-    return simulate(Run(self, **settings), progress=progress)
+    run = Run(self, **settings)
+    problems = list(contradictions(run))
+    if problems:
+        raise ParameterError("; ".join(problems))
+    for topic, _, text in advice(run, run.critical_length):
+        warnings.warn(f"{topic}: {text}", RunWarning, stacklevel=2)
+    return simulate(run, progress=progress)
 
 
 Fault.simulate = _simulate  # type: ignore[attr-defined]  # here, since a fault knows no simulation

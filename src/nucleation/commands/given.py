@@ -6,6 +6,7 @@ Further parameters are those of a file or the paper's.
 from __future__ import annotations
 
 import contextlib
+import math
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
@@ -15,7 +16,7 @@ import click
 
 from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
-from ..model.friction.constants import CONSTANTS
+from ..model.friction.constants import CONSTANTS, LAW
 from ..model.hints import ImplausibleWarning
 from ..model.quantities import ParameterError, Quantity, declarations
 from ..model.settings import KINDS
@@ -258,8 +259,8 @@ def system_of_fault(
 ) -> list[str]:
     """The fault that a command computes: the parameters that are given, and all others.
 
-    With `paper` the others are the paper's. Those of a second body like the first one's are left
-    out. The parameter that is `sought` has no value yet.
+    With `paper` the others are the paper's. Those of a second body that are not given and like the
+    first one's are a sentence. The parameter that is `sought` has no value yet.
     """
     named = {*given, sought}
     weakenings = {*CONSTANTS[2:]}
@@ -268,7 +269,7 @@ def system_of_fault(
     texts: dict[bool, list[str]] = {True: [], False: []}
     for name, value in parameters_of(fault).items():
         first = name.removeprefix("second_")
-        if first == name or value != getattr(fault, first):
+        if first == name or name in named or value != getattr(fault, first):
             text = "to find" if name == sought else with_unit(value, QUANTITIES[name])
             texts[name in named].append(f"{name} = {text}")
     law = fault.friction_law
@@ -279,9 +280,30 @@ def system_of_fault(
                 texts[key in named].append(f"{key} = {with_unit(getattr(law, name), entry)}")
     heads = {True: "Given", False: "Not given, so the paper's" if paper else "Others"}
     lines = [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
+    lines += [_second_body(fault), _friction(fault)]
     if fault.plane == "stress":  # which has no thickness to compare with
         lines.append("Plane stress holds for plates that are much thinner than these lengths.")
     return lines
+
+
+def _second_body(fault: Fault) -> str:
+    """What the first body slides on."""
+    names = [name for name in QUANTITIES if name.startswith("second_")]
+    unlike = [n for n in names if getattr(fault, n) != getattr(fault, n.removeprefix("second_"))]
+    if fault.second_shear_modulus == math.inf:
+        return "Second body: rigid."
+    return f"Second body: deformable, like the first{' in all else' if unlike else ''}."
+
+
+def _friction(fault: Fault) -> str:
+    """The friction law, and the evolution of its state."""
+    if fault.friction_law is not None:
+        law = fault.friction_law.law
+    elif fault.velocity is None or fault.friction is None:
+        law = "none, a and b are constant"
+    else:
+        law = f"{LAW}, with the fault's a, b and f at V; L_c takes a and b alone"
+    return f"Friction law: {law}; evolution: {fault.evolution}."
 
 
 @contextlib.contextmanager

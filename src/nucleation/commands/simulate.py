@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-import re
 import shlex
 import sys
 from pathlib import Path
@@ -37,6 +36,7 @@ if TYPE_CHECKING:
 
 _MEMORY = declared("memory of one simulation", "(100.0, 1e7) MB")
 _LIMIT = 2000.0  # MB
+_OF_MATERIAL = ("shear_modulus", "poisson_ratio", "density")
 
 _NOTES = NOTES | {
     name: f"default {with_unit(field.default, entry)}"
@@ -171,15 +171,27 @@ def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) 
 def parameter_lines(run: Run) -> list[str]:
     """The parameters of a run, one in a line, with unit and meaning."""
     values = run.to_dict()
+    like_first = _of_second_body(run)
     rows: list[Row] = []
     for section, names in sections().items():
         rows.append(f"{section}:")
         for name in names:
+            entry = parameters()[name]
             if name in values:
-                entry = parameters()[name]
-                meaning = re.split("[;:,]", entry.description)[0]
-                rows.append((name, with_unit(values[name], entry), meaning))
+                rows.append((name, with_unit(values[name], entry), entry.description))
+            elif name in like_first:
+                rows.append((name, with_unit(like_first[name], entry), "that of the first body"))
     return table(rows)
+
+
+def _of_second_body(run: Run) -> dict[str, Any]:
+    """All parameters of a second block by name, in SI units; none on a rigid base."""
+    below = run.below
+    if below is None:
+        return {}
+    own = {name: getattr(below, name) for name in ("height", "n_y", "grading", "far_side")}
+    own |= {name: getattr(below.material, name) for name in _OF_MATERIAL}
+    return {f"second_{name}": value for name, value in own.items()}
 
 
 def event_lines(found: dict[str, float], critical_length: float) -> list[str]:

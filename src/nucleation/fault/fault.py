@@ -160,11 +160,14 @@ class Fault:
         return [n for n in names if getattr(self, n) is not None and not self._follows(n)]
 
     def _repr_html_(self) -> str:
-        """The parameters with their units, for a notebook."""
+        """All parameters with their units, of both bodies and the law, for a notebook."""
         lines = []
-        for name in self.keys():
+        for name in (*QUANTITIES, "friction_law"):
+            value = getattr(self, name)
+            if value is None and name != "friction_law":
+                continue
             unit = QUANTITIES[name].unit if name in QUANTITIES else "1"
-            shown = f"{name:<22}{getattr(self, name)}"
+            shown = f"{name:<22}{value}"
             lines.append(shown if unit == "1" else f"{shown} {unit}")
         return f"<pre>{html.escape(chr(10).join(lines))}</pre>"
 

@@ -12,6 +12,11 @@ from .complete import element_height
 from .reach import longest_reach, reach_of
 from .run import Run
 
+
+class RunWarning(UserWarning):
+    """A run has allowed values that are unlikely to give the intended results."""
+
+
 Advice = tuple[str, float, str]
 """A warning about a run: its topic, its badness (larger is worse), its text."""
 
