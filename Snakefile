@@ -143,6 +143,7 @@ def no_more_timers():
 
 
 onstart:
+    recipe.start()
     report_meshes()
 
 

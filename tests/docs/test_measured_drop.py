@@ -32,7 +32,7 @@ def test_drops_are_in_the_expected_range():
 
 def test_faults_without_a_drop_are_warned_of():
     critical = OTHERS["critical_length"]
-    reached = (OTHERS["reached_length"] / critical)[::-1].map("{:.2f}".format)
+    reached = (OTHERS["reached_length"] / critical).map("{:.2f}".format)
     expected = (OTHERS["expected_length"] / critical).map("{:.2f}".format)
     weak = OTHERS["zeta_over_a"].map("{:.2f}".format)
     assert f"$\\zeta/a$ of {' and '.join(weak)} the force does not drop" in TEXT

@@ -54,10 +54,7 @@ def test_default_target_is_the_whole_paper(paper):
                 "claims": 1,
             },
         ),
-        (
-            "results/quick/figures/study_drop.png",
-            {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1},
-        ),
+        ("figure_study_drop", {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
     ],
 )
 def test_targets(workflow, target, expected):

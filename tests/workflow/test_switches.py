@@ -3,6 +3,7 @@
 import dataclasses
 import re
 import shutil
+import sqlite3
 
 import pytest
 
@@ -82,6 +83,33 @@ def test_a_forced_file_and_all_of_them_compute_again(copied):
     )
 
 
+def lock(run, *files):
+    """A lock as of another run in this directory, which is at work or was killed."""
+    locks = run.directory / ".snakemake" / "locks"
+    locks.mkdir(exist_ok=True)
+    (locks / "0.output.lock").write_text("".join(f"{file}\n" for file in files))
+
+
+@pytest.mark.parametrize(
+    ("locked", "arguments"),
+    [
+        ("other/lengths.csv", ["lengths", "--forcerun", "lengths"]),
+        ("results/figures/mine.png", ["lengths", "--forcerun", "lengths"]),
+        ("results/lengths.csv", ["lengths", "--nolock", "--forcerun", "lengths"]),
+        (None, ["./results/lengths.csv", "-f"]),
+        (None, ["lengths", "--forcerun", "./results/../results/lengths.nc"]),
+    ],
+)
+def test_what_is_forced_is_made_again_whatever_its_path_and_whoever_has_a_lock(
+    copied, locked, arguments
+):
+    if locked:
+        lock(copied, locked)
+    copied.printed(*arguments)
+    (log,) = copied.directory.glob("results/logs/lengths.log")
+    assert SAME in log.read_text()
+
+
 def test_until_and_omit_from_know_the_rules(fresh):
     assert fresh.planned("--until", "simulate") == {"simulate": 2}
     assert fresh.planned("--omit-from", "draw_study").keys() == RULES - {"draw_study"}
@@ -108,13 +136,33 @@ def test_a_dry_run_changes_no_visible_file(copied):
 
 def test_a_run_beside_another_one_changes_nothing(copied):
     """It stops before its first job, and so does not take away what the other one shows."""
-    locks = copied.directory / ".snakemake" / "locks"
-    locks.mkdir(exist_ok=True)
-    (locks / "0.output.lock").write_text("results/lengths.csv\n")
+    lock(copied, "results/lengths.csv")
     changed = configured(copied, {**RUN, "tolerance": 0.2})
     done = changed("lengths")
     assert done.returncode != 0 and "cannot be locked" in done.stdout
     assert all((copied.directory / "results" / name).is_file() for name in FILES)
+
+
+def test_a_refused_run_leaves_the_recipes_of_the_other_one_with_a_database_too(copied):
+    """Snakemake keeps its locks in a database then, not in files."""
+    database = ("--persistence-backend", "db")
+    copied.printed("lengths", *database, "--dry-run")
+    with sqlite3.connect(copied.directory / ".snakemake" / "metadata.db") as connection:
+        lock = str(copied.directory / ".snakemake"), "results/lengths.csv", "output"
+        columns = "namespace, file_path, lock_type"
+        connection.execute(f"INSERT INTO snakemake_locks ({columns}) VALUES (?, ?, ?)", lock)
+    recipes = set(copied.directory.glob("results/store/recipes/*/**/*.json"))
+    done = configured(copied, {**RUN, "tolerance": 0.2})("lengths", *database)
+    assert done.returncode != 0 and "cannot be locked" in done.stdout
+    assert recipes and all(path.is_file() for path in recipes)
+    assert all((copied.directory / "results" / name).is_file() for name in FILES)
+
+
+def test_a_failed_run_beside_another_one_leaves_no_former_results(copied):
+    lock(copied, "results/figures/mine.png")
+    changed = configured(copied, {**RUN, "tolerance": 0.01, "shortest_step": 9.0e-8})
+    assert changed("lengths").returncode != 0
+    assert not (copied.directory / "results" / "lengths.csv").exists()
 
 
 def test_lint_misses_no_log(built):

@@ -39,7 +39,9 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
         try:
             recipe = read(recipe_file)
             named = os.environ.get(FORCED, "").split("\n")
-            forced = not {"*", rule, *recipe.files}.isdisjoint(named)
+            paths = set(map(os.path.abspath, named))
+            forced = not {"*", rule}.isdisjoint(named)
+            forced |= not paths.isdisjoint(map(os.path.abspath, recipe.files))
             store = Store(f"{recipe.results}/store")
             for source in recipe.obtained(store, others(strict=False)):
                 LOGGER.info(f"taken from {source}")

@@ -4,16 +4,20 @@ Each rule has its recipe (:mod:`.recipes`) as one more input, a file below the s
 its name. The process that plans writes it: as old as a file can be if the rule's outputs show the
 result of that recipe, otherwise with new content and newer than the outputs. So Snakemake's own
 triggers decide correctly, even if its notes are lost or times of files are wrong; and what another
-process plans has other names.
+process plans has other names. A plan belongs to its process: the keys are in a file of its own, and
+the environment tells jobs on other machines its name.
 
 A run, unlike a dry run, first removes files that show another result, so that none is left if a job
-fails, and shows all results that are in a store. Snakemake's inner parts are used here alone.
+fails, and shows all results that are in a store. While another run has a lock on these results
+Snakemake may refuse this one, so it does so later, at its start. Snakemake's inner parts are used
+here alone.
 """
 
 import atexit
 import contextlib
 import hashlib
 import os
+import socket
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -28,8 +32,11 @@ from .job import FORCED
 from .recipes import Recipe, listed, withdraw, write
 from .store import NOTE, Store, others
 
-_PLANNED = "planned"  # file beside recipes with the names and keys of the jobs of the latest run
-_LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
+PLAN = "NUCLEATION_PLAN"
+"""Environment variable with the name of the file of a plan, beside the recipes."""
+
+_PLANS = "planned-*"  # files with the names and keys of the jobs of a run
+_KEPT = 86_400.0  # s for which they stay at least: a run that still plans has no lock yet
 
 Paths = Any  # one path, or several in a list, as Snakemake's texts or plain ones
 
@@ -47,7 +54,11 @@ class Plan:
         self._files: dict[str, Any] = {}  # Snakemake's files by their paths
         self._kept: Counter[str] = Counter()  # jobs of a dry run that a run would not start
         self.checked = False  # whether the workflow fails at its end unless all is current
+        self._waiting: list[Recipe] = []  # whose files were not updated before the start
         self._shown = self._taken = 0  # results that a run showed, and took from other stores
+        if workflow.is_main_process:
+            process = f"{socket.gethostname()}-{os.getpid()}-{time.time_ns()}"
+            os.environ[PLAN] = _PLANS.replace("*", process)
         atexit.register(self._report)
 
     def __call__(self, rule: str) -> Callable[[Any], str]:
@@ -70,6 +81,11 @@ class Plan:
         if self._shown:
             taken = f"{self._taken} of them taken from other stores"
             LOGGER.info(f"Shown without a job: {self._shown} results, {taken}")
+
+    def start(self) -> None:
+        """Once Snakemake has its lock, remove files that show another result than was planned."""
+        while self._waiting:
+            self._update_views(self._waiting.pop())
 
     @cached_property
     def prefix(self) -> str:
@@ -104,24 +120,43 @@ class Plan:
 
     @cached_property
     def _beside_a_run(self) -> bool:
-        return any(Path(_LOCKS).glob("*"))
+        """Whether another run, at work or killed, has a lock on files of these results."""
+        results = os.path.abspath(self.results)
+        locks = self._workflow.persistence._read_locks()
+        return any(os.path.abspath(path).startswith(f"{results}/") for _, path in locks)
 
     @cached_property
     def runs(self) -> bool:
-        """Whether jobs will run; then they learn which results are forced.
-
-        If another run is at work, Snakemake stops later, and nothing may be changed before.
-        """
+        """Whether jobs may run; then they learn which results are forced, and have a plan."""
         workflow = self._workflow
-        only_lists = workflow.executor_plugin is None or workflow.dryrun or workflow.touch
-        if only_lists or self._beside_a_run:
+        if workflow.executor_plugin is None or workflow.dryrun or workflow.touch:
             return False
         asked = workflow.dag_settings
         forced = {*asked.forcerun, *(asked.targets if asked.forcetargets else ())}
         os.environ[FORCED] = "*" if asked.forceall else "\n".join(map(str, forced))
-        write(Path(self._place, _PLANNED), "")
+        write(self._plan, "")
         write(Path(self._place, recipes.PLACES), recipes.places_of(self.results))
         return True
+
+    @cached_property
+    def _changes(self) -> bool:
+        """Whether files that people open, and other recipes, may be changed before any job.
+
+        If another run is at work, Snakemake may stop later, and it may need them.
+        """
+        if not self.runs or self._beside_a_run:
+            return False
+        for plan in Path(self._place).glob(_PLANS):
+            if recipes.time_of(str(plan)) < time.time() - _KEPT:
+                plan.unlink(missing_ok=True)
+        return True
+
+    @cached_property
+    def _plan(self) -> Path:
+        """The file with the names and keys of the jobs of this process's run."""
+        if PLAN not in os.environ:
+            raise ValueError(f"{PLAN} is not set: let the scheduler pass on the environment")
+        return Path(self._place, os.environ[PLAN])
 
     @cached_property
     def _written(self) -> dict[str, set[str]]:
@@ -225,7 +260,7 @@ class Plan:
         """
         if not self._workflow.is_main_process:
             name = self._name(str(getattr(self._rules, rule).output[0].apply_wildcards(wildcards)))
-            lines = Path(self._place, _PLANNED).read_text("utf-8").splitlines()
+            lines = self._plan.read_text("utf-8").splitlines()
             planned = dict(line.rsplit(" ", 1) for line in lines)
             return f"{self._place}/{name}.{planned[name]}.json"
         recipe = self._of_rule(rule, wildcards)
@@ -235,12 +270,12 @@ class Plan:
 
     def _write(self, rule: str, recipe: Recipe, file: str) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
-        if self.runs:
+        if self._changes:
             self._update_views(recipe)
         shown = recipe.is_shown(self.store)
-        if not self.runs and not (shown and recipe.is_linked):
+        if not self._changes and not (shown and recipe.is_linked):
             # a run would start no job; an entry elsewhere is not checked
-            self._kept[rule] += all(
+            self._kept[rule] += not self.runs and all(
                 one.is_in(self.store)
                 or any(os.path.isfile(other.entry(one.key) / NOTE) for other in self._others)
                 for one in recipe.needed
@@ -257,9 +292,12 @@ class Plan:
             # later than the outputs, even if a clock was wrong
             recipe.write_as_of(file, 0.0 if shown else max(time.time(), newest + 0.01))
         self._refresh(file)
-        if self.runs:  # note it for its job, and leave no recipe of another result of this name
-            with open(f"{self._place}/{_PLANNED}", "a", encoding="utf-8") as planned:
-                print(recipe.name, recipe.key, file=planned)
+        if self.runs:  # note it for its job
+            with self._plan.open("a", encoding="utf-8") as plan:
+                print(recipe.name, recipe.key, file=plan)
+            if not self._changes:
+                self._waiting.append(recipe)
+        if self._changes:  # leave no recipe of another result of this name
             for key in self._written[recipe.name] - {recipe.key}:
                 Path(f"{self._place}/{recipe.name}.{key}.json").unlink(missing_ok=True)
 
