@@ -102,6 +102,14 @@ def test_every_symbol_can_be_typeset():
     assert (found["sigma0"], found["zeta/a"], found["L"]) == (r"\sigma_0", r"\zeta/a", "")
 
 
+def test_large_and_small_values_are_powers_of_ten():
+    """Mathematics makes a difference of 1e+06."""
+    varied = {"height": [0.1, 0.2, 0.3], "normal_stress": [1e6, 1e6, 2.5e7]}
+    labels = draw([1, 2, 3], [0.9, 1.6, 2.5], **varied).axes[0].get_legend_handles_labels()[1]
+    assert r"simulation, $\sigma_0=10^{6}$ Pa" in labels
+    assert r"simulation, $\sigma_0=2.5\times10^{7}$ Pa" in labels
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["curve", "grid", "points"])
 def test_nothing_is_cut_or_overlaps(kind):

@@ -143,6 +143,18 @@ def legend(owner: Figure | Axes, *panels: Axes, **options: Any) -> None:
     owner.legend(found.values(), found, **options)
 
 
+def number(value: float, digits: int = 4) -> str:
+    r"""A number for TeX's mathematics, where ``1e+06`` would be a difference.
+
+    >>> number(1e6), number(2.5e-9), number(0.25)
+    ('10^{6}', '2.5\\times10^{-9}', '0.25')
+    """
+    mantissa, _, power = f"{value:.{digits}g}".partition("e")
+    if not power:
+        return mantissa
+    return f"{mantissa}\\times10^{{{int(power)}}}".removeprefix("1\\times")
+
+
 def plain_numbers(axis: Axis, ticks: Sequence[float] = ()) -> None:
     """Label a logarithmic axis without powers of ten, at some ticks or at 1, 2 and 5."""
     axis.set_major_locator(FixedLocator(ticks) if ticks else LogLocator(subs=(1.0, 2.0, 5.0)))

@@ -41,7 +41,7 @@ def draw_stability(table: xr.Dataset, patches: Iterable[xr.Dataset]) -> Figure:
     named = np.linspace(0, heights.size - 1, min(_LEGEND_HEIGHTS, heights.size)).round()
     for i, (height, colour) in enumerate(zip(heights, shades, strict=True)):
         if i in named:
-            frequency.plot([], [], color=colour, label=f"$H={height:g}$ m")
+            frequency.plot([], [], color=colour, label=f"$H={style.number(height)}$ m")
         rows = laws.where(runs, height=height)
         for j in range(rows.sizes["run"]):
             row = rows.isel(run=j)

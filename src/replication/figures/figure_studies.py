@@ -103,12 +103,12 @@ def _kinds(
     for name in names:
         entry = declared[name]
         symbol = _symbol(entry)
-        shown = f"${symbol}={{:.4g}}$" if symbol else _named(name) + " {:.4g}"
-        shown += "" if entry.unit == "1" else f" {entry.unit}"
+        before = f"${symbol}=" if symbol else f"{_named(name)} $"
+        after = "$" if entry.unit == "1" else f"$ {entry.unit}"
         own = []
         for value in varied[name]:
             word = value is None or isinstance(value, str)
-            own.append(value or "" if word else shown.format(value))
+            own.append(value or "" if word else before + style.number(value) + after)
         texts.append(own)
     return [", ".join(filter(None, row)) for row in zip(*texts, strict=True)]
 

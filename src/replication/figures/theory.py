@@ -46,7 +46,7 @@ def figure_2(theory: xr.Dataset) -> Figure:
     ratio = theory["bimaterial_length_ratio"]
     f_beta = ratio["f_beta"].values
     for value, look in looks(ratio["zeta_over_a"].values).items():
-        axes.plot(f_beta, ratio.sel(zeta_over_a=value), label=f"${value:.3g}$", **look)
+        axes.plot(f_beta, ratio.sel(zeta_over_a=value), label=f"${style.number(value, 3)}$", **look)
     axes.set(xlabel=r"Bimaterial contrast $f\beta$", xlim=(f_beta.min(), f_beta.max()))
     axes.set(ylabel=r"Critical length $L_c/L_c^{\mathcal{M}}$", ylim=(0.0, 1.04))
     # the curves decrease from one, the highest zeta/a on top: the legend has their order
