@@ -53,6 +53,7 @@ results: results/blind
 
 studies:
   blind:
+    fault: paper                # its law and rigid base, where an entry gives no others
     role: blind
     description: faults drawn at random, whose L was predicted before it was simulated
     table: own                  # results/blind/blind.csv

@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 from nucleation import commands
-from nucleation.api import Fault
+from nucleation.api import Fault, ParameterError
 from nucleation.theory.creep import slow_slip
 from nucleation.theory.creep.lengths import LONGEST
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.pair import LayerPair
+from replication.configuration.load import configure
+from replication.configuration.studies import study_runs
 
 SEED, NUMBER, QUICK = 34, 300, 12
 LONGEST_SPECIMEN = 1e7  # m
@@ -138,3 +140,32 @@ def test_one_answer_by_library_and_command(cost, capsys, number):
     for key, entry in told.items():
         assert entry["value"] == (found[key].value if found[key].exists else None), key
         assert (entry["status"], entry["reason"]) == (found[key].status, found[key].reason)
+
+
+def test_a_study_has_the_critical_length_of_the_library():
+    """The same values gave lengths that were 2.8 times apart: another second body, another law.
+
+    Faults of a finite height that some friction law has.
+    """
+    faults, studies = {}, {}
+    for number in range(NUMBER):
+        given, _ = random_fault(number)
+        if math.isinf(given["height"]) or math.isinf(given.get("second_height", 1.0)):
+            continue
+        fault = Fault(**given)
+        try:
+            fault.law()
+        except ParameterError:
+            continue
+        faults[f"n{number}"] = fault
+        runs = [{"n_x": 60, "n_y": 4, "block_length": 1.0, "end_time": 1.0}]
+        studies[f"n{number}"] = {"fault": fault.to_dict(), "runs": runs}
+    assert len(studies) > 100
+    settings = configure({"results": "results/random", "studies": studies}, lazy=True)
+    for name, fault in faults.items():
+        (_, run), *_ = study_runs(name, settings)
+        assert not isinstance(run, str), run
+        expected = float(fault.critical_length())
+        assert run.critical_length == pytest.approx(expected, rel=1e-9, nan_ok=True), name
+        assert run.run.fault.second_shear_modulus == fault.second_shear_modulus
+        assert run.run.law == fault.law()

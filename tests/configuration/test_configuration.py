@@ -2,6 +2,7 @@
 
 import math
 from collections import Counter
+from pathlib import Path
 
 import pytest
 from configurations import CONFIG, PAPER, papers, study
@@ -210,3 +211,67 @@ def test_the_papers_rounding_is_that_of_its_own_law():
         found = configure({"friction": friction, **study({"height": 0.005})}).main_text
         assert (found.friction, found.a, found.zeta) == (0.41, 0.0068, 0.016)
         assert (found.slip_distance, found.velocity) == (5e-7, 1e-5)
+
+
+GRANITE = {
+    "shear_modulus": "30 GPa",
+    "poisson_ratio": 0.25,
+    "normal_stress": "6 MPa",
+    "slip_distance": "0.5um",
+    "friction": 0.6,
+    "a": 0.008,
+    "b": 0.024,
+    "velocity": 1e-5,
+}
+
+
+def started(tmp_path, **study):
+    """The only run of a study."""
+    own = {"defaults": {"n_x": 60, "n_y": 4}, "runs": [{"height": 0.05}], **study}
+    (run,) = configure({"results": str(tmp_path), "studies": {"mine": own}}).runs
+    return run
+
+
+@pytest.mark.parametrize("kind", ["mapping", "file"])
+def test_a_study_starts_from_the_fault_that_it_names(tmp_path, kind):
+    """What is left out has the meaning that it has in Python and on the command line."""
+    fault = GRANITE
+    if kind == "file":
+        fault = str(tmp_path / "fault.yaml")
+        Path(fault).write_text("".join(f"{k}: {v}\n" for k, v in GRANITE.items()))
+    run = started(tmp_path, fault=fault)
+    expected = Fault(**GRANITE, height=0.05)
+    assert run.critical_length == pytest.approx(expected.critical_length(), rel=1e-12)
+    assert run.run.law == expected.law() and run.run.fault.second_height == 0.05
+
+
+def test_values_of_a_study_change_its_fault(tmp_path):
+    run = started(tmp_path, fault=GRANITE, runs=[{"height": 0.05, "second_body": "rigid"}])
+    expected = Fault(**GRANITE, height=0.05, second_shear_modulus=math.inf)
+    assert run.critical_length == pytest.approx(expected.critical_length(), rel=1e-12)
+
+
+def test_the_papers_fault_is_the_default(tmp_path):
+    assert started(tmp_path, fault="paper").run == started(tmp_path).run
+
+
+@pytest.mark.parametrize(
+    ("fault", "problem"),
+    [
+        ({**GRANITE, "hight": 1.0}, "hight = 1.0 is not allowed: unknown key; did you mean height"),
+        ({**GRANITE, "normal_stress": "6 m"}, "normal_stress"),
+        ({k: x for k, x in GRANITE.items() if k != "velocity"}, "velocity .m/s. is missing"),
+        ("nowhere.yaml", "nowhere.yaml can't be read"),
+        (3, "must be paper, a file or a mapping"),
+        ({**GRANITE, "zone_thickness": 1.0, "zone_shear_modulus": 1e9}, "no simulation has a zone"),
+    ],
+)
+def test_a_fault_that_is_wrong_is_refused(tmp_path, fault, problem):
+    with pytest.raises(ParameterError, match=f"studies.mine.fault: .*{problem}"):
+        started(tmp_path, fault=fault)
+
+
+def test_a_whole_fault_among_the_values_needs_its_start(tmp_path):
+    """The rigid base and the law were the paper's, in silence."""
+    with pytest.raises(ParameterError, match="write `fault: paper`, whose second body is rigid"):
+        started(tmp_path, defaults={**GRANITE, "n_x": 60, "n_y": 4})

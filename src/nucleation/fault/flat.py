@@ -108,24 +108,31 @@ def read_parameters(
     Keys that are `ignored` are those of other questions about the fault. Beside its parameters
     there may be `further` ones, by name.
     """
-    from ..lengths.ranges import SAMPLED, parse_range
     from .files import read_yaml
 
     content = read_yaml(Path(path))
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
-    known = {**declarations_of_flat(), **further}
-    found = {}
     try:
-        for key, value in content.items():
-            if key in ignored:
-                continue
-            if key not in known:
-                suggestion = hint(str(key), known) or f"known: {', '.join(known)}"
-                raise ParameterError(f"{key} = {value!r} is not allowed: unknown key; {suggestion}")
-            entry = known[key]
-            read = parse_range if isinstance(value, str) and key in SAMPLED else in_si
-            found[key] = read(key, value, entry)
+        return read_values({k: x for k, x in content.items() if k not in ignored}, further)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
+
+
+def read_values(values: Mapping[str, Any], further: Mapping[str, Quantity] = {}) -> dict[str, Any]:
+    """Flat values in SI units, from numbers and texts with units and ranges.
+
+    Beside the parameters of a fault there may be `further` ones, by name.
+    """
+    from ..lengths.ranges import SAMPLED, parse_range
+
+    known = {**declarations_of_flat(), **further}
+    found = {}
+    for key, value in values.items():
+        if key not in known:
+            suggestion = hint(str(key), known) or f"known: {', '.join(known)}"
+            raise ParameterError(f"{key} = {value!r} is not allowed: unknown key; {suggestion}")
+        entry = known[key]
+        read = parse_range if isinstance(value, str) and key in SAMPLED else in_si
+        found[key] = read(key, value, entry)
     return found

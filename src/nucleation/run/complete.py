@@ -75,14 +75,18 @@ def flat(fault: Fault, law: Friction) -> dict[str, Any]:
     return found
 
 
-def complete(
-    fault: Fault, values: Mapping[str, Any], law: Friction | None = None
-) -> dict[str, Any]:
-    """All parameters of a run of a single fault, from those that are given and its friction law.
+def starting_values(fault: Fault) -> dict[str, Any]:
+    """The parameters of runs that start from a single fault, by name; without infinite heights.
 
-    Raises a ParameterError if the fault is no single one, has a zone, or lacks what a simulation
-    needs.
+    Raises a ParameterError if the fault can't be simulated.
     """
+    fault = _simulable(fault)
+    found = flat(fault, fault.law())
+    return {name: x for name, x in found.items() if not (isinstance(x, float) and math.isinf(x))}
+
+
+def _simulable(fault: Fault) -> Fault:
+    """The fault with an age; a ParameterError if it is no single one, has a zone, or is held."""
     for name, value in dict(fault).items():
         if name in ZONE:
             raise ParameterError(f"{name} is not allowed: no simulation has a zone")
@@ -93,12 +97,24 @@ def complete(
             f"far_side = {fault.far_side!r} is not allowed: the far side of a simulated block is "
             "free"
         )
+    if fault.initial_state is not None or fault.velocity is None:
+        return fault
+    return fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
+
+
+def complete(
+    fault: Fault, values: Mapping[str, Any], law: Friction | None = None
+) -> dict[str, Any]:
+    """All parameters of a run of a single fault, from those that are given and its friction law.
+
+    Raises a ParameterError if the fault is no single one, has a zone, or lacks what a simulation
+    needs.
+    """
     for name in values:
         if name not in OF_PARTS:
             raise ParameterError(f"{name} is a parameter of the fault: {_change(name)} changes it")
     law = law or fault.law()
-    if fault.initial_state is None:
-        fault = fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
+    fault = _simulable(fault)
     found = dict(values)
     try:
         critical = critical_length_of(fault)

@@ -11,12 +11,15 @@ from typing import Any
 
 import numpy as np
 
+from nucleation.fault import Fault
+from nucleation.fault.flat import read_parameters, read_values
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, Quantity, declarations
 from nucleation.model.settings import STUCK_BELOW
 from nucleation.model.units import in_si
 from nucleation.run.checks import contradictions, memory_problem
+from nucleation.run.complete import starting_values
 from nucleation.run.names import in_type, parameters
 
 from .roles import LITERATURE, OWN, WEAKENING_PATCHES
@@ -25,6 +28,9 @@ from .settings import GROUPS, RANGE, SECTIONS, Settings, StudySettings, entries_
 
 _Read = Callable[[str, Any], Any]
 """A function that reads a value at a place of the configuration."""
+
+PAPERS_FAULT = "paper"
+"""The fault of the paper, from which a study starts if it names none."""
 
 _RESULTS = Quantity("directory of all results", kind="str")
 
@@ -78,6 +84,7 @@ class Reader:
         several["defaults"] = partial(self.mapping, self.declared(parameters()))
         keys = self.declared(declarations(StudySettings))
         keys["defaults"] = several["defaults"]
+        keys["fault"] = self.fault
         keys["runs"] = partial(self.listed, partial(self.entry, several))
         names = list(given) if isinstance(given, dict) else []
         for name in names:
@@ -88,6 +95,27 @@ class Reader:
                 )
         read = partial(self.mapping, keys, needed=["runs"])
         return self.mapping(dict.fromkeys(names, read), place, given, filled=True)
+
+    def fault(self, place: str, given: Any) -> dict[str, Any]:
+        """The parameters of runs that start from a fault: the paper's, of a file, or a mapping.
+
+        What a file or a mapping leaves out has the meaning of ``Fault.from_file``.
+        """
+        if given == PAPERS_FAULT:
+            return {}
+        try:
+            if isinstance(given, str):
+                values = read_parameters(given)
+            elif isinstance(given, dict):
+                values = read_values(given)
+            else:
+                raise ParameterError(
+                    f"it must be {PAPERS_FAULT}, a file or a mapping of a fault's parameters"
+                )
+            return starting_values(Fault.from_dict(values))
+        except ParameterError as error:
+            self.problems.append(f"{place}: {error}")
+            return {}
 
     def declared(self, entries: Mapping[str, Quantity]) -> dict[str, _Read]:
         """Functions that read declared values: one value of each name, or a tuple."""

@@ -30,6 +30,10 @@ DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.y
 """The default configuration: the paper's, and the studies beyond it."""
 
 
+OF_RUNS = ("fault", "defaults", "runs")
+"""The keys of a study that say which runs it has."""
+
+
 class _Expanded(NamedTuple):
     """The runs of a study."""
 
@@ -221,7 +225,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     base = base.replaced(event_drop=drop)  # runs do not end before the force has dropped so far
     studies = {}
     for name, section in values["studies"].items():
-        own = {key: value for key, value in section.items() if key not in ("defaults", "runs")}
+        own = {key: value for key, value in section.items() if key not in OF_RUNS}
         studies[name] = StudySettings(**own)
     settings = Configuration(
         results=results,

@@ -20,6 +20,9 @@ from ..tables.curves import main_text
 from .runs import StudyRun, identifier, varied
 from .settings import Settings
 
+OF_A_WHOLE_FAULT = {"shear_modulus", "poisson_ratio", "normal_stress", "slip_distance", "a"}
+"""What a fault of its own has: a study that gives all of it says what it starts from."""
+
 _CURVE_POINTS = 81
 """Values of the varied number in the theory's curve."""
 
@@ -104,6 +107,15 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
 
 def fault_of(study: str, values: Mapping[str, Any], settings: Settings) -> tuple[Run, Fault]:
     """The run with values of a study, whose block length is the base's, and the theory's fault."""
+    start = settings.sections[study].get("fault")
+    if start is None and values.keys() >= OF_A_WHOLE_FAULT:
+        raise ParameterError(
+            f"{', '.join(sorted(OF_A_WHOLE_FAULT))} are given, but not the fault that the study "
+            "starts from: write `fault: paper`, whose second body is rigid and whose friction law "
+            "is product, or give them as `fault: {...}`, with a second body like the first and the "
+            "friction law dieterich_ruina where nothing else is given"
+        )
+    values = {**(start or {}), **values}
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     run = settings.base.replaced(**values)
