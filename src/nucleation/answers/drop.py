@@ -63,7 +63,7 @@ def run_away(fault: FaultLike, declared: Perturbation | None, usual: Perturbatio
         if math.isnan(velocity):
             velocity = distance  # in units of D/V
         phi0 = AGE * distance / velocity if math.isnan(age) else age
-        patches = Patches(one, evolution=fault.evolution)
+        patches = Patches(one, evolution=str(fault.evolution))
         known = _Known(fault, patches, critical, velocity, distance, phi0)
         if fault.friction is not None:
             drop, runaway = known.under(declared or usual)

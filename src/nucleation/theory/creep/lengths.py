@@ -124,7 +124,7 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
     def answer(one: Systems, critical: float, *at: float) -> tuple[Any, ...]:
-        patches = Patches(one, loading=fault.loading, evolution=fault.evolution)
+        patches = Patches(one, loading=fault.loading, evolution=str(fault.evolution))
         if law is not None:
             patches = patches.with_law(fault, *at)
         return *stability_point(patches, critical), VALUE, ""

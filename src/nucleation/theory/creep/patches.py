@@ -51,8 +51,8 @@ class Patches:
 
     def with_law(self, fault: FaultLike, velocity: float, distance: float) -> Patches:
         """Those with the fault's law at V (m/s) and D (m); ParameterError if it has none."""
-        given = fault.friction_law, fault.evolution
-        law = law_of(*given, velocity, distance, *self.constants)
+        evolution = str(fault.evolution)
+        law = law_of(fault.friction_law, evolution, velocity, distance, *self.constants)
         return dataclasses.replace(self, law=law, velocity=velocity)
 
     @property

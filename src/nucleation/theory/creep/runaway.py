@@ -212,7 +212,7 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     known = fault.velocity is not None and fault.friction is not None
 
     def answer(one: Systems, critical: float, velocity: float, distance: float) -> Runaway:
-        patches = Patches(one, loading=fault.loading, evolution=fault.evolution)
+        patches = Patches(one, loading=fault.loading, evolution=str(fault.evolution))
         if known:
             with contextlib.suppress(ParameterError):  # no law has these constants
                 patches = patches.with_law(fault, velocity, distance)
