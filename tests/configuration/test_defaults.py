@@ -103,7 +103,8 @@ def test_names_can_be_any():
 def test_figures_stand_on_roles_that_there_are():
     asked = {role for roles in figures.ROLES.values() for role in roles}
     assert asked | {*PAIRS, *REFINEMENTS} <= set(ROLES)
-    found = {own.role for own in load(CONFIG / "quick.yaml").studies.values()}
+    loaded = (load(CONFIG / name) for name in ("quick.yaml", "blind.yaml"))
+    found = {own.role for settings in loaded for own in settings.studies.values()}
     assert figures.drawable(found) == list(figures.ROLES)
 
 

@@ -17,6 +17,7 @@ ROLES: dict[str, tuple[str, ...]] = {
     "figure_weakening": ("weakening",),
     "figure_map": ("map",),
     "figure_patch_stability": ("paper",),
+    "figure_blind": ("blind",),
 }
 """Roles of studies by figure; figures of a user's studies are not in it."""
 
