@@ -60,7 +60,8 @@ rule figure_studies:
 
 for study in settings.studies:
 
-    rule:
+    rule figure_study:
+        """The figure of one study"""
         name:
             f"figure_study_{study}"
         input:
