@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from replication.pipeline import check
-from replication.pipeline.planning import Plan
+from replication.pipeline.planning import PLAN, Plan
 from replication.pipeline.store import NOTE, Store
 
 KEY, OTHER = "0" * 16, "1" * 16
@@ -83,5 +83,6 @@ def test_a_job_elsewhere_takes_what_the_latest_run_planned(tmp_path, monkeypatch
     ask = job("a")
     place = tmp_path / job._place
     place.mkdir(parents=True)
-    (place / "planned").write_text(f"b {OTHER}\na {OTHER}\na {KEY}\n")
+    monkeypatch.setenv(PLAN, "planned-mine")
+    (place / "planned-mine").write_text(f"b {OTHER}\na {OTHER}\na {KEY}\n")
     assert ask({}) == f"{job._place}/a.{KEY}.json"

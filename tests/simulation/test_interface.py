@@ -37,7 +37,9 @@ def test_a_node_alone_is_solved_to_the_end(size, e, c, step):
         expected = high  # round-off, or the largest that is searched
     else:
         expected = brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-14, maxiter=2000)
-    assert balanced_asinh(size, e, c, step) == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    found = balanced_asinh(size, e, c, step)
+    balanced = abs(excess(found)) < 1e-14 * size  # to round-off, where the sum hardly changes
+    assert balanced or found == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.slow

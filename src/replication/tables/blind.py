@@ -24,7 +24,7 @@ from .rows import SHARED, Row, rows_of
 PREDICTED = declared(
     """
     number | 1 | number of the fault in the drawing
-    half | | calibrate, or test
+    half | | half of the set
     friction_law evolution plane below far_side zeta_over_a height strength critical_length
     stability_length runaway_length runaway_status law_length expected_length expected_low
     expected_high doubt

@@ -60,7 +60,7 @@ COLUMNS = declared(
     n_x
     elements | 1 | elements in half of L_b
     period | 1 | period of the fault over the width of the patch
-    tolerance | 1 | largest error of a step, of log(phi) and slip rates
+    tolerance | 1 | tolerance of the local error per step
     longest_step | 1 | longest step over D/V
     """,
     SHARED | CURVES,
