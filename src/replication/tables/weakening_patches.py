@@ -61,7 +61,7 @@ COLUMNS = declared(
     elements | 1 | elements in half of L_b
     period | 1 | period of the fault over the width of the patch
     tolerance | 1 | tolerance of the local error per step
-    longest_step | 1 | longest step over D/V
+    longest_step | 1 | longest time step over the memory time D/V
     """,
     SHARED | CURVES,
 )
