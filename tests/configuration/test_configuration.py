@@ -144,12 +144,24 @@ def curves(*runs, **settings):
 def test_curve_goes_through_the_runs(interface):
     entry = {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}
     runs, found = curves(entry, interface=interface)
-    assert set(found) == {"aging", "slip"}
-    for run in runs:
-        curve = found[run.labels["evolution"]]
+    assert len(found) == 2
+    for i, run in enumerate(runs):
+        (curve,) = (curve for curve in found if i in curve["members"])
         at = curve["x"].index(run.labels["height"])
         assert curve["length"][at] == pytest.approx(run.critical_length, rel=1e-7)
-    assert len(curve["x"]) > 50
+        assert curve["between"][0]["evolution"] == run.labels["evolution"]
+    assert len(curve["x"]) > 50 and len(curve["between"]) == 9
+    assert [one["height"] for one in curve["between"]] == curve["x"][::10]
+
+
+def test_curves_are_closely_spaced_where_strengths_and_realisations_vary_too():
+    entry = {"height": [0.01, 0.1, 1.0], "perturbation": "state", "strength": [1e-4, 1e-3]}
+    runs, found = curves({**entry, "seed": [1, 2]})
+    assert [{runs[i].value("strength") for i in curve["members"]} for curve in found] == [
+        {1e-4},
+        {1e-3},
+    ]
+    assert all(len(curve["x"]) > 50 for curve in found)
 
 
 def test_figures_show_the_nearest_height():

@@ -8,7 +8,11 @@ import pytest
 import xarray as xr
 from matplotlib.mathtext import MathTextParser
 
+from nucleation.run.derived import drop_of_run
 from nucleation.run.names import parameters
+from nucleation.run.run import Run
+from replication.configuration.load import configure
+from replication.configuration.studies import theory_curves
 from replication.figures import figure_studies
 
 
@@ -21,7 +25,7 @@ def table(theory, length):
 
 def draw(theory, length, **varied):
     entries = {name: asdict(parameters()[name]) for name in varied}
-    return figure_studies.draw(table(theory, length), varied, entries, {})
+    return figure_studies.draw(table(theory, length), varied, entries, [])
 
 
 def points(figure):
@@ -47,18 +51,70 @@ def test_kinds_have_their_mark_and_curve():
         kinds = {"evolution": list("aabb")}
         axes = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], **kinds, **varied).axes[0]
         labels = axes.get_legend_handles_labels()[1]
-        assert labels == ["theory", "simulation, a", "simulation, b"]
+        assert list(dict.fromkeys(labels)) == ["$L_c$, theory", "simulation, a", "simulation, b"]
         first, second = (line for line in axes.lines if line.get_linewidth() == 1.0)
         assert first.get_linestyle() != second.get_linestyle()
         assert axes.get_xlabel()[:6] == ("Height" if "height" in varied else "Theory")
 
 
-def test_theory_is_a_smooth_curve_where_it_is_given():
-    x = np.linspace(1.0, 2.0, 81)
-    given = {"height": [1.0, 2.0]}, {"height": asdict(parameters()["height"])}
-    theory = {"": {"x": x, "length": np.sqrt(x)}}
-    axes = figure_studies.draw(table([1, 1.4], [0.9, 1.3]), *given, theory).axes[0]
-    assert any(np.array_equal(line.get_ydata(), np.sqrt(x)) for line in axes.lines)
+def along(values, **given):
+    """The curve of a study over its heights, with runs at its two ends."""
+    run = {"height": values, "n_x": 20, "n_y": 4, "end_time": 1.0, **given}
+    made = configure({"studies": {"s": {"runs": [run]}}})
+    (curve,) = theory_curves(list(made.runs), made)
+    return {**curve, "between": [curve["between"][0], curve["between"][-1]]}
+
+
+def lines(axes):
+    """The theory's lines by their labels."""
+    return {line.get_label(): line for line in axes.lines if line.get_linewidth() == 1.0}
+
+
+@pytest.mark.slow
+def test_lengths_of_theory_are_curves_of_their_own():
+    """L_c is no prediction of L: the patch becomes unstable at L_s, and the force drops at L."""
+    heights = [0.05, 0.1]
+    given = {"height": heights}, {"height": asdict(parameters()["height"])}
+    curve = along(heights, perturbation="normal_load", strength=1e-4)
+    axes = figure_studies.draw(table([0.7, 0.9], [0.5, 0.7]), *given, [curve]).axes[0]
+    shown = lines(axes)
+    critical = shown["$L_c$, theory"].get_xydata()
+    np.testing.assert_allclose(critical.T, [curve["x"], curve["length"]])
+    for end, parameters_of_end in zip((0, -1), curve["between"], strict=True):
+        known = drop_of_run(Run.from_dict(parameters_of_end))
+        stable = shown["$L_s$, theory"].get_ydata()[end]
+        assert stable == pytest.approx(known.stability_length, rel=1e-3)
+        assert shown["expected $L$ and its range"].get_ydata()[end] == known.length
+        edges = axes.collections[0].get_paths()[0].vertices[:, 1]
+        assert {known.low, known.high} < set(edges)
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        {},
+        {
+            "perturbation": "state",
+            "strength": 1e-4,
+            "heterogeneity": "a",
+            "change": 0.2,
+            "n_x": 400,
+        },
+        {
+            "perturbation": "state",
+            "strength": 1e-4,
+            "loading": "remote",
+            "n_x": 401,
+            "stress_rate": 1e4,
+        },
+    ],
+    ids=["quiet", "varying along x", "under a remote load"],
+)
+def test_where_the_law_of_the_drop_does_not_apply_no_drop_is_expected(run):
+    given = {"height": [0.05, 0.1]}, {"height": asdict(parameters()["height"])}
+    curve = along([0.05, 0.1], block_length=2.0, **run)
+    axes = figure_studies.draw(table([0.7, 0.9], [0.5, 0.7]), *given, [curve]).axes[0]
+    assert lines(axes).keys() == {"$L_c$, theory", "$L_s$, theory"}
 
 
 def test_every_fault_is_drawn_where_many_numbers_vary():
@@ -68,7 +124,7 @@ def test_every_fault_is_drawn_where_many_numbers_vary():
     assert figure.axes[0].get_title("left") == "also varied: elements along x, initial state"
     assert set(zip(many, many, strict=True)) < points(figure)
     axes = draw([1, 1], [0.9, 0.8], seed=[1, 2]).axes[0]
-    assert axes.get_legend_handles_labels()[1] == ["theory", "simulation"]
+    assert axes.get_legend_handles_labels()[1] == ["$L_c$, theory", "simulation"]
 
 
 def test_two_faults_never_share_a_marker():
@@ -76,7 +132,7 @@ def test_two_faults_never_share_a_marker():
     varied = {"height": [0.004, 0.01, 0.02], "initial_state": [1, 1, 2], "n_x": [8, 9, 9]}
     axes = draw([1, 2, 3], [0.9, 1.6, 2.5], **varied).axes[0]
     labels = axes.get_legend_handles_labels()[1]
-    assert "simulation, $\\phi_0=1$ s, $N_x=8$" in labels and len(labels) == 4
+    assert "simulation, $\\phi_0=1$ s, $N_x=8$" in labels and len(set(labels)) == 4
     axes = draw(range(1, 10), range(1, 10), height=[1] * 9, evolution=list("abcdefghi")).axes[0]
     looks = {(c[0].get_marker(), c[0].get_color()) for c in axes.containers}
     assert len(looks) == 9
@@ -92,7 +148,7 @@ def test_runs_without_an_event_are_crosses_at_the_edge(numbers):
     np.testing.assert_array_equal(lost.get_xdata(), [2.0])
     assert lost.get_label() == "no event (1 of 3)"
     labels = draw([1, 2], [np.nan, np.nan], height=[1, 2]).axes[0].get_legend_handles_labels()[1]
-    assert labels == ["theory", "no event (2 of 2)"]
+    assert labels == ["$L_c$, theory", "no event (2 of 2)"]
 
 
 def test_every_symbol_can_be_typeset():

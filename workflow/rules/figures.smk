@@ -201,9 +201,9 @@ rule draw_study:
         drawn("study_{study}", "Studies of your own", caption="figure_studies"),
     log:
         f"{RESULTS}/logs/figures/study_{{study}}.log",
-    localrule: True
     params:
         call="replication.figures.figure_studies:draw",
+        loads=lambda wildcards: laws_of(runs_of(wildcards.study)),
         varied=lambda wildcards: varied(runs_of(wildcards.study)),
         entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(runs_of(wildcards.study), settings),

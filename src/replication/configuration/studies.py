@@ -26,6 +26,9 @@ OF_A_WHOLE_FAULT = {"shear_modulus", "poisson_ratio", "normal_stress", "slip_dis
 _CURVE_POINTS = 81
 """Values of the varied number in the theory's curve."""
 
+_BETWEEN = 10
+"""At every tenth of them L_s and L are computed, which takes seconds."""
+
 
 def study_runs(name: str, settings: Settings) -> list[tuple[str, StudyRun | str]]:
     """The runs of a study with their places in the configuration; of a bad run its error message.
@@ -151,36 +154,34 @@ def _completed(
     return run.replaced(**follows) if follows else run
 
 
-def theory_curves(runs: list[StudyRun], settings: Settings) -> dict[str, dict[str, list[float]]]:
-    """The theory's length (m) over the one number that a study varies, closely spaced.
+def theory_curves(runs: list[StudyRun], settings: Settings) -> list[dict[str, Any]]:
+    """The theory of a study over the number that has most values, closely spaced.
 
-    By the words that differ among the runs (``"slip"``, or ``""``): the number ``x`` and the
-    ``length``, NaN where sliding is stable, to eight digits. Empty if the study varies several
-    numbers or none, or an integer.
+    A curve for each set of the other values, realisations aside: the `members` among the runs, the
+    number `x`, L_c (m) as `length`, NaN where sliding is stable, to eight digits, and for every
+    tenth of them the parameters of a run, `between`. Empty if no real number varies.
     """
     found = varied(runs)
-    words = [name for name in found if parameters()[name].choices]
-    numbers = [name for name in found if name not in words]
-    if len(numbers) != 1 or parameters()[numbers[0]].kind != "float":
-        return {}
-    (name,) = numbers
-    values: dict[str, list[float]] = {}
-    first: dict[str, StudyRun] = {}
-    for i, run in enumerate(runs):
-        kind = ", ".join(str(found[word][i]) for word in words)
-        values.setdefault(kind, []).append(found[name][i])
-        if name in run.given:
-            first.setdefault(kind, run)
-    curves = {}
-    for kind, run in first.items():
-        if len(values[kind]) < 2:
+    numbers = [name for name in found if not parameters()[name].choices and name != "seed"]
+    numbers.sort(key=lambda name: -len(set(found[name])))
+    if not numbers or parameters()[numbers[0]].kind != "float":
+        return []
+    name = numbers[0]
+    others = [other for other in found if other not in (name, "seed")]
+    members: dict[tuple[Any, ...], list[int]] = {}
+    for i in range(len(runs)):
+        members.setdefault(tuple(found[other][i] for other in others), []).append(i)
+    curves = []
+    for rows in members.values():
+        values = [found[name][i] for i in rows]
+        given = [runs[i] for i in rows if name in runs[i].given]
+        low, high = min(values), max(values)
+        if not given or low == high:
             continue
-        low, high = min(values[kind]), max(values[kind])
         spaced = np.geomspace if low > 0.0 else np.linspace
-        x = spaced(low, high, _CURVE_POINTS).tolist()
-        given = ({**run.given, name: value} for value in x)
-        faults = [fault_of(run.study, own, settings)[1] for own in given]
-        lengths = critical_lengths(faults)
-        columns = {"x": x, "length": lengths}
-        curves[kind] = {key: [float(f"{n:.8g}") for n in own] for key, own in columns.items()}
+        x = [float(f"{n:.8g}") for n in spaced(low, high, _CURVE_POINTS)]
+        made = [fault_of(given[0].study, {**given[0].given, name: value}, settings) for value in x]
+        lengths = [float(f"{n:.8g}") for n in critical_lengths([theory for _, theory in made])]
+        between = [run.to_dict() for run, _ in made[::_BETWEEN]]
+        curves.append({"members": rows, "x": x, "length": lengths, "between": between})
     return curves

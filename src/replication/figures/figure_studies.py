@@ -11,13 +11,17 @@ from matplotlib.figure import Figure
 
 from nucleation.model.quantities import Quantity
 from nucleation.pictures import style
+from nucleation.run.run import Run
 from nucleation.types import Array
 
+from ..tables.drops import expected
+from ..tables.lengths import stability_of
 from . import laws
 
-Curves = Mapping[str, Mapping[str, Sequence[float] | Array]]
+Curves = Sequence[Mapping[str, Any]]
 
-_DASHES = ("-", "--", "-.", ":")  # of the theory's curves, so that equal ones are seen
+_DASHES = ("--", "-.", ":", (0.0, (6.0, 1.0)))  # of L_c and L_s, one for each kind; L is solid
+_BETWEEN = ("stability_length", "expected_length", "expected_low", "expected_high")
 _FEW = 24  # so many kinds have marks and places in the legend
 _WIDE = 4.0  # ratio of the largest to the smallest value above which an axis is logarithmic
 
@@ -42,8 +46,9 @@ def draw(
     """Draw lengths (m) of one study over the number with most values, marked by all others.
 
     If there are too many kinds of runs, the title names the others. If no number is varied, the
-    theory's length is the abscissa. `theory` has closely spaced curves by kind; without one the
-    theory of the runs is connected. Runs without an event are crosses at the lower edge.
+    theory's length is the abscissa. `theory` has closely spaced curves with their runs; without one
+    the theory of the runs is connected. L_s and, under a declared perturbation, the expected L with
+    its range are curves too. Runs without an event are crosses at the lower edge.
     """
     # realisations of one fault have the same mark
     declared = {name: Quantity(**own) for name, own in entries.items() if name != "seed"}
@@ -54,22 +59,38 @@ def draw(
     kinds = _kinds(varied, declared, others)
     if len(set(kinds)) > _FEW:
         title = f"also varied: {', '.join(map(_named, others))}"
-        kinds = [""] * len(kinds)
+        kinds, theory = [""] * len(kinds), []
     x = varied[numbers[0]] if numbers else table["critical_length"].values
     rows = table.assign(x=("run", np.asarray(x, dtype=float)), kind=("run", kinds))
     names = list(dict.fromkeys(kinds))
     figure, axes = style.panels(7.7 + 0.4 * len(names), style.SINGLE_COLUMN)
-    several = len(names) > 1
-    axes.plot([], [], color=style.GUIDE if several else style.THEORY, label="theory")
+    curves = {kinds[curve["members"][0]]: curve for curve in theory}
+    shown = [rows["critical_length"].values]
     for number, kind in enumerate(names):
         own = laws.where(rows, kind=kind).sortby("x")
         marker, colour = style.look(number)
         look: style.Options = {"color": colour}
-        line = dict(look) if several else {"color": style.THEORY}
-        curve = theory.get(kind, {"x": own["x"], "length": own["critical_length"]})
-        line["marker"] = "_" if np.size(curve["x"]) == 1 else ""
         dashes = _DASHES[number % len(_DASHES)]
-        axes.plot(curve["x"], curve["length"], dashes, lw=1.0, ms=9.0, **line)
+        curve = curves.get(kind)
+        critical = (own["x"], own["critical_length"])
+        if curve is not None:
+            critical = (curve["x"], curve["length"])
+        shown += _draw_curve(axes, *critical, dashes, color=style.THEORY, label="$L_c$, theory")
+        between = {name: own[name].values for name in _BETWEEN if name in own}
+        along = own["x"].values
+        if curve is not None:
+            between = _along(curve)
+            along = np.asarray(curve["x"])[:: _step(curve)]
+        if "stability_length" in between:
+            line: style.Options = {"color": style.STABILITY, "label": "$L_s$, theory"}
+            shown += _draw_curve(axes, along, between["stability_length"], dashes, **line)
+        if np.isfinite(between.get("expected_length", np.nan)).any():
+            ends = between["expected_low"], between["expected_high"]
+            axes.fill_between(along, *ends, color=colour, alpha=0.2, lw=0.0)
+            line = {"color": colour, "label": "expected $L$ and its range"}
+            if len(names) > 1:  # the colour is that of one kind
+                axes.plot([], [], color=style.GUIDE, label=line.pop("label"))
+            shown += [*_draw_curve(axes, along, between["expected_length"], "-", **line), *ends]
         known = np.isfinite(own["length"].values)
         label = f"simulation, {kind}" if kind else "simulation"
         if known.any():
@@ -90,9 +111,35 @@ def draw(
     axes.set_ylabel("Length at the drop $L$ (m)")
     axes.set_title(title, fontsize=style.SMALL, wrap=True)
     _scale(axes, "x", rows["x"].values)
-    _scale(axes, "y", np.r_[rows["length"], rows["critical_length"]])
+    _scale(axes, "y", np.concatenate([rows["length"].values, *shown]))
     style.legend(figure, axes, loc="outside lower center", fontsize=style.SMALL)
     return figure
+
+
+def _draw_curve(axes: Axes, x: Any, length: Any, dashes: Any, **look: Any) -> list[Array]:
+    """Draw a theory's length (m), a single one as a dash; return the lengths."""
+    marker = "_" if np.size(x) == 1 else ""
+    axes.plot(x, length, ls=dashes, lw=1.0, ms=9.0, marker=marker, **look)
+    return [np.asarray(length, dtype=float)]
+
+
+def _step(curve: Mapping[str, Any]) -> int:
+    """Every which point of a curve has a run."""
+    return int((len(curve["x"]) - 1) // (len(curve["between"]) - 1))
+
+
+def _along(curve: Mapping[str, Any]) -> dict[str, Array]:
+    """L_s and, under a declared perturbation, the expected L with its range (m) along a curve."""
+    lengths = curve["length"][:: _step(curve)]
+    found = []
+    for parameters, critical in zip(curve["between"], lengths, strict=True):
+        row = stability_of({"parameters": parameters, "critical_length": critical})
+        run = Run.from_dict(parameters)
+        uniform = run.fault.loading == "edge" and run.heterogeneity.varies == "none"
+        if uniform and run.perturbation.acts:  # the law of the drop is of no other ones
+            row |= expected(run)
+        found.append([row.get(name, np.nan) for name in _BETWEEN])
+    return dict(zip(_BETWEEN, np.array(found, dtype=float).T, strict=True))
 
 
 def _kinds(

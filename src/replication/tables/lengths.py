@@ -99,7 +99,7 @@ def lengths_table(
     for run, simulation in zip(runs, simulations, strict=True):
         row = description(run)
         if row["fault"] not in by_theory:
-            by_theory[row["fault"]] = _stability(run)
+            by_theory[row["fault"]] = stability_of(run)
         record = Record(simulation, settings)
         found = extracted(record)
         reached = record.lengths[-1] if record.onset is None else found["length"]
@@ -112,7 +112,7 @@ def lengths_table(
     return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
 
 
-def _stability(run: Row) -> Row:
+def stability_of(run: Row) -> Row:
     """L_s (m) of the run's fault and its status (docs/creeping_patch.md).
 
     Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
