@@ -24,7 +24,8 @@ COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L"
 TEXTS = (
     "id study role evolution friction_law below far_side kind initial_stress status refinement "
     "varied variation fault ensemble outcome curve_fault curve_kind curve_study curve_below "
-    "runaway_status stability_status plane loading name definition varies doubt half predicted_doubt regime"
+    "runaway_status stability_status plane loading name definition varies doubt half "
+    "predicted_doubt regime"
 )
 
 
