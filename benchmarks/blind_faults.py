@@ -57,6 +57,7 @@ studies:
     role: blind
     description: faults drawn at random, whose L was predicted before it was simulated
     table: own                  # results/blind/blind.csv
+    fault: paper                # whose values the entries replace
     runs_per_job: 9
     length_over_critical: 4.0
     defaults:

@@ -1,7 +1,10 @@
 """Numbers of docs/drop.md on other faults and on weak weakening are those of the reference."""
 
 import numpy as np
+import pytest
 from docs.prose import page, table
+
+from nucleation.drop.expected_drop import OF_STRONG, OF_STRONG_NOISE, OF_WEAK
 
 TEXT = " ".join(page("drop.md").split())
 TABLE = table("other_faults")
@@ -56,3 +59,47 @@ def test_the_range_about_the_runaway_length():
     assert f"from {1 - low:.0%} below to {high - 1:.0%} above".replace("%", " %") in TEXT
     short = 1.0 - (drops()["law_length"] / drops()["length"]).min()
     assert f"up to {short:.0%} short".replace("%", " %") in TEXT
+
+
+BLIND = table("blind")
+NO_DOUBT = BLIND["doubt"].isna()
+HALVES = {"even": BLIND["half"] == "calibrate", "odd": BLIND["half"] == "test"}
+
+
+@pytest.mark.parametrize(
+    ("words", "kept"),
+    [("all", NO_DOUBT | True), ("without a doubt", NO_DOUBT), ("with a doubt", ~NO_DOUBT)],
+)
+def test_coverage_of_the_blind_faults(words, kept):
+    cells = []
+    for half in HALVES.values():
+        own = BLIND[half & kept]
+        for inside in ("predicted_inside", "inside"):
+            cells.append(f"{own[inside].sum()} of {len(own)}")
+    assert f"| {words} | {' | '.join(cells)} |" in TEXT
+
+
+def test_widths_of_the_ranges():
+    today = (BLIND["expected_high"] - BLIND["expected_low"]) / BLIND["expected_length"]
+    before = (BLIND["predicted_high"] - BLIND["predicted_low"]) / BLIND["predicted_length"]
+    stated = f"is {100 * today.mean():.0f} % of $L$, in place of {100 * before.mean():.0f} %; "
+    assert stated + f"without a doubt {100 * today[NO_DOUBT].mean():.0f} %" in TEXT
+    inside = BLIND["predicted_inside"].sum()
+    assert f"Of {len(BLIND)} realisations {inside} were in the range" in TEXT
+
+
+def test_margins_of_the_ranges():
+    margins = {
+        "$\\zeta/a$ of 2 or more": OF_STRONG,
+        "$\\zeta/a$ below 2": OF_WEAK,
+        "$\\varepsilon_{\\mathrm{eff}}$ of 0.1 or more": OF_STRONG_NOISE,
+    }
+    for words, margin in margins.items():
+        shown = " | ".join(f"{100 * part:g} %" for part in margin)
+        assert f"| {words} | {shown} |" in TEXT
+
+
+def test_drops_in_strong_noise():
+    strong = BLIND["doubt"].str.contains("perturbation is strong", na=False)
+    ratio = 100.0 * (BLIND["length"] / BLIND["expected_length"] - 1.0)[strong]
+    assert f"up to {-ratio.min():.0f} % before and {ratio.max():.0f} % beyond" in TEXT

@@ -116,9 +116,10 @@ class _Known:
             basis = (
                 f"friction coefficients of {slick:g} to {rough:g} and the noise change it little"
             )
-            low = min(shortest.low, longest.low)
-            high = max(shortest.high, longest.high)
-            return shortest._replace(low=low, high=high, basis=basis), runaway
+            ends = [self._with_friction(friction).under(usual)[0] for friction in FRICTIONS]
+            low, high = min(one.low for one in ends), max(one.high for one in ends)
+            doubt = ends[1].doubt or ends[0].doubt
+            return ends[1]._replace(low=low, high=high, doubt=doubt, basis=basis), runaway
         from ..theory.creep.lengths import stability_length_of
 
         low = stability_length_of(self.patches, self.critical)

@@ -71,12 +71,15 @@ class Growth:
 
     def drop(self, strength: float) -> Drop:
         """The expected drop at a relative strength; NaN where the law does not apply."""
+        return Drop(*self.dropped_at(strength, MEDIAN, EARLY, LATE))
+
+    def dropped_at(self, strength: float, *parts: float) -> list[float]:
+        """Lengths (m) by which parts of the realisations have dropped at a relative strength."""
         reached = self.log_amplitude >= np.log(1.0 / (strength * ROOT_OF_MEDIAN))
         if reached.all() or not reached[-1]:
-            return Drop(np.nan, np.nan, np.nan)
-        parts = self._dropped(strength)
-        lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)
-        return Drop(*lengths.tolist())
+            return [np.nan] * len(parts)
+        lengths: list[float] = np.interp(parts, self._dropped(strength), self.length).tolist()
+        return lengths
 
     def _dropped(self, strength: float) -> Array:
         """The part of the realisations that have dropped by each length; it never decreases."""

@@ -17,25 +17,21 @@ _KINDS = {
 def draw(blind: xr.Dataset) -> Figure:
     """Draw L/L_c simulated against predicted; bars are ranges, open marks have a doubt."""
     figure, panels = style.panels(8.0, columns=2, squeeze=False)
-    critical = blind["critical_length"]
     for axes, half, letter in zip(panels.flat, ("calibrate", "test"), "ab", strict=True):
         for below, (label, marker, colour) in _KINDS.items():
-            own = blind.isel(
-                run=np.flatnonzero((blind["half"] == half) & (blind["below"] == below))
-            )
-            scale = critical.values[
-                np.flatnonzero((blind["half"] == half) & (blind["below"] == below))
-            ]
+            chosen = (blind["half"].values == half) & (blind["below"].values == below)
+            own = blind.isel(run=np.flatnonzero(chosen))
+            scale = own["critical_length"].values
             value, low, high = (
                 own[f"expected_{name}"].values / scale for name in ("length", "low", "high")
             )
             simulated = own["length"].values / scale
             doubted = own["doubt"].values != ""
-            for chosen, face in ((~doubted, colour), (doubted, "none")):
-                errors = [value[chosen] - low[chosen], high[chosen] - value[chosen]]
+            for those, face in ((~doubted, colour), (doubted, "none")):
+                errors = [value[those] - low[those], high[those] - value[those]]
                 axes.errorbar(
-                    value[chosen],
-                    simulated[chosen],
+                    value[those],
+                    simulated[those],
                     xerr=errors,
                     fmt=marker,
                     ms=3.5,
@@ -44,12 +40,12 @@ def draw(blind: xr.Dataset) -> Figure:
                     markerfacecolor=face,
                     label=label if face == colour else None,
                 )
-        ends = (0.25, 4.0)
+        ends = (0.33, 1.8)
         axes.plot(ends, ends, color=style.GUIDE, lw=0.7)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set(title=f"({letter}) half to {half}", xlabel="Predicted $L/L_c$")
         style.plain_numbers(axes.xaxis)
         style.plain_numbers(axes.yaxis)
     panels[0, 0].set_ylabel("Simulated $L/L_c$")
-    style.legend(panels[0, 0])
+    panels[0, 0].legend(loc="upper left")
     return figure

@@ -33,28 +33,31 @@ PREDICTED = declared(
 )
 """The faults with today's predictions, which are kept before they are simulated."""
 
-BLIND = declared(
-    """
-    id seed status length reached_length simulated_time
-    predicted_length | m | L as predicted before the simulation | L
-    predicted_low | m | lower end of its range
-    predicted_high | m | upper end of its range
-    predicted_doubt | | why that prediction was said to be uncertain
-    predicted_inside | 1 | whether the simulated L is in the predicted range
-    inside | 1 | whether the simulated L is in today's range
-    """,
-    PREDICTED | LENGTHS | SHARED,
-)
+BLIND = {
+    **PREDICTED,
+    **declared(
+        """
+        id seed status length reached_length simulated_time
+        predicted_length | m | L as predicted before the simulation | L
+        predicted_low | m | lower end of its range
+        predicted_high | m | upper end of its range
+        predicted_doubt | | why that prediction was said to be uncertain
+        predicted_inside | 1 | number of realisations in the range predicted before
+        inside | 1 | number of realisations in the expected range
+        """,
+        LENGTHS,
+    ),
+}
 """One realisation: simulated L, its prediction, and today's theory."""
 
 COVERAGE = declared("""
     half | | half of the set
     regime | | faults that are counted
     realisations | 1 | number of realisations
-    predicted_inside | 1 | of them within the range predicted before
-    inside | 1 | of them within today's range
+    predicted_inside | 1 | number of realisations in the range predicted before
+    inside | 1 | number of realisations in the expected range
     predicted_width | 1 | mean width of the range predicted before, over L
-    width | 1 | mean width of today's range, over L
+    expected_width | 1 | mean width of today's range, over L
 """)
 
 HALVES = ("calibrate", "test")
@@ -168,7 +171,7 @@ def coverage(blind: xr.Dataset) -> xr.Dataset:
                     "predicted_inside": sum(row["predicted_inside"] for row in own),
                     "inside": sum(row["inside"] for row in own),
                     "predicted_width": float(widths["predicted"]),
-                    "width": float(widths["expected"]),
+                    "expected_width": float(widths["expected"]),
                 }
             )
     return table(rows, COVERAGE)
