@@ -93,8 +93,8 @@ def test_one_length_at_the_drop():
     found = Fault(**GRANITE, velocity=1e-6, friction=0.65).lengths()
     drop, runaway = found["drop_length"], found["runaway_length"]
     assert drop.value == runaway.value == pytest.approx(1.32, rel=0.03)
-    assert drop.low == runaway.low < drop.value and drop.status == "value"
-    assert drop.high == pytest.approx(1.1 * drop.value)  # its own range: the front may be fast
+    assert drop.low < runaway.low < drop.value < runaway.high < drop.high, "with its own margin"
+    assert drop.status == "value"
     table = found.dataset()
     assert float(table["value"].sel(length="drop_length")) == drop.value
     assert "length L at which the patch runs away" in repr(found)
