@@ -73,7 +73,7 @@ class Lengths(dict[str, Answer]):
     >>> round(float(found["critical_length"].value), 3), found["drop_length"].status
     (0.238, 'value')
     >>> found.sentence.split(" (")[0]
-    'The patch runs away at 0.163 m'
+    'The patch runs away at 0.16 m'
     """
 
     perturbation: Perturbation | None
