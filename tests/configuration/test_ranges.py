@@ -101,7 +101,7 @@ def test_a_study_has_the_lengths_of_its_fault(number):
     values["friction_law"] = "dieterich_ruina"
     values["regularisation_slip_rate"] = 1e-6 * fault.velocity
     values["end_time"] = 1.0  # else it follows from L, in a second
-    study = {"defaults": values, "runs": [{"seed": 1}]}
+    study = {"fault": "paper", "defaults": values, "runs": [{"seed": 1}]}
     try:
         (run,) = configure({"studies": {"own": study}}).runs_of("own")
     except ParameterError as error:
