@@ -130,8 +130,8 @@ WARNED = {
     ),
     "block short": (
         GOOD | {"block_length": 0.25},
-        "block_length = 0.25 m, but the patch becomes up to 0.181 m long until the force drops; "
-        "recommended is 0.302 m or more",
+        "block_length = 0.25 m, but the patch becomes up to 0.188 m long until the force drops; "
+        "recommended is 0.313 m or more",
     ),
     "tolerance too large": (GOOD | {"tolerance": 0.5}, "tolerance = 0.5 is the error of log"),
     "perturbation lost in the mesh's noise": (
