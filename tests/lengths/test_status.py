@@ -1,6 +1,7 @@
 """The status beside each NaN: which it is, and what its reason names."""
 
 import math
+import re
 
 import numpy as np
 import xarray as xr
@@ -27,7 +28,7 @@ def test_the_theory():
     np.testing.assert_array_equal(patch, stability_length(**ROCK, a=A, b=0.015))
     assert status == ["value", "beyond", "stable"]
     assert reason[0] == ""
-    assert f"no patch up to 3 L_c = {3.0 * length[1]:.4g} m" in reason[1]
+    assert "no patch up to 3 L_c has a growing mode" in reason[1]
 
 
 def test_the_literature_has_the_same_lengths():
@@ -52,7 +53,7 @@ def test_a_creep_that_opens_the_fault_is_not_a_long_patch():
     found = lengths(**ROCK | bodies | {"shear_modulus": 3e9}, a=0.01, zeta=0.01)
     length, status, reason = of(found, "stability_length")
     assert math.isnan(length) and status == "unknown"
-    assert reason.startswith("the creep opens the fault at a patch length of")
+    assert re.fullmatch(r"the creep opens the fault at a patch length of 0\.\d+ L_c", reason)
 
 
 def test_named_dimensions_stay():

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from ..theory.values import Numbers, labelled
 
 
 class Answer(NamedTuple):
@@ -44,6 +47,16 @@ class Answer(NamedTuple):
 
 
 FIELDS = len(Answer._fields)
+
+
+def elementwise(function: Callable[..., str], *arrays: Numbers) -> Any:
+    """The texts that a function of numbers returns at every point of arrays or DataArrays."""
+    at_each = np.vectorize(function, otypes=[object])
+    if not any(map(labelled, arrays)):
+        return at_each(*arrays)[()]
+    import xarray as xr
+
+    return xr.apply_ufunc(at_each, *arrays)
 
 
 def short(strength: float) -> str:

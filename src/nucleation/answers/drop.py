@@ -9,19 +9,19 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..model.friction.constants import AGE
+from ..model.friction.constants import AGE, ANY
 from ..model.quantities import ParameterError
-from ..model.settings import Perturbation
+from ..model.settings import ALONG_X, Perturbation
 from ..theory.creep.patches import Patches
-from ..theory.critical import at_each
+from ..theory.critical import of_distinct
 from ..theory.spectrum import Systems
 from ..theory.status import BETWEEN, BEYOND, UNKNOWN, VALUE, NoLength
 from ..theory.values import FaultLike
-from .answer import FIELDS, Answer, short
+from .answer import FIELDS, Answer, elementwise, short
 
 if TYPE_CHECKING:
     from ..drop.expected_drop import ExpectedDrop
@@ -48,31 +48,64 @@ def run_away(fault: FaultLike, declared: Perturbation | None, usual: Perturbatio
     Where the friction coefficient is missing, a perturbation that is not declared may have any of
     the :data:`STRENGTHS`.
     """
-    age = np.nan if fault.initial_state is None else fault.initial_state
-    velocity = np.nan if fault.velocity is None else fault.velocity
+    velocity, distance, age = fault.velocity, fault.slip_distance, fault.initial_state
+    if fault.friction_law is not None:
+        of_law = velocity, distance, AGE * distance / velocity if age is None else age
+    elif age is None or velocity is None:
+        of_law = ANY, ANY, AGE
+    else:
+        of_law = ANY, ANY, age * velocity / distance
 
-    def answer(
-        one: Systems, critical: float, velocity: float, distance: float, age: float
-    ) -> tuple[object, ...]:
+    def answer(one: Systems, critical: float, *at: float) -> tuple[object, ...]:
         if fault.loading != "edge":
             none = Answer.none(UNKNOWN, _REMOTE)
-            return *none, *none
-        if math.isnan(velocity) and not math.isnan(age):
+            return _Found(none, none).rows
+        if velocity is None and age is not None:
             none = Answer.none(UNKNOWN, "needs velocity: the age of the interface is in seconds")
-            return *none, *none
-        if math.isnan(velocity):
-            velocity = distance  # in units of D/V
-        phi0 = AGE * distance / velocity if math.isnan(age) else age
-        patches = Patches(one, evolution=str(fault.evolution))
-        known = _Known(fault, patches, critical, velocity, distance, phi0)
+            return _Found(none, none).rows
+        known = _Known(fault, Patches(one, evolution=str(fault.evolution)), critical, *at)
         if fault.friction is not None:
-            drop, runaway = known.under(declared or usual)
-        else:
-            drop, runaway = known.of_any_friction(declared, usual)
-        return *drop, *runaway
+            return known.under(declared or usual).rows
+        return known.of_any_friction(declared, usual).rows
 
-    rows = at_each(fault, answer, velocity, fault.slip_distance, age, rows=2 * FIELDS)
-    return [Answer.of_rows(rows[:FIELDS]), Answer.of_rows(rows[FIELDS:])]
+    # a correlation length is in metres, unlike the lengths of problems without units
+    problem = Systems.in_metres if usual.kind in ALONG_X else Systems.without_units
+    lengths, words = _LENGTHS, 2 * FIELDS + 2 - _LENGTHS
+    rows = of_distinct(
+        fault, answer, *of_law, rows=lengths + words, lengths=lengths, problem=problem
+    )
+    drop, runaway = (Answer.of_rows(rows[own]) for own in _OF_ANSWERS)
+    noises = 0.1 * usual.strength, 10.0 * usual.strength
+
+    def basis(text: str, *others: float) -> str:
+        if np.isnan(others).all():
+            return text
+        listed = [
+            f"{length:.3g} m ({short(noise)})"
+            for length, noise in zip(others, noises, strict=True)
+            if np.isfinite(length)
+        ]
+        return f"with other noise it is {', '.join(listed)}"
+
+    return [drop._replace(basis=elementwise(basis, drop.basis, rows[6], rows[7])), runaway]
+
+
+class _Found(NamedTuple):
+    """L and L_run; and L with a tenth of the noise and with ten times as much, NaN if unknown."""
+
+    drop: Answer
+    runaway: Answer
+    others: tuple[float, float] = (math.nan, math.nan)
+
+    @property
+    def rows(self) -> tuple[object, ...]:
+        """Lengths first: those of both answers, and the others; then the words of both."""
+        return (*self.drop[:3], *self.runaway[:3], *self.others, *self.drop[3:], *self.runaway[3:])
+
+
+_LENGTHS = 8
+_OF_ANSWERS = [0, 1, 2, 8, 9, 10, 11], [3, 4, 5, 12, 13, 14, 15]
+"""Rows of lengths in :class:`_Found`, and rows of its two answers."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,7 +119,7 @@ class _Known:
     distance: float
     initial_state: float
 
-    def under(self, declared: Perturbation) -> tuple[Answer, Answer]:
+    def under(self, declared: Perturbation) -> _Found:
         """L and L_run under a perturbation."""
         from ..drop.expected_drop import expected_drop
         from ..theory.creep.runaway import runaway_of
@@ -97,29 +130,31 @@ class _Known:
             known = expected_drop(patches, declared, self.critical, self.initial_state)
         except (NoLength, ParameterError) as none:  # a parameter: no law has these constants
             drop = Answer.none(getattr(none, "status", UNKNOWN), str(none))
-            return drop, _runaway(runaway_of(patches, self.critical))
-        return _drop(known), _runaway(known.runaway)
+            return _Found(drop, _runaway(runaway_of(patches, self.critical)))
+        drop = _drop(known)
+        others = _others(known) if drop.exists else (math.nan, math.nan)
+        return _Found(drop, _runaway(known.runaway), others)
 
-    def of_any_friction(
-        self, declared: Perturbation | None, usual: Perturbation
-    ) -> tuple[Answer, Answer]:
+    def of_any_friction(self, declared: Perturbation | None, usual: Perturbation) -> _Found:
         """L between those of the :data:`FRICTIONS` and, if none is declared, of all strengths."""
         slick, rough = FRICTIONS
         faint, loud = (
             declared or dataclasses.replace(usual, strength=strength) for strength in STRENGTHS
         )
-        longest, runaway = self._with_friction(slick).under(faint)
+        known = self._with_friction(slick).under(faint)
+        longest, runaway = known.drop, known.runaway
         if not longest.exists:
-            return longest, runaway
-        shortest, _ = self._with_friction(rough).under(loud)
+            return known
+        shortest = self._with_friction(rough).under(loud).drop
         if shortest.exists and longest.value < _ALIKE * shortest.value:
             basis = (
                 f"friction coefficients of {slick:g} to {rough:g} and the noise change it little"
             )
-            ends = [self._with_friction(friction).under(usual)[0] for friction in FRICTIONS]
+            ends = [self._with_friction(friction).under(usual).drop for friction in FRICTIONS]
             low, high = min(one.low for one in ends), max(one.high for one in ends)
             doubt = ends[1].doubt or ends[0].doubt
-            return ends[1]._replace(low=low, high=high, doubt=doubt, basis=basis), runaway
+            found = ends[1]._replace(low=low, high=high, doubt=doubt, basis=basis)
+            return _Found(found, runaway)
         from ..theory.creep.lengths import stability_length_of
 
         low = stability_length_of(self.patches, self.critical)
@@ -132,7 +167,7 @@ class _Known:
             f"it depends {noise}on the friction coefficient (here {slick:g} to {rough:g}), which "
             "sets how strongly a load acts; with the friction coefficient it is one number"
         )
-        return Answer(math.nan, low, longest.high, BETWEEN, reason), runaway
+        return _Found(Answer(math.nan, low, longest.high, BETWEEN, reason), runaway)
 
     def _with_friction(self, friction: float) -> _Known:
         one = self.patches.one._replace(friction=np.array([friction]))
@@ -163,19 +198,16 @@ def _drop(known: ExpectedDrop) -> Answer:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    doubt = "; ".join(doubts)
-    basis = _basis(known)
-    return Answer(known.length, known.low, known.high, VALUE, "", doubt, basis)
+    basis = "slow slip lasts up to this length, whatever the noise" if known.slips_slowly else ""
+    return Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts), basis)
 
 
-def _basis(known: ExpectedDrop) -> str:
-    """How the length depends on the noise."""
+def _others(known: ExpectedDrop) -> tuple[float, float]:
+    """The length with a tenth of the noise, and with ten times as much; NaN if it has no effect."""
     if known.slips_slowly:
-        return "slow slip lasts up to this length, whatever the noise"
-    strength = known.strength
-    texts = []
-    for noise in (0.1 * strength, 10.0 * strength):
-        length = np.fmax(known.at_strength(noise).length, known.runaway.length)
-        if np.isfinite(length):
-            texts.append(f"{length:.3g} m ({short(noise)})")
-    return f"with other noise it is {', '.join(texts)}" if texts else ""
+        return math.nan, math.nan
+    quieter, louder = (
+        float(np.fmax(known.at_strength(share * known.strength).length, known.runaway.length))
+        for share in (0.1, 10.0)
+    )
+    return quieter, louder

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from ..lengths.formulas import TWO_MATERIALS, Length
 from ..lengths.in_use import LENGTHS, values_of
 from ..theory.status import STABLE, UNKNOWN, VALUE
 from ..theory.values import FaultLike, Numbers, Values, labelled
-from .answer import Answer
+from .answer import Answer, elementwise
 
 
 def answers_of_literature(
@@ -51,20 +50,10 @@ def _answer(one: Length, length: Numbers, differ: Any, fault: FaultLike) -> Answ
         return one.unlike(fault, min(height, second_height), bool(differ))
 
     texts = [
-        _elementwise(status_of, length, fault.zeta),
-        _elementwise(reason_of, length, *facts.values()),
-        _elementwise(unlike, length, fault.height, fault.second_height, differ),
+        elementwise(status_of, length, fault.zeta),
+        elementwise(reason_of, length, *facts.values()),
+        elementwise(unlike, length, fault.height, fault.second_height, differ),
     ]
     if not any(map(labelled, texts)):
         length, *texts = (x[()] for x in np.broadcast_arrays(length, *texts))
     return Answer(length, length, length, *texts)
-
-
-def _elementwise(function: Callable[..., str], *arrays: Numbers) -> Any:
-    """The texts that a function of numbers returns at every point of arrays or DataArrays."""
-    at_each = np.vectorize(function, otypes=[object])
-    if not any(map(labelled, arrays)):
-        return at_each(*arrays)[()]
-    import xarray as xr
-
-    return xr.apply_ufunc(at_each, *arrays)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..model.hints import warn_of_implausible
 from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
-from ..theory.critical import at_each, stability_reason
+from ..theory.critical import largest_crossings, stability_reason
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
-from ..theory.status import BEYOND, STABLE, VALUE, NoLength
+from ..theory.status import BEYOND, STABLE, VALUE
 from ..theory.values import FaultLike, where
 from ..types import Array
 from .answer import Answer
@@ -24,14 +25,17 @@ _CRITICAL = declared("critical length", "(0, inf) m")
 def critical_length(fault: FaultLike) -> Answer:
     """L_c, above which wavelength homogeneous sliding is unstable."""
 
-    def point(one: Systems, critical: float) -> tuple[float, str, str]:
-        if np.isnan(critical):
-            raise NoLength(stability_reason(one), STABLE)
-        if np.isinf(critical):
-            raise NoLength("it is beyond the largest number", BEYOND)
-        return critical, VALUE, ""
+    def points(systems: Systems) -> NDArray:
+        critical = 2.0 * np.pi / largest_crossings(systems)
+        found = np.empty((3, critical.size), dtype=object)
+        found[:] = critical, [VALUE] * critical.size, [""] * critical.size
+        for i in np.flatnonzero(np.isnan(critical)):
+            found[1:, i] = STABLE, stability_reason(systems.at(np.array([i])))
+        for i in np.flatnonzero(np.isinf(critical)):
+            found[:, i] = np.nan, BEYOND, "it is beyond the largest number"
+        return found
 
-    rows = at_each(fault, point, rows=3)
+    rows = evaluate(fault, points, rows=3, dtype=object)
     length = rows[:1].astype(float)[0]
     warn_of_implausible("critical_length", length, _CRITICAL)
     return Answer(length, length, length, rows[1], rows[2])

@@ -81,8 +81,8 @@ def mode_history(
         lengths = _narrower(lengths, known, stable)
     else:
         raise NoLength(
-            f"growth begins at a patch length of {stable:.4g} m, and the mode does not oscillate "
-            "long enough around it to determine its growth"
+            f"growth begins at a patch length of {stable / critical_length:.4g} L_c, and the mode "
+            "does not oscillate long enough around it to determine its growth"
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]

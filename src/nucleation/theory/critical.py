@@ -94,22 +94,37 @@ def stability_reason(one: Systems) -> str:
     )
 
 
-def at_each(
-    fault: FaultLike, answer: Callable[..., tuple[Any, ...]], *arrays: Values, rows: int
+def of_distinct(
+    fault: FaultLike,
+    answer: Callable[..., tuple[Any, ...]],
+    *arrays: Values,
+    rows: int,
+    lengths: int = 1,
+    problem: Callable[[Systems], tuple[Systems, Array]] = Systems.without_units,
 ) -> Any:
-    """Rows of objects: the answer to each fault's single system, L_c (m) and entries of arrays.
+    """Rows of objects: the answer to the problem of each fault, of which each is solved once.
 
-    Where it raises NoLength there are NaN, and status and reason in the last two rows.
+    `problem` gives the one that similar faults share. `answer` takes a single system of it, its L_c
+    and entries of arrays, which are no lengths. It returns rows of which the first are lengths:
+    these become m. Where it raises NoLength there are NaN, and status and reason in the last two.
     """
 
     def points(systems: Systems, *values: Array) -> NDArray:
-        found = np.full((rows, systems.a.size), np.nan, dtype=object)
-        for i, length in enumerate(2.0 * np.pi / largest_crossings(systems)):
+        alike, unit = problem(systems)
+        numbers = np.stack([*alike.numbers, *values], axis=1) + 0.0  # zero has one sign
+        _, first, of = np.unique(
+            numbers.view(np.uint64), axis=0, return_index=True, return_inverse=True
+        )
+        distinct = alike.at(first)
+        found = np.full((rows, first.size), np.nan, dtype=object)
+        for i, length in enumerate(2.0 * np.pi / largest_crossings(distinct)):
             try:
-                own = (float(array[i]) for array in values)
-                found[:, i] = answer(systems.at(np.array([i])), float(length), *own)
+                own = (float(array[first[i]]) for array in values)
+                found[:, i] = answer(distinct.at(np.array([i])), float(length), *own)
             except NoLength as none:
                 found[-2:, i] = none.status, str(none)
+        found = found[:, of.ravel()]
+        found[:lengths] *= unit
         return found
 
     return evaluate(fault, points, *arrays, rows=rows, dtype=object)

@@ -18,9 +18,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..types import Array
-from .stiffness import SATURATION, Stiffness, Waves, layer_stiffness, stiffness_with_zone, waves
+from .stiffness import (
+    FAR_SIDES,
+    SATURATION,
+    Stiffness,
+    Waves,
+    layer_stiffness,
+    stiffness_with_zone,
+    waves,
+)
 
 BOTH_RIGID = "at least one of the two bodies must be deformable"
+
+
+def rounded(numbers: Array, bits: int) -> Array:
+    """The nearest numbers with as many bits."""
+    mantissa, exponent = np.frexp(numbers)
+    return np.asarray(np.ldexp(np.rint(np.ldexp(mantissa, bits)), exponent - bits))
 
 
 class Layers(NamedTuple):
@@ -55,6 +69,14 @@ class Layers(NamedTuple):
         """The bodies with other heights and thicknesses (m), a function of the present ones."""
         zone = self.zone and self.zone.with_heights(heights)
         return self._replace(height=heights(self.height), zone=zone)
+
+    def over(self, length: Array, modulus: Array, bits: int) -> Layers:
+        """The bodies with heights over a length (m) and moduli over another (Pa), rounded."""
+        return self._replace(
+            shear_modulus=rounded(self.shear_modulus / modulus, bits),
+            height=rounded(self.height / length, bits),
+            zone=self.zone and self.zone.over(length, modulus, bits),
+        )
 
     def with_zone_at_least(self, thickness: float) -> Layers:
         """The body with its zone, or with one of a thickness (m) that resists long waves alike.
@@ -112,6 +134,25 @@ class LayerPair(NamedTuple):
     def modulus(self) -> Array:
         """Shear modulus (Pa) by which G1 and G2 are normalised, of the first deformable body."""
         return self.deformable[0].shear_modulus
+
+    @property
+    def mirrored(self) -> Array:
+        """Whether slip changes no normal stress: bodies that are mirror images, or antiplane."""
+        one = self.deformable[0]
+        alike = np.full(one.height.shape, one.antiplane)
+        if self.upper is None or self.lower is None:
+            return alike
+        if FAR_SIDES[self.upper.far_side] is not FAR_SIDES[self.lower.far_side]:
+            return alike
+        same = [
+            getattr(self.upper, name) == getattr(self.lower, name)
+            for name in ("shear_modulus", "poisson_ratio", "height")
+        ]
+        return alike | np.logical_and.reduce(same)
+
+    def over(self, length: Array, bits: int) -> LayerPair:
+        """The pairs with heights over a length (m) and moduli over :attr:`modulus`, rounded."""
+        return LayerPair(*(body and body.over(length, self.modulus, bits) for body in self))
 
     @property
     def thicknesses(self) -> list[Array]:

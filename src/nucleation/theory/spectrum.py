@@ -18,13 +18,19 @@ Sliding is stable for ``g > h_plus``; for velocity strengthening, ``zeta < 0``, 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array, ComplexArray
-from .pair import LayerPair
+from .pair import LayerPair, rounded
+
+BITS = 44
+"""Bits of numbers of a problem without units: equal problems in other units differ in the last."""
+
+FEWER_BITS = 36
+"""The same of a problem that was rounded before, so that both roundings agree."""
 
 
 class Systems(NamedTuple):
@@ -53,6 +59,40 @@ class Systems(NamedTuple):
             rate=self.rate[index],
         )
 
+    def in_metres(self) -> tuple[Systems, Array]:
+        """The systems themselves, and their unit of length, 1 m."""
+        return self, np.ones_like(self.softness)
+
+    def without_units(self) -> tuple[Systems, Array]:
+        """The problem that all similar systems share, and their unit of length (m), mu ell/sigma0.
+
+        The softness and the rate are 1, and heights are rounded: ratios of numbers in other units
+        differ in the last bits.
+        """
+        unit = self.softness
+        one = np.ones_like(unit)
+        return self._replace(pair=self.pair.over(unit, BITS), softness=one, rate=one), unit
+
+    def of_constants(self) -> tuple[Systems, Array]:
+        """The same with constant a and b, and the unit ``mu ell/(a sigma0)``.
+
+        Then a is 1, lengths depend on zeta/a alone, and on f where slip changes the normal stress.
+        """
+        own, unit = self.without_units()
+        further = 1.0 / own.a
+        found = own._replace(
+            pair=own.pair.over(further, FEWER_BITS),
+            friction=np.where(own.pair.mirrored, 0.0, own.friction),
+            a=own.softness,
+            zeta=rounded(own.zeta / own.a, FEWER_BITS),
+        )
+        return found, unit * further
+
+    @property
+    def numbers(self) -> list[Array]:
+        """All numbers, each (n,)."""
+        return _arrays(self)
+
     def load_and_coupling(self, wavenumber: Array) -> tuple[Array, Array]:
         """``g = mu |k| ell |G1|/sigma0`` and ``rho = f G2/|G1|`` at wavenumbers (1/m)."""
         found = self.pair.stiffness(wavenumber)
@@ -80,6 +120,17 @@ class Systems(NamedTuple):
         in_order = roots[0].real >= roots[1].real
         ordered = np.where(in_order, roots, roots[::-1])
         return np.asarray(ordered * self.rate, dtype=complex)
+
+
+def _arrays(of: tuple[Any, ...]) -> list[Array]:
+    """The arrays in a tuple and in those within."""
+    found: list[Array] = []
+    for item in of:
+        if isinstance(item, np.ndarray):
+            found.append(item)
+        elif isinstance(item, tuple):
+            found += _arrays(item)
+    return found
 
 
 def marginal_stiffness(

@@ -40,9 +40,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..types import Array, ComplexArray
-from .critical import largest_crossings
+from .critical import largest_crossings, of_distinct
 from .evaluation import evaluate, require_broadcast
-from .spectrum import Systems
+from .pair import rounded
+from .spectrum import FEWER_BITS, Systems
 from .values import QUANTITIES, FaultLike, Values, checked, numbers_of
 
 OCTAVES = -24, 12  # of q, as powers of 2
@@ -226,15 +227,16 @@ def weakening_patch_values(
     a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
     require_broadcast(numbers_of(fault) | {"outside_zeta": zeta, "outside_a": a})
 
-    def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:
-        around = systems._replace(zeta=outside_zeta, a=outside_a)
-        critical = 2.0 * np.pi / largest_crossings(systems)
-        stable_around = np.isnan(largest_crossings(around))
-        found = np.full((1, critical.size), np.nan)
-        for i in np.flatnonzero(np.isfinite(critical) & stable_around):
-            one = np.array([i])
-            patch = WeakeningPatch(systems.at(one), around.at(one))
-            found[0, i] = smallest_width(patch, float(critical[i]))
-        return found
+    def ratios(systems: Systems, *outside: Array) -> list[Array]:
+        return [rounded(of / systems.a, FEWER_BITS) for of in outside]
 
-    return evaluate(fault, widths, zeta, a)[0]
+    def width(one: Systems, critical: float, *outside: float) -> tuple[float]:
+        other_zeta, other_a = (np.array([of]) for of in outside)
+        around = one._replace(zeta=other_zeta, a=other_a)
+        if math.isnan(critical) or not np.isnan(largest_crossings(around)).all():
+            return (math.nan,)
+        return (smallest_width(WeakeningPatch(one, around), critical),)
+
+    outside = evaluate(fault, ratios, zeta, a, rows=2)
+    found = of_distinct(fault, width, *outside, rows=1, problem=Systems.of_constants)
+    return found.astype(float)[0]

@@ -300,5 +300,5 @@ def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
 def test_no_patch_up_to_the_longest(monkeypatch):
     patches, critical = patches_of(fault(1.0, 1.0, "identical"))
     monkeypatch.setattr(lengths, "LONGEST", 0.3)
-    with pytest.raises(NoLength, match=r"no patch up to 0\.3 L_c = .* m has a growing mode"):
+    with pytest.raises(NoLength, match=r"no patch up to 0\.3 L_c has a growing mode"):
         stability_point(patches, critical)

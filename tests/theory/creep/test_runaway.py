@@ -200,7 +200,7 @@ def test_slow_slip_that_lasts_has_no_runaway_length(monkeypatch):
     for name, value in {"LONGEST": 0.8, "BRIEFLY": (4, 2)}.items():
         monkeypatch.setattr(runaway, name, value)
     answer = runaway_answers(Fault(**of_weakening(0.5)))
-    assert answer[2] == BEYOND and "m runs away" in str(answer[3])
+    assert answer[2] == BEYOND and "L_c runs away" in str(answer[3])
 
 
 def test_it_does_not_depend_on_how_numpy_treats_overflow():

@@ -34,6 +34,9 @@ STATE_SCALE = 6.6e-3
 AGE = 20.0
 """Initial age of the interface over D/V."""
 
+ANY = 1e-6
+"""V (m/s) and D (m) of a fault whose own law scales with both: time is in D/V."""
+
 _ROUGHNESS = 0.2
 """Correlation length along x over mu/(1 - nu) D/(b sigma0)."""
 
@@ -74,11 +77,12 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
     try:
         return friction.with_expansion(velocity, f, a, zeta)
     except ParameterError as error:
-        wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g} at {velocity:g} m/s"
+        wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g}"
         v0 = friction.regularisation_slip_rate
-        slow = velocity < 10.0 * v0
-        cure = f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V" if slow else ""
-        raise ParameterError(f"no friction law has {wanted}{cure}: {error}") from None
+        if velocity < 10.0 * v0:
+            own = f"v0 = {v0:g} m/s, regularisation_slip_rate"
+            wanted += f"; {own}, must be far below V = {velocity:g} m/s"
+        raise ParameterError(f"no friction law has {wanted}: {error}") from None
 
 
 def own_law(velocity: float, slip_distance: float, evolution: str, law: str = LAW) -> Friction:

@@ -24,7 +24,7 @@ from ...model.friction import Friction
 from ...types import Array, ComplexArray
 from ..status import BEYOND, NoLength
 from .linearised import Creep, creeping_patch, edge_slip, local_coefficients
-from .patches import Patches, require_contact
+from .patches import Patches
 from .response import MORE_MODES, joined, mirror_modes
 
 ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
@@ -65,6 +65,7 @@ class Advance:
                 "only a patch that is pushed at its edge has a theory of the advancing front"
             )
         assert patches.law is not None
+        self.source = patches
         self.law = patches.law
         self.velocity = patches.velocity
         self.distance = self.law.slip_distance
@@ -156,7 +157,7 @@ class Advance:
             normal_stress=1.0 + bodies.normal @ self.slips[1][i],
             loaded=self.loaded[i],
         )
-        require_contact(creep)
+        self.source.require_contact(creep)
         return creep
 
 
@@ -228,11 +229,8 @@ def _bracket(
         if growing.any():
             break
     else:
-        longest = lengths[-1]
-        raise NoLength(
-            f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
-            BEYOND,
-        )
+        longest = lengths[-1] / critical
+        raise NoLength(f"no patch up to {longest:.2g} L_c has a growing mode", BEYOND)
     i = int(np.argmax(growing))
     if i == 0:
         first = lengths[0] / critical

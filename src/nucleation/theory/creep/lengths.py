@@ -22,7 +22,7 @@ import numpy as np
 
 from ...model.quantities import ParameterError
 from ...types import Array
-from ..critical import at_each
+from ..critical import of_distinct
 from ..roots import roots
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE, NoLength
@@ -53,7 +53,8 @@ def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
     _, a, zeta = patches.constants
-    guess = min(0.5 * (1.0 + 0.25 * a / max(zeta, 1e-6)), 1.0)  # L_s/L_c of a thin layer, or 1
+    ratio = max(zeta / a, 1e-6)
+    guess = min(0.5 * (1.0 + 0.25 / ratio), 1.0)  # L_s/L_c of a thin layer, or 1
     length, error = _point_beyond(patches, SHORTEST * guess * critical, critical)
     if error < LARGEST_ERROR or patches.refinement > 1:
         return length, error
@@ -102,10 +103,7 @@ def _first_growing(
         low = high
         high += step
         if low > longest:
-            raise NoLength(
-                f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
-                BEYOND,
-            )
+            raise NoLength(f"no patch up to {LONGEST:g} L_c has a growing mode", BEYOND)
     (log_length,) = roots(growths, np.array([low]), np.array([high]), PRECISION)
     return math.exp(log_length)
 
@@ -121,7 +119,6 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
             f"friction_law is not allowed with loading = {fault.loading}: there the slip rate is "
             "not V, and a and b are constant"
         )
-    velocity = 1.0 if fault.velocity is None else fault.velocity
 
     def answer(one: Systems, critical: float, *at: float) -> tuple[Any, ...]:
         patches = Patches(one, loading=fault.loading, evolution=str(fault.evolution))
@@ -129,7 +126,10 @@ def stability_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
             patches = patches.with_law(fault, *at)
         return *stability_point(patches, critical), VALUE, ""
 
-    rows = at_each(fault, answer, velocity, fault.slip_distance, rows=4)
+    if law is None:
+        rows = of_distinct(fault, answer, rows=4, problem=Systems.of_constants)
+    else:
+        rows = of_distinct(fault, answer, fault.velocity, fault.slip_distance, rows=4)
     length, error = rows[:2].astype(float)
     return length, error, rows[2], rows[3]
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import dataclasses
 from functools import cached_property
 
+import numpy as np
+
 from ...model.friction import Friction
 from ...model.friction.constants import law_of
+from ..critical import largest_crossings
 from ..spectrum import Systems
 from ..status import NoLength
 from ..values import FaultLike
@@ -77,8 +80,14 @@ class Patches:
         bodies = self.response(length, number or self.number)
         load_rate = None if self.loading == "edge" else self.load_rate
         found = creep(bodies, self.constants[0], load_rate)
-        require_contact(found)
+        self.require_contact(found)
         return found
+
+    def require_contact(self, creep: Creep) -> None:
+        """Raise NoLength if a creep removes all of the compression somewhere."""
+        if creep.normal_stress.min() <= 0.0:
+            ratio = creep.response.length * float(largest_crossings(self.one)[0]) / (2.0 * np.pi)
+            raise NoLength(f"the creep opens the fault at a patch length of {ratio:.4g} L_c")
 
     def at(self, length: float, number: int | None = None) -> FrozenPatch:
         """The linearised patch (m); slip in D, time in D/V."""
@@ -88,10 +97,3 @@ class Patches:
         else:
             friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
         return creeping_patch(creep, friction)
-
-
-def require_contact(creep: Creep) -> None:
-    """Raise NoLength if the creep removes all of the compression somewhere."""
-    if creep.normal_stress.min() <= 0.0:
-        length = creep.response.length
-        raise NoLength(f"the creep opens the fault at a patch length of {length:.4g} m")

@@ -20,9 +20,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...model.friction.constants import ANY
 from ...model.quantities import ParameterError
 from ...types import Array
-from ..critical import at_each
+from ..critical import largest_crossings, of_distinct
 from ..spectrum import Systems
 from ..status import BEYOND, EDGE_ALONE, UNKNOWN, VALUE, NoLength
 from ..values import FaultLike
@@ -95,6 +96,7 @@ class _Search:
 
     def __init__(self, patches: Patches, critical: float) -> None:
         self.patches = patches
+        self.critical = critical
         self.stable = stability_point(patches, critical)[0]
         self.cohesive = cohesive_wavenumber(patches, critical)
         self.guess = GUESS * critical**2 * self.cohesive / (2.0 * math.pi)
@@ -125,7 +127,7 @@ class _Search:
             else:
                 low = max(none, lengths[number // 2])
         raise NoLength(
-            f"no slow slip of a patch up to {lengths[-1]:.4g} m runs away in "
+            f"no slow slip of a patch up to {lengths[-1] / self.critical:.3g} L_c runs away in "
             f"{BRIEF * self.duration:g} D/V",
             BEYOND,
         )
@@ -145,8 +147,8 @@ class _Search:
                     return middle
                 reach, (number, disturbances) = CLOSE * width, LAST
             around = middle
-        length = math.exp(around)
-        raise NoLength(f"slow slip of a patch of {length:.4g} m has no clear end", UNKNOWN)
+        length = math.exp(around) / self.critical
+        raise NoLength(f"slow slip of a patch of {length:.3g} L_c has no clear end", UNKNOWN)
 
 
 def runaway_point(patches: Patches, critical: float) -> tuple[float, float]:
@@ -179,6 +181,12 @@ class Runaway(NamedTuple):
     reason: str
 
 
+@lru_cache(maxsize=4)  # laws that differ in their scales share it
+def _of_constants(patches: Patches) -> tuple[float, float]:
+    """The same with constant a and b, of the problem that similar faults share."""
+    return runaway_point(patches, 2.0 * math.pi / float(largest_crossings(patches.one)[0]))
+
+
 @lru_cache(maxsize=4)  # L needs it of each perturbation
 def runaway_of(patches: Patches, critical: float) -> Runaway:
     """L_run of one fault with L_c (m) whose friction weakens little.
@@ -198,7 +206,11 @@ def runaway_of(patches: Patches, critical: float) -> Runaway:
             own, usual = (stability_length_of(one, critical) for one in (patches, constant))
             if abs(own / usual - 1.0) < CONSTANT:
                 patches = constant
-        return Runaway(*runaway_point(patches, critical), VALUE, "")
+        if patches.law is not None:
+            return Runaway(*runaway_point(patches, critical), VALUE, "")
+        shared, unit = patches.one.of_constants()
+        length, error = _of_constants(dataclasses.replace(patches, one=shared))
+        return Runaway(length * float(unit[0]), error, VALUE, "")
     except NoLength as none:
         return Runaway(math.nan, math.nan, none.status, str(none))
 
@@ -211,14 +223,18 @@ def runaway_answers(fault: FaultLike) -> tuple[Any, Any, Any, Any]:
     """
     known = fault.velocity is not None and fault.friction is not None
 
-    def answer(one: Systems, critical: float, velocity: float, distance: float) -> Runaway:
+    def answer(one: Systems, critical: float, *at: float) -> Runaway:
         patches = Patches(one, loading=fault.loading, evolution=str(fault.evolution))
         if known:
             with contextlib.suppress(ParameterError):  # no law has these constants
-                patches = patches.with_law(fault, velocity, distance)
+                patches = patches.with_law(fault, *at)
         return runaway_of(patches, critical)
 
-    velocity = fault.velocity if known else np.nan
-    rows = at_each(fault, answer, velocity, fault.slip_distance, rows=4)
+    if known:
+        own = fault.friction_law is None
+        of_law = (ANY, ANY) if own else (fault.velocity, fault.slip_distance)
+        rows = of_distinct(fault, answer, *of_law, rows=4)
+    else:
+        rows = of_distinct(fault, answer, rows=4, problem=Systems.of_constants)
     length, error = rows[:2].astype(float)
     return length, error, rows[2], rows[3]

@@ -45,8 +45,8 @@ def modes_that_resolve(cohesive: float, length: float) -> int:
     number = math.ceil(MODES_OF_ENDS + FINENESS * cohesive * length)
     if number > MOST_MODES:
         raise NoLength(
-            f"a patch of {length:.4g} m has {0.5 * cohesive * length / math.pi:.3g} wavelengths of "
-            f"its fastest fronts and needs {number} modes: up to {MOST_MODES} were tried",
+            f"a patch has {0.5 * cohesive * length / math.pi:.3g} wavelengths of its fastest "
+            f"fronts and needs {number} modes: up to {MOST_MODES} were tried",
             UNKNOWN,
         )
     return number
