@@ -54,6 +54,13 @@ def crossing(stiffness, fault):
     return 2.0 * math.pi / k
 
 
+def test_of_both_marginal_frequencies_the_positive_one_is_given():
+    """Round-off chose between them where the bodies differ."""
+    weakening = {"b": 0.01 * (1.0 + np.linspace(0.1, 30.0, 500))}
+    fault = Fault(**BP1 | RIGID | weakening, friction=0.6, velocity=1e-6)
+    assert (fault.critical_mode().angular_frequency > 0.0).all()
+
+
 def test_lengths_of_the_benchmark():
     """Half-spaces: pi mu D/(zeta sigma0); layers of 200 m, free and held."""
     half = math.pi * 32.04e9 * 8e-3 / (0.005 * 50e6)

@@ -11,6 +11,8 @@ from scipy.linalg import expm
 
 from nucleation.api import Fault
 from nucleation.model.quantities import ParameterError
+from nucleation.theory.creep import response
+from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.pair import Layers
 
 RIGID = {"second_shear_modulus": math.inf, "friction": 0.6}
@@ -147,6 +149,71 @@ def test_the_creeping_patch_between_its_limits(modulus):
     assert found[[0, -1]] == pytest.approx(np.array(ends, dtype=float), rel=2e-3)
     steps = np.diff(found) * (ends[1] - ends[0])
     assert (steps > -1e-3 * found[0] * abs(ends[1] - ends[0])).all()
+
+
+@pytest.mark.parametrize("loading", ["edge", "remote"])
+@pytest.mark.parametrize("height", [0.05, math.inf])
+@pytest.mark.parametrize("ratio", [-0.9, 0.1, 0.45])
+def test_a_zone_that_vanishes_does_not_change_the_creeping_patch(ratio, height, loading):
+    """Whatever its Poisson's ratio, which alone changed L_s by 3 %."""
+    fault = ROCK | {"friction": 0.6, "height": height, "loading": loading}
+    zone = {"zone_thickness": 1e-12, "zone_shear_modulus": 9e9, "zone_poisson_ratio": ratio}
+    assert stability_length(**fault, **zone) == pytest.approx(stability_length(**fault), rel=1e-8)
+
+
+@pytest.mark.parametrize("loading", ["edge", "remote"])
+def test_a_zone_without_end_is_a_half_space(loading):
+    """Its patch had no finite equations."""
+    zone = {"zone_thickness": math.inf, "zone_shear_modulus": 9e9, "zone_poisson_ratio": 0.4}
+    own = ROCK | {"shear_modulus": 9e9, "poisson_ratio": 0.4, "loading": loading}
+    found = stability_length(**ROCK | {"loading": loading}, height=0.3, **zone)
+    assert found == pytest.approx(stability_length(**own), rel=1e-9)
+
+
+@pytest.fixture
+def slimmer_zones():
+    """Calling it, zones of a tenth of the least thickness are resolved; it is undone in the end."""
+    with pytest.MonkeyPatch.context() as patch:
+
+        def resolve():
+            own = response._resolved
+
+            def resolved(*given):
+                with pytest.MonkeyPatch.context() as finer:
+                    finer.setattr(response, "SLIMMEST", 10.0 * response.SLIMMEST)
+                    return own(*given)
+
+            patch.setattr(response, "REACHES", (*response.REACHES, 10.0 * response.SLIMMEST))
+            patch.setattr(response, "_resolved", resolved)
+            stability_point.cache_clear()
+
+        yield resolve
+    for cache in (stability_point, response._tables, response._bessel):
+        cache.cache_clear()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("loading", "height", "ratio", "thickness", "modulus"),
+    [
+        ("edge", 0.01, 0.45, 1e-4, 1e9),
+        ("edge", math.inf, 0.25, 1e-4, 1e9),
+        ("edge", math.inf, 0.1, 1e-3, 90e9),
+        ("remote", 0.01, 0.1, 1e-5, 10e9),
+        ("remote", 0.1, 0.45, 1e-4, 30e9),
+    ],
+)
+def test_the_range_of_a_slim_zone_has_the_length_of_a_resolved_one(
+    slimmer_zones, loading, height, ratio, thickness, modulus
+):
+    """Its range was 1e-5 wide, and the length up to 9 % from the resolved one."""
+    zone = {"zone_thickness": thickness, "zone_shear_modulus": modulus, "zone_poisson_ratio": ratio}
+    fault = Fault(**ROCK, friction=0.6, height=height, loading=loading, **zone)
+    answer = fault.lengths("none")["stability_length"]
+    slimmer_zones()
+    resolved = float(fault.stability_length())
+    assert answer.low < resolved < answer.high
+    assert abs(resolved / answer.value - 1.0) > 1e-4, "this zone is not slim"
 
 
 def test_a_zone_is_whole():

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..model.hints import warn_of_implausible
 from ..model.quantities import declared
 from ..theory.creep.lengths import stability_answers
-from ..theory.critical import largest_crossings, stability_reason
+from ..theory.critical import critical_lengths, stability_reason
 from ..theory.evaluation import evaluate
 from ..theory.spectrum import Systems
 from ..theory.status import BEYOND, STABLE, VALUE
@@ -26,13 +26,17 @@ def critical_length(fault: FaultLike) -> Answer:
     """L_c, above which wavelength homogeneous sliding is unstable."""
 
     def points(systems: Systems) -> NDArray:
-        critical = 2.0 * np.pi / largest_crossings(systems)
+        critical = critical_lengths(systems)
         found = np.empty((3, critical.size), dtype=object)
         found[:] = critical, [VALUE] * critical.size, [""] * critical.size
         for i in np.flatnonzero(np.isnan(critical)):
             found[1:, i] = STABLE, stability_reason(systems.at(np.array([i])))
         for i in np.flatnonzero(np.isinf(critical)):
-            found[:, i] = np.nan, BEYOND, "it is beyond the largest number"
+            found[:, i] = (
+                np.nan,
+                BEYOND,
+                "if there is one, it is longer than any that can be computed",
+            )
         return found
 
     rows = evaluate(fault, points, rows=3, dtype=object)
@@ -44,7 +48,7 @@ def critical_length(fault: FaultLike) -> Answer:
 def stability_length(fault: FaultLike) -> Answer:
     """L_s, at which a creeping patch turns unstable; the range is the error of its modes."""
     length, error, status, reason = stability_answers(fault)
-    low, high = length * (1.0 - error), length * (1.0 + error)
+    low, high = length / (1.0 + error), length * (1.0 + error)
     return Answer(length, low, high, status, reason)
 
 

@@ -21,7 +21,7 @@ from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
 from ..theory.evaluation import PMMA, bodies_differ, completed, evaluate, require_broadcast
 from ..theory.spectrum import Systems
-from ..theory.values import QUANTITIES, WORDS, Values, labelled, named, numbers_of
+from ..theory.values import QUANTITIES, WORDS, Values, checked, labelled, named, numbers_of
 from .flat import flat, keywords, read_parameters
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _MISSING: Any = None
 """The default of parameters without one, so that an error can name all that are missing."""
 
-_WAVENUMBER = declared("wavenumber", "(-inf, inf) 1/m", symbol="k")
+_WAVENUMBER = declared("wavenumber, of either sign,", "[1e-30, 1e30] 1/m", symbol="k")
 _OF_LAW = ("friction", "a", "zeta", "slip_distance")
 """The constants that a friction law has at V."""
 
@@ -256,7 +256,8 @@ class Fault:
 
         k_c is the largest wavenumber at which a root of Eq. (5) is marginal. Two half-spaces of one
         material have Eq. (6), of different ones Eq. (9), a thin layer on a rigid body Eq. (11).
-        ``L_c = 2 pi/k_c`` (m) is NaN where sliding is stable (:meth:`lengths` has the reason). It
+        ``L_c = 2 pi/k_c`` (m) is NaN where sliding is stable (:meth:`lengths` has the reason), and
+        inf where it is longer than any that can be computed, more than 1e70 times the height. It
         is a DataArray if there is one among the parameters, else a pint quantity if there is one.
         """
         return self._critical().length
@@ -272,7 +273,7 @@ class Fault:
         Parameters
         ----------
         wavenumber : array_like or DataArray
-            k (1/m), not zero; broadcasts with the parameters.
+            k (1/m), of either sign, 1e-30 to 1e30; broadcasts with the parameters.
 
         Returns
         -------
@@ -293,7 +294,7 @@ class Fault:
         Parameters
         ----------
         wavenumber : array_like or DataArray
-            k (1/m), not zero; broadcasts with the parameters.
+            k (1/m), of either sign, 1e-30 to 1e30; broadcasts with the parameters.
 
         Returns
         -------
@@ -456,10 +457,8 @@ class Fault:
     def _at(self, wavenumber: Values, function: Callable[..., Any], dtype: type = float) -> Any:
         """Two rows of a function of Systems and wavenumbers, which must not be zero."""
         k = magnitude("wavenumber", wavenumber, _WAVENUMBER)
+        checked("wavenumber", abs(k if labelled(k) else np.asarray(k)), _WAVENUMBER)
         require_broadcast(numbers_of(self) | {"wavenumber": k})
-        numbers = np.asarray(k, dtype=float)
-        if not np.all(np.isfinite(numbers) & (numbers != 0.0)):
-            raise ValueError("the wavenumber k (1/m) must be finite and different from zero")
         return evaluate(self, function, k, rows=2, dtype=dtype)
 
     def _require_velocity(self) -> None:

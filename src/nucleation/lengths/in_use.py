@@ -186,7 +186,8 @@ def values_of(
         rate = valid(fault.a < formulas.NEGLIGIBLE * fault.b, usual)
     else:
         rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
-    return {length.key: length.evaluate(fault, rate) for length in lengths}
+    with np.errstate(over="ignore"):  # of the highest bodies and the least weakening
+        return {length.key: length.evaluate(fault, rate) for length in lengths}
 
 
 def expanding_length(

@@ -7,8 +7,9 @@ thousands.
 are constant and g is proportional to k; the larger of that k and of the one where the half-spaces
 have ``g = b`` bounds k_c from above. Where all ``Hk < 1e-3``, times the contrast of a zone with its
 body, G1 and G2 are powers of k. Between these the margin of stability is computed at POINTS
-wavenumbers. Every dip of it above the last unstable point is searched for its minimum, so that no
-unstable band between two points is overlooked.
+wavenumbers, or at more where layers of unlike heights leave many decades. Every dip of it above the
+last unstable point is searched for its minimum, so that no unstable band between two points is
+overlooked.
 """
 
 from collections.abc import Callable
@@ -25,11 +26,14 @@ from .status import STABLE, NoLength
 from .stiffness import SATURATION
 from .values import FaultLike, Values
 
-POINTS = 200  # of log k, at first
+POINTS = 200  # of log k, at first, or a multiple
+DECADES = 10.0  # that so many points resolve
+SPAN = 1e70  # ratio of the shortest to the longest waves: fourth powers of it are numbers
 PARTS = 16  # of the interval around a dip, in each of the ZOOMS
 ZOOMS = 4
 LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
-HALVINGS = 60  # of k, in the search among long waves
+FALLING = 1.5  # ratio of the loads of a wave and of one twice as long: 2 or 4, or 1 if it is held
+LONG_POINTS = 60  # of log k, among long waves
 TOGETHER = 50  # systems that are searched at once, so that their arrays stay in the cache
 BEYOND_ROUND_OFF = 1.01  # ratio of wavenumbers whose stability round-off does not confuse
 ROUND_OFF = 1e-16  # change of log k at which a search ends
@@ -38,8 +42,8 @@ ROUND_OFF = 1e-16  # change of log k at which a search ends
 class CriticalMode(NamedTuple):
     """The marginally stable mode with the largest wavenumber: numbers or arrays of any kind.
 
-    Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where the bodies are
-    mirror images both signs are marginal, and the positive one is given.
+    Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where slip changes no
+    normal stress both signs are marginal, and the positive one is given.
 
     Examples
     --------
@@ -55,9 +59,16 @@ class CriticalMode(NamedTuple):
 
 
 def critical_modes(systems: Systems) -> CriticalMode:
-    """The critical modes of systems (n,); NaN where sliding is stable at every wavenumber."""
+    """The critical modes of systems (n,); NaN where sliding is stable, inf as in their lengths."""
     k = largest_crossings(systems)
-    return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
+    with np.errstate(divide="ignore", invalid="ignore"):  # of a length beyond the longest waves
+        return CriticalMode(2.0 * np.pi / k, k, marginal_frequencies(systems, k))
+
+
+def critical_lengths(systems: Systems) -> Array:
+    """L_c (m) of systems (n,); NaN where sliding is stable, inf beyond the longest waves."""
+    with np.errstate(divide="ignore", over="ignore"):
+        return np.asarray(2.0 * np.pi / largest_crossings(systems))
 
 
 def unstable_modes(systems: Systems) -> CriticalMode:
@@ -117,7 +128,7 @@ def of_distinct(
         )
         distinct = alike.at(first)
         found = np.full((rows, first.size), np.nan, dtype=object)
-        for i, length in enumerate(2.0 * np.pi / largest_crossings(distinct)):
+        for i, length in enumerate(critical_lengths(distinct)):
             try:
                 own = (float(array[first[i]]) for array in values)
                 found[:, i] = answer(distinct.at(np.array([i])), float(length), *own)
@@ -133,53 +144,70 @@ def of_distinct(
 def largest_crossings(systems: Systems) -> Array:
     """The largest ``k > 0`` (1/m) with ``Re Lambda = 0``, (n,), of systems with fields (n,).
 
-    NaN where sliding is stable at every k.
+    NaN where sliding is stable at every k, and 0 where it is below the longest waves.
     """
-    one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
-    pair = systems.pair.with_heights(lambda height: np.inf * one)
-    g, rho = systems._replace(pair=pair).load_and_coupling(one)
+    g, rho = _half_spaces(systems)
     k = marginal_stiffness(rho, systems.a, systems.zeta)[1] / g
     k = np.where(k > 0.0, k, np.nan)
     thinnest = np.minimum.reduce(systems.pair.thicknesses)
-    has_layers = np.isfinite(thinnest) & ~(k * thinnest >= SATURATION)
+    has_layers = np.isfinite(thinnest) & ~(k >= SATURATION / thinnest)
     layered = np.flatnonzero(has_layers & (systems.b > 0.0))
-    for start in range(0, layered.size, TOGETHER):
-        chosen = layered[start : start + TOGETHER]
-        k[chosen] = _refined(systems.at(chosen))
+    bottom, top = _bounds(systems.at(layered))
+    multiples = np.maximum(1.0, np.ceil(np.log10(top / bottom) / DECADES))
+    for multiple in np.unique(multiples):
+        alike = np.flatnonzero(multiples == multiple)
+        for start in range(0, alike.size, TOGETHER):
+            part = alike[start : start + TOGETHER]
+            own, points = systems.at(layered[part]), POINTS * int(multiple)
+            k[layered[part]] = _refined(own, bottom[part], top[part], points)
     return k
 
 
-def _refined(systems: Systems) -> Array:
-    """The crossings, to round-off."""
-    low, high = _brackets(systems)
-
-    def margins(log_ratio: Array, index: NDArray) -> Array:
-        return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
-
-    return low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
+def _half_spaces(systems: Systems) -> tuple[Array, Array]:
+    """Load over k (m) and coupling where all layers are half-spaces."""
+    one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
+    pair = systems.pair.with_heights(lambda height: np.inf * one)
+    return systems._replace(pair=pair).load_and_coupling(one)
 
 
-def _brackets(systems: Systems) -> Array:
-    """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
+def _bounds(systems: Systems) -> tuple[Array, Array]:
+    """Wavenumbers (1/m) between which the largest crossings are, unless it is among long waves."""
     heights = systems.pair.thicknesses
     finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
     ratios = [body.zone_ratio for body in systems.pair.deformable]
     contrast = np.minimum.reduce([np.minimum(ratio, 1.0 / ratio) for ratio in ratios])
     bottom = LONG_WAVES * contrast / np.fmax.reduce(finite)  # all layers are thin
     high = SATURATION / np.fmin.reduce(finite)
-    top = np.maximum(high, high * systems.b / systems.load_and_coupling(high)[0])
+    top = np.maximum(high, systems.b / _half_spaces(systems)[0])
     top = BEYOND_ROUND_OFF * top  # stable beyond
+    return np.maximum(bottom, top / SPAN), top
+
+
+def _refined(systems: Systems, bottom: Array, top: Array, points: int) -> Array:
+    """The crossings between wavenumbers (1/m), to round-off, by a number of points at first."""
+    low, high = _brackets(systems, bottom, top, points)
+
+    def margins(log_ratio: Array, index: NDArray) -> Array:
+        return stability_margin(systems.at(index), low[index] * np.exp(log_ratio))
+
+    found = low * np.exp(roots(margins, 0.0 * low, np.log(high / low), ROUND_OFF))
+    beyond = np.isnan(found) & _weakens_below(systems, top / SPAN)
+    return np.where(beyond, 0.0, found)
+
+
+def _brackets(systems: Systems, bottom: Array, top: Array, points: int) -> Array:
+    """Neighbouring wavenumbers, unstable and stable, around the largest crossings; or NaN."""
     rows = np.arange(bottom.size)
-    k = _spaced(bottom, top, POINTS)
+    k = _spaced(bottom, top, points)
     margin = _margins(systems, k)
     unstable = margin < 0.0
     has_any = unstable.any(axis=1)
-    last = np.where(has_any, POINTS - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
+    last = np.where(has_any, points - 1 - np.argmax(unstable[:, ::-1], axis=1), 0)
     bracket = np.where(has_any, [k[rows, last], k[rows, last + 1]], np.nan)
 
     before, middle, after = margin[:, :-2], margin[:, 1:-1], margin[:, 2:]
     dips = (middle > 0.0) & (middle < before) & (middle < after)
-    is_above = np.arange(POINTS - 2) >= last[:, None]
+    is_above = np.arange(points - 2) >= last[:, None]
     owner, place = np.nonzero(dips & is_above)
     above = k[owner, place + 2]
     lowest = _minima(systems.at(owner), k[owner, place], above)
@@ -188,12 +216,18 @@ def _brackets(systems: Systems) -> Array:
 
     missing = np.flatnonzero(np.isnan(bracket[0]))
     if missing.size:  # all Hk may be small
-        k = bottom[missing, None] * 0.5 ** np.arange(HALVINGS)  # sliding is stable at the first
+        k = _spaced(bottom[missing], top[missing] / SPAN, LONG_POINTS)  # stable at the first
         growing = _margins(systems.at(missing), k) < 0.0
         rows, first = np.arange(missing.size), np.argmax(growing, axis=1)
         found = np.stack([k[rows, first], k[rows, first - 1]])
         bracket[:, missing] = np.where(growing.any(axis=1), found, np.nan)
     return bracket
+
+
+def _weakens_below(systems: Systems, k: Array) -> NDArray[np.bool_]:
+    """Whether the load falls on below k (1/m), and friction weakens: a longer wave may grow."""
+    load, shorter = (systems.load_and_coupling(at)[0] for at in (k, 2.0 * k))
+    return np.asarray((systems.zeta > 0.0) & (shorter > FALLING * load))
 
 
 def _minima(systems: Systems, low: Array, high: Array) -> Array:

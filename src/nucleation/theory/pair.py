@@ -72,9 +72,11 @@ class Layers(NamedTuple):
 
     def over(self, length: Array, modulus: Array, bits: int) -> Layers:
         """The bodies with heights over a length (m) and moduli over another (Pa), rounded."""
+        with np.errstate(over="ignore"):  # of the highest bodies, which become half-spaces
+            height = rounded(self.height / length, bits)
         return self._replace(
             shear_modulus=rounded(self.shear_modulus / modulus, bits),
-            height=rounded(self.height / length, bits),
+            height=height,
             zone=self.zone and self.zone.over(length, modulus, bits),
         )
 
@@ -82,29 +84,34 @@ class Layers(NamedTuple):
         """The body with its zone, or with one of a thickness (m) that resists long waves alike.
 
         A soft zone adds ``h (1/mu_zone - 1/mu)`` to the compliance, a stiff one ``h (mu_zone -
-        mu)`` to the resistance against stretching. The thicker zone adds as much, and the body
-        becomes lower by as much as the zone becomes thicker.
+        mu)`` to the resistance against stretching. The thicker zone adds as much, its Poisson's
+        ratio is between both likewise, and the body becomes lower by as much as the zone becomes
+        thicker.
         """
         if self.zone is None:
             return self
         ratio, height = self.zone_ratio, self.zone.height
-        thick = np.maximum(height, thickness)
-        share = height / thick
-        soft = 1.0 / (1.0 + share * (ratio - 1.0))
-        stiff = 1.0 + share * (1.0 / ratio - 1.0)
-        changed = self.shear_modulus * np.where(ratio > 1.0, soft, stiff)
-        modulus = np.where(share < 1.0, changed, self.zone.shear_modulus)
+        slimmer = height < thickness
+        share = np.where(slimmer, height / thickness, 1.0)
+        soft = 1.0 / (1.0 - share + share * ratio)
+        stiff = 1.0 - share + share / ratio
+        modulus = self.shear_modulus * np.where(ratio > 1.0, soft, stiff)
+        nu = self.poisson_ratio + share * (self.zone.poisson_ratio - self.poisson_ratio)
         # neither too low for the zone nor lower than the thickness itself
         room = np.maximum(self.height - thickness, 0.0)
-        added = np.minimum(np.minimum(thick - height, 0.5 * self.height), room)
-        return self._replace(
-            height=self.height - added, zone=self.zone._replace(height=thick, shear_modulus=modulus)
+        added = np.minimum(np.minimum(thickness - height, 0.5 * self.height), room)
+        changed = self.zone._replace(
+            height=np.where(slimmer, thickness, height),
+            shear_modulus=np.where(slimmer, modulus, self.zone.shear_modulus),
+            poisson_ratio=np.where(slimmer, nu, self.zone.poisson_ratio),
         )
+        return self._replace(height=self.height - np.where(slimmer, added, 0.0), zone=changed)
 
     def _waves(self, wavenumber: ArrayLike) -> Waves:
         """Functions of ``q = |k| H``, cut at SATURATION, above which none of them changes."""
         k = np.abs(np.asarray(wavenumber, dtype=float))
-        return waves(np.minimum(k * self.height, SATURATION))
+        with np.errstate(over="ignore"):  # of the highest bodies
+            return waves(np.minimum(k * self.height, SATURATION))
 
     def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
         """Dimensionless stiffness A at a wavenumber (1/m), over the body's modulus."""
@@ -155,6 +162,11 @@ class LayerPair(NamedTuple):
         return LayerPair(*(body and body.over(length, self.modulus, bits) for body in self))
 
     @property
+    def without_zones(self) -> LayerPair:
+        """The pair without zones beside the interface."""
+        return LayerPair(*(body and body._replace(zone=None) for body in self))
+
+    @property
     def thicknesses(self) -> list[Array]:
         """Heights (m) of the bodies that are not rigid, and thicknesses of their zones."""
         layers = [layer for body in self.deformable for layer in (body.zone, body)]
@@ -188,7 +200,7 @@ class LayerPair(NamedTuple):
             xx=share_a * a.xx + share_b * b.xx,
             xy=share_a * a.xy - share_b * b.xy,
             yy=share_a * a.yy + share_b * b.yy,
-            det=a.det * r**2 * b.det / joint,
+            det=share_b * r * b.det,
         )
 
     def transfer_functions(self, wavenumber: Array) -> tuple[Array, Array]:

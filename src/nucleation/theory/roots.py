@@ -22,13 +22,17 @@ def roots(
     index = np.flatnonzero(np.isfinite(low))
     left, right = low[index], high[index]
     f_left, f_right = function(left, index), function(right, index)
+    # products of the smallest numbers vanish; a power of two changes no digit
+    power = np.zeros(low.size, dtype=int)
+    power[index] = np.frexp(np.maximum(np.abs(f_left), np.abs(f_right)))[1]
+    f_left, f_right = np.ldexp(f_left, -power[index]), np.ldexp(f_right, -power[index])
     last = right
     for _ in range(MOST_STEPS):
         middle = 0.5 * (left + right)
-        f_middle = function(middle, index)
+        f_middle = np.ldexp(function(middle, index), -power[index])
         scale = np.sqrt(f_middle**2 - f_left * f_right)
         new = middle - (middle - left) * f_middle / scale
-        f_new = function(new, index)
+        f_new = np.ldexp(function(new, index), -power[index])
         for x, f in ((middle, f_middle), (new, f_new)):
             inside = (left < x) & (x < right)
             lower, upper = inside & (f < 0.0), inside & (f >= 0.0)

@@ -32,6 +32,9 @@ BITS = 44
 FEWER_BITS = 36
 """The same of a problem that was rounded before, so that both roundings agree."""
 
+ROUND_OFF = 1e-15
+"""Of G2/G1: the difference between bodies that are alike but for their heights."""
+
 
 class Systems(NamedTuple):
     """Pairs of bodies in steady sliding, one or many: the input of the linear theory."""
@@ -97,8 +100,8 @@ class Systems(NamedTuple):
         """``g = mu |k| ell |G1|/sigma0`` and ``rho = f G2/|G1|`` at wavenumbers (1/m)."""
         found = self.pair.stiffness(wavenumber)
         g = self.softness * np.abs(wavenumber) * found.xx
-        rho = self.friction * found.xy / found.xx
-        return g, rho
+        alike = np.abs(found.xy) < ROUND_OFF * found.xx
+        return g, np.where(alike, 0.0, self.friction * found.xy / found.xx)
 
     def growth_rates(self, wavenumber: Array) -> ComplexArray:
         """Both roots Lambda (1/s) of Eq. (5), the faster one first, shape ``(2,) + broadcast``.
@@ -170,14 +173,13 @@ def marginal_frequencies(systems: Systems, k: Array) -> Array:
     It is the root of ``a w^2 - rho b w - zeta = 0`` that fits g. If ``G2 = 0`` both signs are
     marginal, and the positive one is given.
     """
-    a, zeta, b = systems.a, systems.zeta, systems.b
+    b, ratio = systems.b, systems.zeta / systems.a
     g, rho = systems.load_and_coupling(k)
-    discriminant = (rho * b) ** 2 + 4.0 * a * zeta
-    root = np.sqrt(np.maximum(discriminant, 0.0))
-    size = (np.abs(rho) * b + root) / (2.0 * a)
-    sign = np.where(rho == 0.0, 1.0, rho)
-    large = np.copysign(size, sign)
-    small = -zeta / (a * large)
+    half = 0.5 * rho * b / systems.a
+    size = np.abs(half) + np.sqrt(np.maximum(half**2 + ratio, 0.0))
+    large = np.copysign(size, np.where(rho == 0.0, 1.0, rho))
+    with np.errstate(divide="ignore", invalid="ignore"):  # of the least weakening
+        small = -ratio / large
 
     misfits = [np.abs(b * w**2 / (1.0 + w**2) - g) for w in (large, small)]
-    return np.where(misfits[0] <= misfits[1], large, small) * systems.rate
+    return np.where((rho != 0.0) & (misfits[1] < misfits[0]), small, large) * systems.rate

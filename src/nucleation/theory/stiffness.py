@@ -213,8 +213,8 @@ def _antiplane_terms(numerator: Array, denominator: Array) -> Terms:
 def layer_stiffness(w: Waves, nu: Array, far_side: str, antiplane: bool) -> Stiffness:
     """Dimensionless stiffness A of a layer; in antiplane shear ``tanh q`` or ``coth q``."""
     if antiplane:
-        squared = w.sinh_squared if OF_ANTIPLANE[far_side] else w.cosh_squared
-        terms = _antiplane_terms(w.sinh_2q, 2.0 * squared)
+        free = w.sinh_2q, 2.0 * w.cosh_squared
+        terms = _antiplane_terms(*(free[::-1] if OF_ANTIPLANE[far_side] else free))
     else:
         terms = FAR_SIDES[far_side](w, nu)
     below, *above = terms

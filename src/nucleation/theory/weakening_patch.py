@@ -233,7 +233,7 @@ def weakening_patch_values(
     def width(one: Systems, critical: float, *outside: float) -> tuple[float]:
         other_zeta, other_a = (np.array([of]) for of in outside)
         around = one._replace(zeta=other_zeta, a=other_a)
-        if math.isnan(critical) or not np.isnan(largest_crossings(around)).all():
+        if not math.isfinite(critical) or not np.isnan(largest_crossings(around)).all():
             return (math.nan,)
         return (smallest_width(WeakeningPatch(one, around), critical),)
 

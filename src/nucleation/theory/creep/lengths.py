@@ -22,15 +22,17 @@ import numpy as np
 
 from ...model.quantities import ParameterError
 from ...types import Array
-from ..critical import of_distinct
+from ..critical import critical_lengths, of_distinct
 from ..roots import roots
 from ..spectrum import Systems
 from ..status import BEYOND, STABLE, VALUE, NoLength
 from ..values import FaultLike
 from .patches import Patches
-from .response import extrapolation_error
+from .response import extrapolation_error, has_slim_zone
 
+LEAST_WEAKENING = 1e-10  # stiffness at L_c over a: growth is about half as much, over D/V
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
+LEAST = 1e-3  # and down to this multiple
 SHORTEST = 0.7  # where the search starts, over its guess
 FACTOR = 1.12  # from one length to the next
 PRECISION = 1e-9  # relative, of L_s for a given number of modes
@@ -44,22 +46,44 @@ NEAR = 0.97  # times L_s by fewer modes, where the search begins anew
 def stability_point(patches: Patches, critical: float) -> tuple[float, float]:
     """L_s (m) of one fault with L_c (m) or NaN, and its relative error.
 
-    The error is that of three quarters of the modes, and of slim layers. Raises NoLength if
-    homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its creep
-    opens the fault.
+    The error is that of three quarters of the modes, of slim layers and of slim zones. Raises
+    NoLength if homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode or
+    all down to ``LEAST L_c`` have one, the creep opens the fault, or round-off hides the growth.
     """
     if math.isinf(critical):
-        raise NoLength("L_c is beyond the largest number", BEYOND)
+        raise NoLength("if there is an L_c, it is longer than any that can be computed", BEYOND)
     if not math.isfinite(critical):
         raise NoLength("homogeneous sliding is stable", STABLE)
     _, a, zeta = patches.constants
+    marginal = patches.one.load_and_coupling(np.array([2.0 * math.pi / critical]))[0] / a
+    if marginal < LEAST_WEAKENING:
+        raise NoLength(
+            "friction weakens so little that round-off hides the growth: at L_c the stiffness is "
+            f"{float(marginal[0]):.3g} of the direct effect, {LEAST_WEAKENING:g} is needed"
+        )
     ratio = max(zeta / a, 1e-6)
     guess = min(0.5 * (1.0 + 0.25 / ratio), 1.0)  # L_s/L_c of a thin layer, or 1
     length, error = _point_beyond(patches, SHORTEST * guess * critical, critical)
-    if error < LARGEST_ERROR or patches.refinement > 1:
-        return length, error
-    finer = dataclasses.replace(patches, refinement=2)
-    return _point_beyond(finer, NEAR * length, critical)
+    if error >= LARGEST_ERROR and patches.refinement == 1:
+        patches = dataclasses.replace(patches, refinement=2)
+        length, error = _point_beyond(patches, NEAR * length, critical)
+    return length, error + _error_of_slim_zones(patches, length)
+
+
+def _error_of_slim_zones(patches: Patches, length: float) -> float:
+    """The relative error of L_s (m) where thicker zones replace slim ones.
+
+    A thicker zone has too large an effect: the front of the patch is within it. So the true length
+    is between the one found and that without a zone.
+    """
+    if not has_slim_zone(patches.one, length):
+        return 0.0
+    bare = patches.one._replace(pair=patches.one.pair.without_zones)
+    critical = float(critical_lengths(bare)[0])
+    if math.isnan(critical):
+        raise NoLength("the zone is too slim to be resolved, and without it sliding is stable")
+    without = _first_growing(dataclasses.replace(patches, one=bare), NEAR * length, critical)
+    return math.exp(abs(math.log(without / length))) - 1.0
 
 
 def _point_beyond(patches: Patches, start: float, critical: float) -> tuple[float, float]:
@@ -98,6 +122,8 @@ def _first_growing(
     low = math.log(start)
     while growths([low])[0] > 0.0:
         low -= 2.0 * step
+        if low < math.log(LEAST * critical):
+            raise NoLength(f"all patches down to {LEAST:g} L_c have a growing mode")
     high = low + step
     while growths([high])[0] <= 0.0:
         low = high

@@ -233,6 +233,12 @@ def extrapolation_error(one: Systems, length: float) -> float:
     return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
 
 
+def has_slim_zone(one: Systems, length: float) -> bool:
+    """Whether a thicker zone replaces one beside the fault, for a patch of a length (m)."""
+    zones = (body.zone for body in one.pair.deformable)
+    return any(zone is not None and zone.height[0] * SLIMMEST < length for zone in zones)
+
+
 def _mirror_response(
     one: Systems, length: float, number: int, even: bool, known: SlimLayers
 ) -> tuple[Array, Array]:
