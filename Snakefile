@@ -52,10 +52,10 @@ launch = runpy.run_path(str(Path(SOURCE, "replication", "pipeline", "launch.py")
 launch["make_checked"](Path(SOURCE))
 os.environ["NUMBA_CACHE_DIR"] = str(launch["cache_of_numba"](Path(SOURCE, "nucleation")))
 
-from replication.configuration.advice import summary_of_meshes, warned
+from replication.configuration.advice import faults_of, summary_of_meshes, warned
 from replication.configuration.checks import directory_problem
 from replication.configuration.load import configure
-from replication.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
+from replication.configuration.roles import JUDGED, LONGER, OWN, PAPERS, REFINEMENTS, ROLES
 from replication.configuration.roles import PAIRS as PAIR_ROLES
 from replication.configuration.runs import first_realisations, varied
 from nucleation.run.checks import estimated_megabytes

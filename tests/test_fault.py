@@ -151,3 +151,19 @@ def test_a_notebook_shows_both_bodies_and_the_law():
     assert shown["second_shear_modulus"] == "inf"
     shown = Fault(**ROCK)._repr_html_()
     assert "second_poisson_ratio  0.25" in shown and "friction_law          None" in shown
+
+
+@pytest.mark.parametrize("form", [repr, Fault._repr_html_])
+@pytest.mark.parametrize(
+    ("fault", "body", "law"),
+    [
+        (PAPER, "rigid", "product; evolution: aging"),
+        (Fault(**ROCK), "deformable, like the first", "none, a and b are constant"),
+        (Fault(**ROCK, friction=0.6, velocity=1e-3, evolution="slip"), "like", "dieterich_ruina"),
+        (Fault(**ROCK, friction=0.6, second_height=3.0), "like the first in all else", "none"),
+    ],
+)
+def test_a_fault_says_what_it_slides_on_and_its_law(form, fault, body, law):
+    shown = form(fault)
+    assert body in shown.split("Second body: ")[1].split("Friction law: ")[0]
+    assert law in shown.split("Friction law: ")[1]

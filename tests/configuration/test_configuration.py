@@ -12,6 +12,7 @@ from nucleation.model.friction import Friction
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, declarations
 from nucleation.run.run import PAPER_RUN
+from replication.configuration.advice import faults_of
 from replication.configuration.load import configure, load
 from replication.configuration.runs import first_realisations
 from replication.configuration.settings import GROUPS, SECTIONS, entries_of
@@ -283,7 +284,42 @@ def test_a_fault_that_is_wrong_is_refused(tmp_path, fault, problem):
         started(tmp_path, fault=fault)
 
 
-def test_a_whole_fault_among_the_values_needs_its_start(tmp_path):
+OWN_FAULT = {
+    "material": {"shear_modulus": "30 GPa", "poisson_ratio": 0.25},
+    "friction": {"slip_distance": "0.5 um"},
+    "loading": {"normal_stress": "6 MPa"},
+}
+
+
+@pytest.mark.parametrize("place", ["study", "sections"])
+def test_a_whole_fault_among_the_values_needs_its_second_body_and_law(tmp_path, place):
     """The rigid base and the law were the paper's, in silence."""
-    with pytest.raises(ParameterError, match="write `fault: paper`, whose second body is rigid"):
-        started(tmp_path, defaults={**GRANITE, "n_x": 60, "n_y": 4})
+    own = {"study": GRANITE, "sections": {}}[place]
+    sections = {"study": {}, "sections": OWN_FAULT}[place]
+    study = {"defaults": {**own, "n_x": 60, "n_y": 4}, "runs": [{"height": 0.05}]}
+    values = {"results": str(tmp_path), "studies": {"mine": study}, **sections}
+    with pytest.raises(ParameterError, match="but not second_body and friction_law: write"):
+        configure(values)
+
+
+@pytest.mark.parametrize(
+    "named",
+    [
+        {"friction_law": "product", "second_body": "rigid"},
+        {"friction_law": "product", "second_body": "deformable"},
+    ],
+)
+def test_a_fault_of_sections_that_names_both_is_taken(tmp_path, named):
+    study = {"defaults": {"n_x": 60, "n_y": 4, **named}, "runs": [{"height": 0.05}]}
+    values = {"results": str(tmp_path), "studies": {"mine": study}, **OWN_FAULT}
+    (run,) = configure(values).runs
+    assert math.isinf(run.run.fault.second_shear_modulus) == (named["second_body"] == "rigid")
+
+
+def test_each_setting_of_a_study_is_named_once(tmp_path):
+    bodies = [{"height": [0.05, 0.06]}, {"height": 0.05, "second_body": "rigid"}]
+    study = {"fault": GRANITE, "defaults": {"n_x": 60, "n_y": 4}, "runs": bodies}
+    runs = configure({"results": str(tmp_path), "studies": {"mine": study}}).runs
+    law = "Friction law: dieterich_ruina; evolution: aging."
+    bodies = ["Second body: deformable, like the first.", "Second body: rigid."]
+    assert faults_of(runs) == [f"{body} {law}" for body in bodies]

@@ -90,7 +90,8 @@ def test_units_are_read_wherever_a_parameter_stands(tmp_path):
     """In defaults and runs of a study, from a file with the signs that people use."""
     path = tmp_path / "my.yaml"
     path.write_text(
-        "studies: {s: {defaults: {shear_modulus: 30 GPa, poisson_ratio: 1/4, density: 2650 kg·m⁻³,"
+        "studies: {s: {fault: paper, defaults: {shear_modulus: 30 GPa, poisson_ratio: 1/4,"
+        " density: 2650 kg·m⁻³,"
         " slip_distance: 5 µm, normal_stress: 50MPa, velocity: 1e-6 m s-1},"
         " runs: [{height: [2cm, 4 cm]}]}}",
         encoding="utf-8",

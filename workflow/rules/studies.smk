@@ -54,8 +54,11 @@ OF_MESHES = []
 
 @functools.cache
 def runs_of(study):
-    """The runs of a study; warnings about them appear once."""
+    """The runs of a study; warnings about them, and what a study of one's own is, appear once."""
     runs = or_refused(settings.runs_of, study)
+    if PLANS and runs and runs[0].role == OWN:
+        for setting in faults_of(runs):
+            logger.info(f"Study {study}: {setting}")
     for text, coarse in warned(runs) if PLANS else []:
         if coarse:
             OF_MESHES.append((text, coarse))

@@ -6,7 +6,6 @@ Further parameters are those of a file or the paper's.
 from __future__ import annotations
 
 import contextlib
-import math
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
@@ -16,7 +15,8 @@ import click
 
 from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
-from ..model.friction.constants import CONSTANTS, LAW
+from ..fault.setting import friction, second_body
+from ..model.friction.constants import CONSTANTS
 from ..model.hints import ImplausibleWarning
 from ..model.quantities import ParameterError, Quantity, declarations
 from ..model.settings import KINDS
@@ -280,30 +280,10 @@ def system_of_fault(
                 texts[key in named].append(f"{key} = {with_unit(getattr(law, name), entry)}")
     heads = {True: "Given", False: "Not given, so the paper's" if paper else "Others"}
     lines = [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
-    lines += [_second_body(fault), _friction(fault)]
+    lines += [second_body(fault), friction(fault)]
     if fault.plane == "stress":  # which has no thickness to compare with
         lines.append("Plane stress holds for plates that are much thinner than these lengths.")
     return lines
-
-
-def _second_body(fault: Fault) -> str:
-    """What the first body slides on."""
-    names = [name for name in QUANTITIES if name.startswith("second_")]
-    unlike = [n for n in names if getattr(fault, n) != getattr(fault, n.removeprefix("second_"))]
-    if fault.second_shear_modulus == math.inf:
-        return "Second body: rigid."
-    return f"Second body: deformable, like the first{' in all else' if unlike else ''}."
-
-
-def _friction(fault: Fault) -> str:
-    """The friction law, and the evolution of its state."""
-    if fault.friction_law is not None:
-        law = fault.friction_law.law
-    elif fault.velocity is None or fault.friction is None:
-        law = "none, a and b are constant"
-    else:
-        law = f"{LAW}, with the fault's a, b and f at V; L_c takes a and b alone"
-    return f"Friction law: {law}; evolution: {fault.evolution}."
 
 
 @contextlib.contextmanager

@@ -23,6 +23,7 @@ from ..theory.evaluation import PMMA, bodies_differ, completed, evaluate, requir
 from ..theory.spectrum import Systems
 from ..theory.values import QUANTITIES, WORDS, Values, checked, labelled, named, numbers_of
 from .flat import flat, keywords, read_parameters
+from .setting import friction, second_body
 
 if TYPE_CHECKING:
     from ..answers.lengths import Lengths
@@ -159,6 +160,12 @@ class Fault:
         names = [field.name for field in dataclasses.fields(self)]
         return [n for n in names if getattr(self, n) is not None and not self._follows(n)]
 
+    def __repr__(self) -> str:
+        """All parameters, and in a comment what they mean: the second body and the law."""
+        fields = [field.name for field in dataclasses.fields(self) if field.repr]
+        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in fields)
+        return f"{type(self).__name__}({given})  # {second_body(self)} {friction(self)}"
+
     def _repr_html_(self) -> str:
         """All parameters with their units, of both bodies and the law, for a notebook."""
         lines = []
@@ -169,6 +176,7 @@ class Fault:
             unit = QUANTITIES[name].unit if name in QUANTITIES else "1"
             shown = f"{name:<22}{value}"
             lines.append(shown if unit == "1" else f"{shown} {unit}")
+        lines += [second_body(self), friction(self)]
         return f"<pre>{html.escape(chr(10).join(lines))}</pre>"
 
     def __eq__(self, other: object) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from nucleation.fault.setting import friction, second_body
 from nucleation.run.advice import (
     BEFORE_DROP,
     NOISE_OF_MESH,
@@ -42,6 +43,12 @@ def warned(runs: Iterable[StudyRun]) -> list[tuple[str, list[StudyRun]]]:
             text += f" [also {', '.join(others)}]"
         warnings.append((text, [*concerned.values()] if topic in OF_MESHES else []))
     return warnings
+
+
+def faults_of(runs: Iterable[StudyRun]) -> list[str]:
+    """What the bodies of some runs slide on, and with which friction law: each setting once."""
+    faults = (run.run.fault for run in runs)
+    return list(dict.fromkeys(f"{second_body(fault)} {friction(fault)}" for fault in faults))
 
 
 def summary_of_meshes(runs: Iterable[StudyRun], place: str) -> str:

@@ -232,7 +232,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
         base=base,
         studies=studies,
         sections=values["studies"],
-        stepping=tuple(values.get("stepping", ())),
+        given=tuple(given),
         **groups,
     )
     problems = []

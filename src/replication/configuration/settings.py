@@ -132,8 +132,8 @@ class Settings:
     sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
     """The section of each study in the configuration."""
 
-    stepping: Collection[str] = ()
-    """The keys in the section ``stepping``."""
+    given: Collection[str] = ()
+    """The parameters that the sections beside the studies give."""
 
     @property
     def main_text(self) -> Fault:

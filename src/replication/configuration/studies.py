@@ -20,8 +20,8 @@ from ..tables.curves import main_text
 from .runs import StudyRun, identifier, varied
 from .settings import Settings
 
-OF_A_WHOLE_FAULT = {"shear_modulus", "poisson_ratio", "normal_stress", "slip_distance", "a"}
-"""What a fault of its own has: a study that gives all of it says what it starts from."""
+OF_A_FAULT = {"shear_modulus", "poisson_ratio", "normal_stress", "slip_distance"}
+"""What a fault of its own has: who gives all of it says what it slides on, and with which law."""
 
 _CURVE_POINTS = 81
 """Values of the varied number in the theory's curve."""
@@ -111,11 +111,13 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
 def fault_of(study: str, values: Mapping[str, Any], settings: Settings) -> tuple[Run, Fault]:
     """The run with values of a study, whose block length is the base's, and the theory's fault."""
     start = settings.sections[study].get("fault")
-    if start is None and values.keys() >= OF_A_WHOLE_FAULT:
+    named = {*settings.given, *values}
+    missing = [name for name in ("second_body", "friction_law") if name not in named]
+    if start is None and named >= OF_A_FAULT and missing:
         raise ParameterError(
-            f"{', '.join(sorted(OF_A_WHOLE_FAULT))} are given, but not the fault that the study "
-            "starts from: write `fault: paper`, whose second body is rigid and whose friction law "
-            "is product, or give them as `fault: {...}`, with a second body like the first and the "
+            f"{', '.join(sorted(OF_A_FAULT))} are given, but not {' and '.join(missing)}: write "
+            "`fault: paper` in the study if they are the paper's, a rigid second body and the law "
+            "product; or give all as `fault: {...}`, with a second body like the first and the "
             "friction law dieterich_ruina where nothing else is given"
         )
     values = {**(start or {}), **values}
@@ -146,7 +148,7 @@ def _completed(
             )
         over_critical = settings.studies[study].length_over_critical
         follows["block_length"] = rounded(over_critical * critical)
-    given = {*settings.stepping, *values}
+    given = {*settings.given, *values}
     if "end_time" not in given and not math.isnan(critical):
         longest = latest_length(run.fault, run.law, run.start, run.perturbation, critical)
         times = late_end(run.fault, run.start, longest)
