@@ -20,7 +20,7 @@ import shlex
 import signal
 import sys
 import threading
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from math import ceil
 from pathlib import Path
 
@@ -60,14 +60,14 @@ from replication.configuration.roles import PAIRS as PAIR_ROLES
 from replication.configuration.runs import first_realisations, varied
 from nucleation.run.checks import estimated_megabytes
 from nucleation.fault.files import read_yaml
-from nucleation.run.names import parameters
+from nucleation.fault.parameters import parameters
 from replication.configuration.studies import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from replication import figures
 from nucleation.model.friction import Friction, plugins
 from nucleation.run.derived import fault, identity
-from nucleation.model.quantities import ParameterError
+from nucleation.model.quantities import ParameterError, Quantity
 from replication.pipeline.check import CURRENT
 from replication.pipeline import LOGGER
 from replication.pipeline.planning import Plan

@@ -29,8 +29,8 @@ from nucleation.model.friction import USUAL_LAW
 from nucleation.model.friction.constants import AGE, own_law
 from nucleation.model.quantities import ParameterError
 from nucleation.model.settings import NEAR_END, THICK, THICK_REACH, Perturbation, Start
-from nucleation.run.complete import element_height, time_to_length, zone_length
 from nucleation.run.reach import reach_of
+from nucleation.run.sizing import element_height, time_to_length, zone_length
 from nucleation.theory.creep.runaway import WEAK
 
 SEED = 20261128

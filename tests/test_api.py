@@ -111,10 +111,10 @@ def test_texts_have_units_as_on_the_command_line():
     assert api.Friction(law="product", slip_distance="0.5um") == api.Friction(
         law="product", slip_distance=5e-7
     )
-    run = api.Run(api.PAPER.replace(height="5 cm"), block_length="90 cm", n_x="100")
+    run = api.Run.sized(api.PAPER.replace(height="5 cm"), block_length="90 cm", n_x="100")
     assert (run.fault.height, run.block.length, run.block.n_x) == (0.05, 0.9, 100)
     with pytest.raises(ParameterError, match=r"block_length = '5 s' .*unit of time, but m"):
-        api.Run(api.PAPER, block_length="5 s")
+        api.Run.sized(api.PAPER, block_length="5 s")
 
 
 def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
@@ -186,7 +186,7 @@ SHORT = {"block_length": 0.9, "n_x": 16, "n_y": 2, "end_time": 0.02}
 def test_an_interrupted_run_keeps_its_record(capsys):
     """Ctrl-C ends a run after its step; what follows is not interrupted."""
     signal.signal(signal.SIGINT, signal.default_int_handler)  # background shells ignore it
-    parameters, steps = api.Run(api.PAPER, **SHORT), []
+    parameters, steps = api.Run.sized(api.PAPER, **SHORT), []
 
     def interrupt(instant):
         steps.append(instant)

@@ -196,7 +196,7 @@ assert "site-packages" in nucleation.__file__, nucleation.__file__
 assert importlib.util.find_spec("snakemake") is importlib.util.find_spec("jinja2") is None
 fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.010, b=0.015)
 print(round(Fault(**fault, slip_distance=5e-6).critical_length(), 3))
-block = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+block = Run.sized(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
 write(simulate(block), "run.nc")
 """
 

@@ -50,7 +50,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::UserWarning"
 def test_the_force_drops_where_it_is_expected(fault, settings):
     """Within three deviations: 68 % of the realisations are between `low` and `high`."""
     answer = fault.lengths(**NOISE)["drop_length"]
-    found = extract(simulate(Run(fault, time_after_event=0.0, **settings, **NOISE)))
+    found = extract(simulate(Run.sized(fault, time_after_event=0.0, **settings, **NOISE)))
     assert abs(found["length"] - answer.value) < 1.5 * (answer.high - answer.low)
 
 
@@ -59,7 +59,7 @@ def test_a_specimen_that_may_nucleate_does(length):
     """L_s is 0.168 m: one specimen is longer, the other shorter, and L_c longer than both."""
     verdict = PLATES.stability_length()
     assert PLATES.critical_length() > 0.25 > verdict > 0.15
-    run = Run(PLATES, block_length=length, n_x=60, n_y=10, time_after_event=0.1, **NOISE)
+    run = Run.sized(PLATES, block_length=length, n_x=60, n_y=10, time_after_event=0.1, **NOISE)
     waves = math.sqrt(PLATES.shear_modulus / PLATES.density)
     dynamic = 2.0 * PLATES.a * PLATES.normal_stress * waves / PLATES.shear_modulus
     assert float(simulate(run).maximal_slip_rate.max()) > dynamic

@@ -13,9 +13,9 @@ from nucleation.api import PAPER
 from nucleation.commands.simulate import command
 from nucleation.datasets import netcdf
 from nucleation.extraction.extraction import extract
+from nucleation.fault.parameters import parameters as run_parameters
 from nucleation.model.quantities import ParameterError
 from nucleation.run.advice import RunWarning
-from nucleation.run.names import parameters as run_parameters
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.checkpoints import simulation_code
 from nucleation.simulation.run import simulate

@@ -9,8 +9,8 @@ from configurations import messages, papers, study
 
 from nucleation.fem.grid import Grid
 from nucleation.model.friction import Friction
-from nucleation.run.complete import element_height, steepness
 from nucleation.run.run import PAPER_RUN
+from nucleation.run.sizing import element_height, steepness
 from replication.configuration.advice import summary_of_meshes, warned
 from replication.configuration.load import configure
 

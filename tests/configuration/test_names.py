@@ -5,8 +5,8 @@ from configurations import messages, study
 
 from nucleation.fault import Fault
 from nucleation.fault.files import read_yaml
-from nucleation.run.complete import stiffness_of
 from nucleation.run.run import PAPER_RUN
+from nucleation.run.sizing import stiffness_of
 from replication.configuration.load import configure
 
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from test_random_faults import NUMBER, random_fault
 
 from nucleation.api import Fault
+from nucleation.fault.parameters import parameters
 from nucleation.model.quantities import ParameterError
-from nucleation.run.names import parameters
 from replication.configuration.checks import Reader
 from replication.configuration.load import configure
 from replication.configuration.settings import GROUPS, entries_of

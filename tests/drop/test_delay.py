@@ -1,12 +1,12 @@
 """The law of the drop against its closed form, against realisations, and against a simulation."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 from configurations import CONFIG, papers
-from parts import with_parts
 
 from nucleation.drop.continued import complex_trend, continued, exponent_of, roughness_weights
 from nucleation.drop.delay import SAMPLED, TINY, grown, growth
@@ -141,7 +141,7 @@ def test_a_perturbed_run_drops_where_its_own_realisation_says(own):
     run = PARAMETERS.replaced(
         n_x=400, n_y=6, grading=20.0, end_time=60.0, time_after_event=0.0, longest_step=0.1
     )
-    run = with_parts(run, perturbation=declared)
+    run = replace(run, perturbation=declared)
     measured = extract(simulate(run))
     expected = length_at(realised(own, declared), 1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from asked import expected_drop
-from parts import with_parts
 
 from nucleation.api import PAPER
 from nucleation.drop.expected_drop import feels_far_end
@@ -90,9 +89,8 @@ def test_what_is_not_trusted(fault, said):
 def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulated):
     """Simulations on 600 elements in blocks of 3 L_c, load 1e-4, means of two; lengths over L_c."""
     law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
-    fault = with_parts(
-        FAULT.replaced(height=height), law=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-    )
+    law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
+    fault = FAULT.replaced(height=height, friction_law=law)
     critical = fault.critical_length
     fault = fault.replaced(block_length=6.0 * critical)
     found = expected_drop(fault)
@@ -109,7 +107,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     """
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
     fault = FAULT.replaced(height=0.01)
-    fault = with_parts(fault, law=law)
+    fault = fault.replaced(friction_law=law)
     critical = fault.critical_length
     found = expected_drop(fault)
     start = found.closed_form.front_length
@@ -166,7 +164,7 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
     law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
     for ratio, weak in ((1.97, True), (2.03, False)):
         friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-        found = expected_drop(with_parts(FAULT, law=friction))
+        found = expected_drop(FAULT.replaced(friction_law=friction))
         assert np.isfinite(found.runaway.length) == weak
 
 
@@ -178,7 +176,7 @@ def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
 def test_bursts_by_the_slip_law_hardly_lower_the_force(ratio, evolution, late):
     law = Friction(law="dieterich_ruina", evolution=evolution, reference_slip_rate=1e-5)
     friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-    found = expected_drop(with_parts(long_block(), law=friction))
+    found = expected_drop(long_block().replaced(friction_law=friction))
     assert found.slips_slowly
     assert ("hardly lower the force" in found.doubt) == late
 

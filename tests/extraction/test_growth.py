@@ -1,11 +1,11 @@
 """Where growth of the patch begins: few frames instead of all, and the fit at the crossing."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
-from parts import with_parts
 
 from nucleation.extraction import growth
 from nucleation.extraction.definitions import ExtractionSettings
@@ -139,9 +139,9 @@ LOADED = PAPER_RUN.replaced(
 
 def test_a_patch_in_the_interior_turns_unstable_where_theory_says():
     """It begins where the fault is weakest: the numbers of docs/creeping_patch.md, coarser."""
-    parameters = with_parts(
-        LOADED, law=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039), heterogeneity=WEAK
-    ).replaced(longest_step=0.4)
+    law = LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039)
+    parameters = LOADED.replaced(friction_law=law, longest_step=0.4)
+    parameters = replace(parameters, heterogeneity=WEAK)
     dynamics, velocity = composed(parameters), parameters.fault.velocity
     recorder = Recorder(parameters, dynamics)
     for instant in instants(parameters, dynamics=dynamics):

@@ -1,6 +1,6 @@
 """The figure of any study: what is varied, its numbers, its labels."""
 
-from dataclasses import asdict
+from dataclasses import fields
 
 import drawn_layout
 import numpy as np
@@ -8,12 +8,18 @@ import pytest
 import xarray as xr
 from matplotlib.mathtext import MathTextParser
 
+from nucleation.fault.parameters import parameters
+from nucleation.model.quantities import Quantity
 from nucleation.run.derived import drop_of_run
-from nucleation.run.names import parameters
 from nucleation.run.run import Run
 from replication.configuration.load import configure
 from replication.configuration.studies import theory_curves
 from replication.figures import figure_studies
+
+
+def declared(name):
+    """The declaration of a parameter, as the rule of the figure has it."""
+    return {field.name: getattr(parameters()[name], field.name) for field in fields(Quantity)}
 
 
 def table(theory, length):
@@ -24,7 +30,7 @@ def table(theory, length):
 
 
 def draw(theory, length, **varied):
-    entries = {name: asdict(parameters()[name]) for name in varied}
+    entries = {name: declared(name) for name in varied}
     return figure_studies.draw(table(theory, length), varied, entries, [])
 
 
@@ -74,7 +80,7 @@ def lines(axes):
 def test_lengths_of_theory_are_curves_of_their_own():
     """L_c is no prediction of L: the patch becomes unstable at L_s, and the force drops at L."""
     heights = [0.05, 0.1]
-    given = {"height": heights}, {"height": asdict(parameters()["height"])}
+    given = {"height": heights}, {"height": declared("height")}
     curve = along(heights, perturbation="normal_load", strength=1e-4)
     axes = figure_studies.draw(table([0.7, 0.9], [0.5, 0.7]), *given, [curve]).axes[0]
     shown = lines(axes)
@@ -111,7 +117,7 @@ def test_lengths_of_theory_are_curves_of_their_own():
     ids=["quiet", "varying along x", "under a remote load"],
 )
 def test_where_the_law_of_the_drop_does_not_apply_no_drop_is_expected(run):
-    given = {"height": [0.05, 0.1]}, {"height": asdict(parameters()["height"])}
+    given = {"height": [0.05, 0.1]}, {"height": declared("height")}
     curve = along([0.05, 0.1], block_length=2.0, **run)
     axes = figure_studies.draw(table([0.7, 0.9], [0.5, 0.7]), *given, [curve]).axes[0]
     assert lines(axes).keys() == {"$L_c$, theory", "$L_s$, theory"}

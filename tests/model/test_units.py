@@ -9,10 +9,10 @@ import pint
 import pytest
 import xarray as xr
 
+from nucleation.fault.parameters import parameters
 from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, declarations, declared
 from nucleation.model.units import QUICK, magnitude, parse, registry
-from nucleation.run.names import parameters
 from nucleation.theory.values import QUANTITIES
 from replication.configuration.settings import GROUPS
 

@@ -30,7 +30,7 @@ PAIR = PAPER_RUN.replaced(second_body="deformable", second_shear_modulus=6.2e9, 
         PAIR,
         PAPER_RUN.replaced(loading="remote", stress_rate=1e4, n_x=61, friction_law="product"),
         PAPER_RUN.replaced(friction_law="dieterich_ruina", a=0.01, zeta_over_a=2.0),
-        Run(GRANITE, perturbation="normal_load", strength=1e-4, seed=1),
+        Run.sized(GRANITE, perturbation="normal_load", strength=1e-4, seed=1),
     ],
 )
 def test_a_run_is_its_flat_values(run):
@@ -75,7 +75,7 @@ def test_bad_values_are_refused(values, message):
 
 def test_what_follows_from_the_fault():
     """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
-    run = Run(GRANITE, n_x=800)
+    run = Run.sized(GRANITE, n_x=800)
     critical = run.critical_length
     assert run.block.length == float(f"{6.0 * critical:.4g}") and run.block.n_x == 800
     assert run.fault.initial_state == pytest.approx(20.0 * 5e-6 / 1e-6)
@@ -85,12 +85,12 @@ def test_what_follows_from_the_fault():
     assert run.stepping.end_time > run.growth_time(critical) > run.stepping.time_after_event
     zone = 30e9 / 0.75 * 5e-6 / (0.015 * 50e6)
     assert run.perturbation.correlation_length == pytest.approx(0.2 * zone)
-    assert Run(PAPER).fault.initial_state == 1.0
+    assert Run.sized(PAPER).fault.initial_state == 1.0
 
 
 def test_half_spaces_become_high_and_long_blocks():
     high = GRANITE.replace(height=math.inf)
-    run, critical = Run(high), high.critical_length()
+    run, critical = Run.sized(high), high.critical_length()
     assert run.fault.height == run.below.height == pytest.approx(4.0 * critical, rel=1e-3)
     assert run.block.length == pytest.approx(35.0 * critical, rel=1e-3)
     assert run.process_zone() / (run.block.length / run.block.n_x) >= 6.0
@@ -125,7 +125,7 @@ LOAD = {"perturbation": "normal_load", "strength": 1e-4}
 )
 def test_a_run_lasts_and_reaches_beyond_its_drop(changed):
     """Weak faults ended before it: their block and end were multiples of L_c and its time."""
-    run = Run(PMMA.replace(**changed), **LOAD)
+    run = Run.sized(PMMA.replace(**changed), **LOAD)
     assert run.reach.unstable < run.reach.drop < run.reach.latest
     assert run.stepping.end_time > 1.45 * run.growth_time(run.reach.latest)
     assert run.block.length > run.reach.latest / 0.6
@@ -146,7 +146,7 @@ def test_a_run_lasts_and_reaches_beyond_its_drop(changed):
 def test_what_is_missing_is_asked_for(changed, message):
     """V and f of the paper were taken in silence (issue 43, point 2)."""
     with pytest.raises(ParameterError, match=message):
-        Run(GRANITE.replace(**changed))
+        Run.sized(GRANITE.replace(**changed))
 
 
 def test_records_of_earlier_versions_are_refused():
@@ -172,7 +172,12 @@ CHANGES = {
 def test_the_advice_for_a_parameter_of_the_fault_can_be_followed(name):
     """It was fault.replace(regularisation_slip_rate=...), which is refused."""
     with pytest.raises(ParameterError, match="is a parameter of the fault") as refused:
-        Run(GRANITE, **{name: {"friction_law": "product", "second_body": "rigid"}.get(name, 1e-7)})
+        Run.sized(
+            GRANITE, **{name: {"friction_law": "product", "second_body": "rigid"}.get(name, 1e-7)}
+        )
     advised = str(refused.value).split(": ", 1)[1].removesuffix(" changes it")
     changed = eval(advised.replace("...", "value"), {"fault": GRANITE, "value": CHANGES[name]})
-    assert changed != GRANITE and Run(changed, block_length=9.0).fault.velocity == GRANITE.velocity
+    assert (
+        changed != GRANITE
+        and Run.sized(changed, block_length=9.0).fault.velocity == GRANITE.velocity
+    )

@@ -1,10 +1,10 @@
 """Perturbed runs: each kind acts as declared, and none is none."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from parts import with_parts
 
 from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
@@ -28,7 +28,7 @@ QUIET = PAPER_RUN.replaced(
 
 def perturbed(kind, strength=1e-2, base=QUIET, **others):
     declared = Perturbation(kind=kind, strength=strength, seed=7, **others)
-    return with_parts(base, perturbation=declared)
+    return replace(base, perturbation=declared)
 
 
 def series_of(parameters):

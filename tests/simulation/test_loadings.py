@@ -1,10 +1,10 @@
 """Runs that are loaded from afar, and the drop under a declared perturbation: what decides it."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from parts import with_parts
 
 from nucleation.extraction.extraction import extract
 from nucleation.model.friction import Friction
@@ -38,7 +38,7 @@ REMOTE = PAPER_RUN.replaced(
 def test_a_patch_begins_where_it_is_told():
     for centre in (0.9, 2.0):
         own = dataclasses.replace(SEED, centre=centre)
-        record = simulate(with_parts(REMOTE, heterogeneity=own))
+        record = simulate(replace(REMOTE, heterogeneity=own))
         before = record.isel(time=-10)
         at = float(before["x"].values[before["slip_rate"].values.argmax()])
         assert abs(at - centre) < 0.3
@@ -52,7 +52,7 @@ def test_a_fault_in_a_period_has_no_first_node():
     shifted = dataclasses.replace(SEED, centre=1.5 + 20 * element)
     short = REMOTE.replaced(end_time=2.0)
     one, other = (
-        simulate(with_parts(short, heterogeneity=own))["slip"].isel(time=-1).values
+        simulate(replace(short, heterogeneity=own))["slip"].isel(time=-1).values
         for own in (dataclasses.replace(SEED, centre=1.5), shifted)
     )
     np.testing.assert_allclose(np.roll(one[1:], 20), other[1:], rtol=1e-6)
@@ -112,7 +112,7 @@ CASES = {"edge, two": EDGE.replaced(**TWO), "remote": REMOTE, "remote, two": REM
 def test_onset_converges_with_mesh_tolerance_and_step(parameters):
     """Under a declared perturbation: each of them made finer moves the onset by less than 1e-3."""
     declared = Perturbation(kind="drive_velocity", strength=1e-4, seed=1)
-    own, odd = with_parts(parameters, perturbation=declared), parameters.block.n_x % 2
+    own, odd = replace(parameters, perturbation=declared), parameters.block.n_x % 2
 
     def onset(elements=120, tolerance=1e-2, longest_step=0.1):
         made = own.replaced(
@@ -174,7 +174,7 @@ DECLARED = {
 @pytest.mark.slow
 @pytest.mark.parametrize("declared", DECLARED.values(), ids=DECLARED)
 def test_a_declared_perturbation_makes_one_number(declared):
-    parameters = with_parts(SILENT, perturbation=declared)
+    parameters = replace(SILENT, perturbation=declared)
     np.testing.assert_allclose(drop(parameters, EIGHT_DIGITS), drop(parameters), rtol=3e-3)
 
 

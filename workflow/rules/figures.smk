@@ -187,8 +187,9 @@ def declarations(names):
     """Declarations of parameters, for the axes of a figure."""
     found = {}
     for name in names:
-        entry = asdict(parameters()[name])
-        found[name] = entry | {"choices": list(entry["choices"])}
+        entry = parameters()[name]
+        found[name] = {field.name: getattr(entry, field.name) for field in fields(Quantity)}
+        found[name]["choices"] = list(entry.choices)
     return found
 
 

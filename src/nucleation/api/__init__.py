@@ -104,7 +104,7 @@ def _simulate(self: Fault, *, progress: bool | None = None, **settings: Any) -> 
     from ..run.run import Run
     from ..simulation.progress import simulate
 
-    run = Run(self, **settings)
+    run = Run.sized(self, **settings)
     problems = list(contradictions(run))
     if problems:
         raise ParameterError("; ".join(problems))

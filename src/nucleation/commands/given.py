@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..fault import PAPER, Fault
-from ..fault.flat import LAW_NAMES, declarations_of_flat, keywords, read_parameters
+from ..fault.flat import LAW_NAMES, keywords, read_parameters
+from ..fault.parameters import fault_parameters, parameters
 from ..fault.setting import friction, second_body
 from ..model.friction.constants import CONSTANTS
 from ..model.hints import ImplausibleWarning
@@ -151,7 +152,7 @@ def fault_options(function: _Function) -> _Function:
     """One option for each parameter of a fault, and options for the source of other parameters."""
     from ..lengths.ranges import parse_range
 
-    own = options_of(declarations_of_flat(), read=parse_range)
+    own = options_of(fault_parameters(), read=parse_range)
     return together(own, source_options)(function)
 
 
@@ -172,11 +173,9 @@ def given_fault(
     There are draws, and arrays in the fault, if there are ranges. A parameter that is `sought` need
     not be given.
     """
-    known = declarations_of_flat()
+    known = fault_parameters()
     ignored: Collection[str] = ()
     if options["file"]:  # one file serves all commands
-        from ..run.names import parameters
-
         ignored = parameters().keys() - known.keys()
     given = _given(options, known, ignored)
     names = frozenset(given)
@@ -216,7 +215,6 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
     The sizes of the block and the times follow from the theory. Without any constant of a fault it
     is the paper's.
     """
-    from ..run.names import parameters
     from ..run.run import PAPER_RUN, Run
 
     given = _given(options, parameters())
@@ -228,13 +226,14 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
             f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
         )
-    flat = declarations_of_flat()
+    flat = fault_parameters()
     of_fault = {name: x for name, x in given.items() if name in flat}
     others = {name: x for name, x in given.items() if name not in flat}
     if options["paper"] or not _OF_FAULT & names:
-        return PAPER_RUN.replaced(**of_fault).completed(**others), names, True
+        paper = PAPER_RUN.replaced(**of_fault)
+        return Run.sized(paper.fault, paper.law, **others), names, True
     _require_all(of_fault, options["file"])
-    return Run(Fault(**keywords(of_fault)), **others), names, False
+    return Run.sized(Fault(**keywords(of_fault)), **others), names, False
 
 
 def _refuse_ranges(given: Mapping[str, Any]) -> None:
@@ -276,8 +275,9 @@ def system_of_fault(
     if law is not None:
         for name, entry in declarations(type(law)).items():
             if name not in (*QUANTITIES, *law.set_by_expansion):
-                key = law.called.get(name, name)
-                texts[key in named].append(f"{key} = {with_unit(getattr(law, name), entry)}")
+                texts[entry.name in named].append(
+                    f"{entry.name} = {with_unit(getattr(law, name), entry)}"
+                )
     heads = {True: "Given", False: "Not given, so the paper's" if paper else "Others"}
     lines = [f"{heads[which]}: {', '.join(own)}." for which, own in texts.items() if own]
     lines += [second_body(fault), friction(fault)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import os
 import shlex
@@ -12,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..fault.parameters import PARTS, parameters, sections
 from ..installed import require
 from ..model.quantities import ParameterError, declared
 from ..run.advice import advice
 from ..run.checks import contradictions, estimated_megabytes, memory_problem
-from ..run.names import GROUPS, OF_GROUPS, parameters, sections
 from ..run.run import PAPER_RUN, Run
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
 from .given import (
@@ -36,13 +35,11 @@ if TYPE_CHECKING:
 
 _MEMORY = declared("memory of one simulation", "(100.0, 1e7) MB")
 _LIMIT = 2000.0  # MB
-_OF_MATERIAL = ("shear_modulus", "poisson_ratio", "density")
 
 _NOTES = NOTES | {
-    name: f"default {with_unit(field.default, entry)}"
-    for group, cls in GROUPS.items()
-    for (name, entry), field in zip(OF_GROUPS[group].items(), dataclasses.fields(cls), strict=True)
-    if field.default is not None
+    name: f"default {with_unit(one.default, one)}"
+    for name, one in parameters().items()
+    if one.part in PARTS and one.default is not None
 }
 _NOTES |= dict.fromkeys(("end_time", "time_after_event"), "by the theory if left out")
 _NOTES["block_length"] = "6 critical lengths if left out"
@@ -171,27 +168,16 @@ def _simulate(run: Run, output: Path, as_json: bool, described: dict[str, Any]) 
 def parameter_lines(run: Run) -> list[str]:
     """The parameters of a run, one in a line, with unit and meaning."""
     values = run.to_dict()
-    like_first = _of_second_body(run)
+    if run.below is not None:
+        values |= {"second_n_y": run.below.n_y, "second_grading": run.below.grading}
     rows: list[Row] = []
     for section, names in sections().items():
         rows.append(f"{section}:")
         for name in names:
-            entry = parameters()[name]
             if name in values:
+                entry = parameters()[name]
                 rows.append((name, with_unit(values[name], entry), entry.description))
-            elif name in like_first:
-                rows.append((name, with_unit(like_first[name], entry), "that of the first body"))
     return table(rows)
-
-
-def _of_second_body(run: Run) -> dict[str, Any]:
-    """All parameters of a second block by name, in SI units; none on a rigid base."""
-    below = run.below
-    if below is None:
-        return {}
-    own = {name: getattr(below, name) for name in ("height", "n_y", "grading", "far_side")}
-    own |= {name: getattr(below.material, name) for name in _OF_MATERIAL}
-    return {f"second_{name}": value for name, value in own.items()}
 
 
 def event_lines(found: dict[str, float], critical_length: float) -> list[str]:

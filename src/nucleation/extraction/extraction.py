@@ -169,7 +169,7 @@ def extract(
     Examples
     --------
     >>> from nucleation.api import PAPER, Run, simulate
-    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> run = Run.sized(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
     >>> extract(simulate(run))["length"]  # the run ends before its event
     nan
     """

@@ -19,7 +19,6 @@ the rough crossing by the fastest growing mode. A line through the oscillating m
 around it gives the length.
 """
 
-import copy
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
@@ -85,10 +84,8 @@ def frozen_patch(
         slipping &= grid.x <= NEAR_EDGE * grid.length
     nodes = np.flatnonzero(slipping[1:]) + 1  # node 0 is driven, or repeats another
     v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
-    own_law = copy.copy(law)  # with its parameters at these nodes
-    for name, value in vars(law).items():
-        if np.ndim(value):
-            object.__setattr__(own_law, name, value[nodes])  # frozen, and checked for all nodes
+    varying = {name: value[nodes] for name, value in vars(law).items() if np.ndim(value)}
+    own_law = law.along_x(**varying)
     f = own_law.coefficient(v, phi)
     f_v, f_phi = own_law.derivatives(v, phi)
     g_v, g_psi = log_state_derivatives(own_law, v, phi)

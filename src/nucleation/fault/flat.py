@@ -9,30 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from ..model.friction import Friction, law_class, law_declarations
-from ..model.friction.constants import LAW, ZETA_OVER_A, own_law
+from ..model.friction import Friction, law_class
+from ..model.friction.constants import LAW, own_law
 from ..model.hints import hint
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import in_si
 from ..theory.values import QUANTITIES, FaultLike
+from .parameters import fault_parameters, names_of
 
-_OF_FAULT = ("law", "evolution", "slip_distance")
-LAW_NAMES = tuple(name for name in law_declarations() if name not in _OF_FAULT)
+LAW_NAMES = tuple(name for name in names_of("law") if name not in (*QUANTITIES, "friction_law"))
 """Parameters of friction laws beside those that every fault has."""
-
-SECOND_BODY = Quantity(
-    "body below the interface: a rigid base, or a second deformable block, in all that is left "
-    "out like the first",
-    choices=("rigid", "deformable"),
-    kind="str",
-)
-
-
-def declarations_of_flat() -> dict[str, Quantity]:
-    """The declarations of all names."""
-    laws = law_declarations()
-    named = {"second_body": SECOND_BODY, "zeta_over_a": ZETA_OVER_A, "friction_law": laws["law"]}
-    return {**QUANTITIES, **named, **{name: laws[name] for name in LAW_NAMES}}
 
 
 def keywords(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -126,7 +112,7 @@ def read_values(values: Mapping[str, Any], further: Mapping[str, Quantity] = {})
     """
     from ..lengths.ranges import SAMPLED, parse_range
 
-    known = {**declarations_of_flat(), **further}
+    known = {**fault_parameters(), **further}
     found = {}
     for key, value in values.items():
         if key not in known:

@@ -10,9 +10,7 @@ node (``with_expansion``). With a change below -1, zeta has one sign within and 
 elsewhere: a weakening patch in surroundings that strengthen.
 """
 
-import copy
 import dataclasses
-from typing import ClassVar
 
 import numpy as np
 
@@ -30,11 +28,10 @@ class Heterogeneity(Checked):
     and one that makes a positive property negative.
     """
 
-    called: ClassVar = {"varies": "heterogeneity"}
-
     varies: str = quantity(
         "property of the interface that varies along x; a changes at fixed b, and b at fixed a",
         choices=("none", "normal_stress", "friction", "a", "b", "zeta", "slip_distance"),
+        name="heterogeneity",
         default="none",
     )
     shape: str = quantity(
@@ -98,10 +95,7 @@ class Heterogeneity(Checked):
             for name in law.set_by_expansion:
                 local = np.array([getattr(own, name) for own in laws])
                 values[name] = local[nodes]
-        varied = copy.copy(law)
-        for name, along_x in values.items():
-            object.__setattr__(varied, name, along_x)  # the dataclass is frozen and checks numbers
-        return varied
+        return law.along_x(**values)
 
     def _local_law(self, law: Friction, velocity: float, factor: float) -> Friction:
         if factor == 1.0:

@@ -42,6 +42,7 @@ class Quantity:
     choices: Collection[str] = ()
     kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
     optional: bool = False  # whether None is allowed, with the meaning that the description gives
+    name: str = ""  # in files, options and messages; that of the field if empty
 
     @property
     def worded(self) -> bool:
@@ -135,10 +136,11 @@ def _declarations(cls: Any) -> dict[str, Quantity]:
     found = {}
     for field in dataclasses.fields(cls):
         if "quantity" in field.metadata:
+            entry: Quantity = field.metadata["quantity"]
             annotation = getattr(field.type, "__name__", str(field.type))
             kind = annotation.removesuffix(" | None")
             found[field.name] = dataclasses.replace(
-                field.metadata["quantity"], kind=kind, optional=kind != annotation
+                entry, kind=kind, optional=kind != annotation, name=entry.name or field.name
             )
     return found
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -77,9 +76,9 @@ class Start(Checked):
 class Block(Checked):
     """Length of the bodies and numbers of bilinear elements; the fault has their heights."""
 
-    called: ClassVar = {"length": "block_length"}
-
-    length: float = quantity("block length", "(0.0, 1e7) m", symbol="L", default=1.0)
+    length: float = quantity(
+        "block length", "(0.0, 1e7) m", symbol="L", name="block_length", default=1.0
+    )
     n_x: int = quantity("number of elements along x", "[8, 100000]", symbol="N_x", default=400)
     n_y: int = quantity("number of elements along y", "[2, 10000]", symbol="N_y", default=150)
     grading: float = quantity(
@@ -157,9 +156,7 @@ class Perturbation(Checked):
     0.0001
     """
 
-    called: ClassVar = {"kind": "perturbation"}
-
-    kind: str = quantity("perturbed quantity", choices=KINDS, default="none")
+    kind: str = quantity("perturbed quantity", choices=KINDS, name="perturbation", default="none")
     strength: float = quantity(
         "relative strength of the perturbation, its standard deviation",
         "[0.0, 0.1]",

@@ -5,11 +5,10 @@ from __future__ import annotations
 import contextlib
 import math
 import re
-from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -53,14 +52,11 @@ class Checked:
     A bad value is a ParameterError with name, value, unit and range.
     """
 
-    called: ClassVar[Mapping[str, str]] = {}
-    """Names in studies, files and messages, of the fields with a shorter one."""
-
     def __post_init__(self) -> None:
         for name, entry in declarations(type(self)).items():
             value = getattr(self, name)
             if not entry.allows(value):
-                value = in_si(self.called.get(name, name), value, entry)
+                value = in_si(entry.name, value, entry)
                 object.__setattr__(self, name, value)  # the dataclass is frozen
 
 

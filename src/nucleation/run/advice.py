@@ -8,9 +8,9 @@ import math
 from collections.abc import Iterator
 
 from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION, NEAR_END
-from .complete import element_height
 from .reach import longest_reach, reach_of
 from .run import Run
+from .sizing import element_height
 
 
 class RunWarning(UserWarning):

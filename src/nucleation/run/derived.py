@@ -1,8 +1,7 @@
 """What follows from a run: digests of its fault and its ensemble, its expected drop.
 
 Tables have the digests in a column; runs of the same fault are found by comparing them. Values that
-differ only by round-off have the same digest, and a second body's value that is left out counts as
-the first body's.
+differ only by round-off have the same digest.
 """
 
 import hashlib
@@ -10,9 +9,9 @@ import json
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from ..fault.parameters import names_of
 from ..theory.critical import critical_length_of
 from .checks import require_uniform_edge
-from .names import OF_GROUPS
 from .run import Run
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ def fault(run: Run) -> str:
 
     The block must be so long that its length has no effect.
     """
-    return identity(run, *OF_GROUPS["block"], *OF_GROUPS["stepping"], *OF_GROUPS["perturbation"])
+    return identity(run, *names_of("block", "stepping", "perturbation"))
 
 
 def ensemble(run: Run) -> str:

@@ -10,14 +10,21 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from ..fault import PAPER, Fault
+from ..fault.parameters import PARTS, by_part, parameters, read, values_of
 from ..model.friction import Friction
 from ..model.friction.constants import with_constants
 from ..model.heterogeneity import Heterogeneity
 from ..model.material import Material
 from ..model.quantities import ParameterError
 from ..model.settings import Block, Perturbation, Start, Stepping
-from .complete import complete, flat, time_to_length, zone_length
-from .names import GROUPS, OF_GROUPS, OF_LAWS, OF_PARTS, read, sections
+from .sizing import (
+    fault_with,
+    sized,
+    time_to_length,
+    values_of_fault,
+    without_followers,
+    zone_length,
+)
 
 if TYPE_CHECKING:
     from ..theory.creep.patches import Patches
@@ -40,64 +47,58 @@ class Body(NamedTuple):
 class Run:
     """Everything that one simulation depends on; two equal runs give the same record.
 
+    :meth:`sized` makes one from a fault and some parameters, and completes it.
+
     Parameters
     ----------
     fault : Fault
-        A single fault with velocity, friction and heights; half-spaces become blocks 4 L_c high.
-    **values
-        Parameters of the run by name, as numbers in SI units or texts such as "8m":
-        ``block_length``, 6 L_c if left out, ``n_x``, ``n_y``, ``perturbation``, ``strength``,
-        ``end_time`` and so on; `nucleation simulate --help` lists them.
-
-    Raises
-    ------
-    ParameterError
-        If the fault can't be simulated, or values are not allowed or contradict each other.
+        A single fault with velocity, friction and finite heights.
+    law : Friction
+        The full friction law, of which f, a, zeta and D of the fault are the expansion at V.
+    start, block, stepping, perturbation, heterogeneity
+        The parts of the run; what they leave out is the paper's.
 
     Examples
     --------
     >>> from nucleation.api import PAPER, Run
-    >>> run = Run(PAPER, n_x=400, n_y=20)
+    >>> run = Run.sized(PAPER, n_x=400, n_y=20)
     >>> run.block.length, run.fault.height
     (1.428, 0.005)
     """
 
     fault: Fault
     law: Friction
-    """The full friction law, of which f, a, zeta and D of the fault are the expansion at V."""
-    start: Start
-    block: Block
-    stepping: Stepping
-    perturbation: Perturbation
-    heterogeneity: Heterogeneity
-
-    def __init__(self, fault: Fault, **values: Any) -> None:
-        self._set(complete(fault, read(values)))
+    start: Start = Start()
+    block: Block = Block()
+    stepping: Stepping = Stepping()
+    perturbation: Perturbation = Perturbation()
+    heterogeneity: Heterogeneity = Heterogeneity()
 
     @classmethod
-    def _of(cls, values: Mapping[str, Any], **parts: Any) -> Self:
-        """The run of a flat mapping of all parameters, with the parts that are made already."""
-        run = object.__new__(cls)
-        run._set(values, **parts)
-        return run
+    def sized(cls, fault: Fault, law: Friction | None = None, **values: Any) -> Self:
+        """The run of a fault with some parameters; its block, mesh and times follow by theory.
 
-    def completed(self, **values: Any) -> Self:
-        """A run of the same fault and friction law in which only `values` are given."""
-        return self._of(complete(self.fault, read(values), self.law))
+        Parameters
+        ----------
+        fault : Fault
+            A single fault with velocity and friction; half-spaces become blocks 4 L_c high.
+        law : Friction, optional
+            The full friction law; that of the fault if left out.
+        **values
+            Parameters of the run by name, as numbers in SI units or texts such as "8m":
+            ``block_length``, 6 L_c if left out, ``n_x``, ``n_y``, ``perturbation``, ``strength``,
+            ``end_time`` and so on; `nucleation simulate --help` lists them.
 
-    def _set(self, values: Mapping[str, Any], **parts: Any) -> None:
-        """Set the fields from a flat mapping of all parameters, unless they are given as parts."""
-        if "law" not in parts:
-            own = {name: values[name] for name in sections()["friction"] if name in values}
-            parts["law"] = Friction(law=own.pop("friction_law"), **own)
-        if "fault" not in parts:
-            parts["fault"] = _fault_of(values, parts["law"])
-        for group, cls in GROUPS.items():
-            if group not in parts:
-                fields = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
-                own = {field.name: values[name] for name, field in fields if name in values}
-                parts[group] = cls(**own)
-        vars(self).update(parts)
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        ParameterError
+            If the fault can't be simulated, or values are not allowed or contradict each other.
+        """
+        return cls(**sized(fault, law, read(values)))
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
@@ -107,16 +108,16 @@ class Run:
                 "the parameters are no run of this version: records of earlier versions are made "
                 "again by their simulations"
             )
-        return cls._of(read(values))
+        given = by_part(read(values))
+        law = Friction(**given["law"])
+        parts = {part: cls_of(**given[part]) for part, cls_of in PARTS.items()}
+        return cls(fault_with(law, given["fault"] | given[""]), law, **parts)
 
     def to_dict(self) -> dict[str, Any]:
-        """All parameters by name, in SI units; without those of a second body like the first."""
-        found = flat(self.fault, self.law)
-        for group in GROUPS:
-            own = getattr(self, group)
-            for name, value in vars(own).items():
-                if value is not None:
-                    found[own.called.get(name, name)] = value
+        """All parameters by name, in SI units, of both bodies."""
+        found = values_of_fault(self.fault, self.law)
+        for part in PARTS:
+            found |= values_of(part, getattr(self, part), parameters())
         return found
 
     def to_json(self) -> str:
@@ -140,7 +141,7 @@ class Run:
         **values
             Numbers in SI units or texts such as "8m"; ``None`` makes a parameter of the second
             body that of the first. The constants a, b, zeta, zeta_over_a and friction change the
-            friction law.
+            friction law; ``friction_law`` is its name, or a whole :class:`Friction`.
 
         Returns
         -------
@@ -151,23 +152,27 @@ class Run:
         ParameterError
             If a value is not allowed, or the law has no such parameter or constants.
         """
-        given = read(values)
-        before = own = self.to_dict()
-        if given.get("second_body") == "rigid":
-            own = {name: x for name, x in before.items() if not name.startswith("second_")}
-        changed = {**own, **given}
-        of_law = {name: x for name, x in given.items() if name in OF_LAWS}
-        if "friction_law" in of_law:
-            of_law["law"] = of_law.pop("friction_law")
-        law = with_constants(self.law.changed(of_law), changed["velocity"], given)
-        moved = {name for name in before | changed if before.get(name) != changed.get(name)}
-        kept = {
-            group: getattr(self, group) for group in GROUPS if moved.isdisjoint(OF_GROUPS[group])
-        }
-        if moved <= OF_PARTS:
-            kept["fault"] = self.fault
-        changed = {name: x for name, x in changed.items() if x is not None}
-        return self._of(changed, law=law, **kept)
+        law = values.get("friction_law")
+        if isinstance(law, Friction):
+            values = values | vars(law) | {"friction_law": law.law}
+            del values["law"]
+        changes = read(values)
+        given = by_part(changes)
+        block = given["block"]
+        own = without_followers(values_of_fault(self.fault, self.law))
+        if given[""].get("second_body") == "rigid":
+            own = {name: x for name, x in own.items() if not name.startswith("second_")}
+            block = {"second_n_y": None, "second_grading": None} | block
+        of_fault = own | given["fault"] | given[""]
+        law = with_constants(self.law.changed(given["law"]), of_fault["velocity"], changes)
+        fault = self.fault
+        if law != self.law or given["fault"] or "second_body" in changes:
+            fault = fault_with(law, of_fault)
+        parts = {part: getattr(self, part) for part in PARTS}
+        for part, fields in (given | {"block": block}).items():
+            if part in PARTS and fields:
+                parts[part] = dataclasses.replace(parts[part], **fields)
+        return type(self)(fault, law, **parts)
 
     @property
     def upper(self) -> Body:
@@ -243,29 +248,5 @@ class Run:
         return reach_of(self.fault, self.law, self.start, self.perturbation, self.critical_length)
 
 
-def _fault_of(values: Mapping[str, Any], law: Friction) -> Fault:
-    """The fault in a flat mapping of parameters."""
-    names = (*sections()["material"], "normal_stress", "velocity", "initial_state", "loading")
-    found = {name: values[name] for name in (*names, "height")}
-    for name in sections()["second_body"]:
-        if values.get(name) is not None and name not in ("second_n_y", "second_grading"):
-            found[name] = values[name]
-    found |= {"far_side": "free", "evolution": law.evolution}
-    if found.pop("second_body") == "rigid":
-        extra = [name for name in found if name.startswith("second_")]
-        if extra:
-            raise ParameterError(
-                f"{extra[0]} = {found[extra[0]]!r} is not allowed with second_body = rigid, a base "
-                f"that does not deform: leave {extra[0]} out, or make second_body deformable"
-            )
-        found["second_shear_modulus"] = math.inf
-    if found.get("second_far_side") == "traction":
-        found["second_far_side"] = "free"  # the other word for it
-    if found["loading"] == "edge":
-        return Fault(**found, friction_law=law)
-    f, a, zeta = law.expansion(found["velocity"])
-    return Fault(**found, friction=f, a=a, zeta=zeta, slip_distance=law.slip_distance)
-
-
-PAPER_RUN = Run._of(flat(PAPER, PAPER.law()))
+PAPER_RUN = Run(PAPER, PAPER.law())
 """The paper's fault on the paper's mesh, without a declared perturbation."""

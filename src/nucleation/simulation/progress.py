@@ -97,7 +97,7 @@ def simulate(
     Examples
     --------
     >>> from nucleation.api import PAPER, Run
-    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> run = Run.sized(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
     >>> record = simulate(run)
     >>> record.sizes["x"], round(float(record["step_time"][-1]), 6)
     (17, 0.021013)

@@ -115,7 +115,7 @@ def instants(
     step ends in tension.
 
     >>> from nucleation.api import PAPER, Run
-    >>> run = Run(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
+    >>> run = Run.sized(PAPER, block_length=0.9, n_x=16, n_y=2, end_time=0.02)
     >>> steps = instants(run)
     >>> first, second = next(steps), next(steps)
     >>> float(first.state.past_times[0]), bool(second.state.past_times[0] > 0.0)

@@ -135,7 +135,7 @@ def _declared() -> dict[str, Quantity]:
         "b": declared(
             "coefficient b = a + zeta of the log of the state", "(0.0, 10.0)", symbol="b"
         ),
-        "slip_distance": replace(friction["slip_distance"], low=1e-15, closed="[)"),
+        "slip_distance": friction["slip_distance"],
         "second_shear_modulus": replace(
             modulus,
             closed="[]",

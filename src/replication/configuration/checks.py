@@ -13,14 +13,14 @@ import numpy as np
 
 from nucleation.fault import Fault
 from nucleation.fault.flat import read_parameters, read_values
+from nucleation.fault.parameters import in_type, parameters
 from nucleation.model.friction import EVOLUTIONS
 from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, Quantity, declarations
 from nucleation.model.settings import STUCK_BELOW
 from nucleation.model.units import in_si
 from nucleation.run.checks import contradictions, memory_problem
-from nucleation.run.complete import starting_values
-from nucleation.run.names import in_type, parameters
+from nucleation.run.sizing import starting_values
 
 from .roles import LITERATURE, OWN, WEAKENING_PATCHES
 from .runs import StudyRun

@@ -6,9 +6,9 @@ from functools import cached_property
 from typing import Any
 
 from nucleation.fault import Fault
+from nucleation.fault.parameters import parameters, sections
 from nucleation.model.friction.constants import CONSTANTS, constants_of
 from nucleation.run.derived import ensemble
-from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
 from .roles import OWN

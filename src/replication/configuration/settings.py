@@ -8,9 +8,9 @@ import numpy as np
 
 from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.fault import Fault
+from nucleation.fault.parameters import parameters, sections
 from nucleation.model.quantities import Quantity, declarations, declared, quantity
 from nucleation.model.units import Checked
-from nucleation.run.names import parameters, sections
 from nucleation.run.run import Run
 
 from ..tables.curves import main_text

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from nucleation.fault import Fault
+from nucleation.fault.parameters import parameters
 from nucleation.model.quantities import ParameterError
-from nucleation.run.complete import late_end, latest_length, rounded
-from nucleation.run.names import parameters
 from nucleation.run.run import Run
+from nucleation.run.sizing import late_end, latest_length, rounded
 from nucleation.theory.critical import stability_reason
 from nucleation.theory.evaluation import OF_SYSTEMS, single_system
 

@@ -11,8 +11,8 @@ from nucleation.datasets.variables import declared, table
 from nucleation.extraction.definitions import MEASURED, ExtractionSettings
 from nucleation.extraction.extraction import Record, extracted
 from nucleation.extraction.measures import MEASURES, measure
+from nucleation.fault.parameters import parameters as known_parameters
 from nucleation.run.derived import ensemble, fault
-from nucleation.run.names import parameters as known_parameters
 from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 from nucleation.types import Array

@@ -13,7 +13,6 @@ from asked import critical_length, lengths_in_use, stability_length
 from configurations import CONFIG
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from parts import law_values
 
 from nucleation.api import Fault, Friction, ParameterError
 from nucleation.run.run import PAPER_RUN
@@ -122,7 +121,7 @@ def test_other_coefficients_at_the_slow_front_shorten_the_patch(ratio, percent):
     """By as much as docs/creeping_patch.md has for ten times v*."""
     law = Friction(law="product", slip_rate_scale=1e-6, regularisation_slip_rate=1e-12)
     law = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
-    run = PAPER_RUN.replaced(height=0.03, **law_values(law))
+    run = PAPER_RUN.replaced(height=0.03, friction_law=law)
     critical, patches = run.critical_length, dataclasses.replace(run.patches, law=None)
     own, constant = (stability_length_of(one, critical) for one in (run.patches, patches))
     assert 1.0 - own / constant == pytest.approx(0.01 * percent, abs=5e-3)

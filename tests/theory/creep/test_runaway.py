@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from asked import stability_length
 from docs.prose import page
-from parts import law_values
 from scipy.integrate import solve_ivp
 
 from nucleation.api import Fault, Friction
@@ -254,7 +253,7 @@ def test_the_last_bits_of_a_modulus_hardly_change_it(ratio, bodies):
 def test_a_law_with_far_scales_has_constant_a_and_b(evolution):
     law = Friction(law="dieterich_ruina", evolution=evolution, regularisation_slip_rate=1e-14)
     friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0034)
-    parameters = PAPER_RUN.replaced(height=0.02, block_length=4.0, **law_values(friction))
+    parameters = PAPER_RUN.replaced(height=0.02, block_length=4.0, friction_law=friction)
     own = parameters.patches
     constant = dataclasses.replace(own, law=None)
     found, _ = runaway.runaway_point(own, 1.0)

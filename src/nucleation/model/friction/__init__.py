@@ -14,6 +14,7 @@ the logarithm ``psi = log(phi)``: phi stays positive, and friction depends on it
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import importlib
 from functools import cache
@@ -97,6 +98,7 @@ def law_name(name: str) -> Any:
     return quantity(
         "friction law: how friction follows from slip rate and state",
         choices=LAWS,
+        name="friction_law",
         default=name.rpartition(".")[2],
     )
 
@@ -122,12 +124,10 @@ class Friction(Checked):
     (5e-06, 'aging')
     """
 
-    called: ClassVar = {"law": "friction_law"}
-
     law: str = law_name(USUAL_LAW)
     evolution: str = quantity("state evolution law", choices=EVOLUTIONS, default=USUAL_EVOLUTION)
     slip_distance: float = quantity(
-        "characteristic slip distance", "(0.0, 1e3) m", symbol="D", default=5.0e-7
+        "characteristic slip distance", "[1e-15, 1e3) m", symbol="D", default=5.0e-7
     )
     regularisation_slip_rate: float = quantity(
         "regularisation slip rate", "[1e-30, 1.0) m/s", symbol="v0", default=1.0e-9
@@ -194,6 +194,12 @@ class Friction(Checked):
         own = type(self) if same else Friction
         kept = {name: getattr(self, name) for name in declarations(own)}
         return Friction(**kept | values)
+
+    def along_x(self, **values: Array) -> Friction:
+        """The law with parameters that vary from node to node, which are allowed at each."""
+        varied = copy.copy(self)
+        vars(varied).update(values)
+        return varied
 
     @property
     def evolution_law(self) -> ModuleType:

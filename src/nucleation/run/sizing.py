@@ -1,17 +1,16 @@
 """The parameters of a run that follow from its fault: sizes of blocks and mesh, times, scales."""
 
-import dataclasses
 import itertools
 import math
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from ..fault import Fault
-from ..fault.flat import LAW_NAMES
+from ..fault.parameters import PARTS, by_part, names_of, parameters, table, values_of
 from ..model.friction import Friction
-from ..model.friction.constants import AGE, roughness_length
+from ..model.friction.constants import AGE, CONSTANTS, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError
 from ..model.settings import NEAR_END, THICK_REACH, Perturbation, Start
@@ -19,11 +18,8 @@ from ..theory.critical import critical_length_of
 from ..theory.evaluation import single_system
 from ..theory.status import NoLength
 from ..theory.stiffness import SATURATION
-from ..theory.values import ZONE
-from .names import OF_GROUPS, OF_PARTS, sections
+from ..theory.values import QUANTITIES, ZONE
 from .reach import longest_reach, reach_of
-
-_Part = TypeVar("_Part", Start, Perturbation)
 
 HIGH = 4.0
 """Height of the blocks over L_c: their L_s is within 2 % of that of half-spaces."""
@@ -53,35 +49,61 @@ _NEAR_STEADY = 1e-9  # relative, of omega: round-off of D/V is no age
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # on (-1, 1)
 
 
-def flat(fault: Fault, law: Friction) -> dict[str, Any]:
-    """The parameters of a single fault and its law by name, in the order of a run's sections.
-
-    Those of a second body that equal the first one's are left out.
-    """
-    found: dict[str, Any] = {name: getattr(fault, name) for name in sections()["material"]}
-    for name, value in vars(law).items():
-        found[law.called.get(name, name)] = value
-    for name in ("normal_stress", "velocity", "initial_state", "loading", "height"):
-        found[name] = getattr(fault, name)
+def values_of_fault(fault: Fault, law: Friction) -> dict[str, Any]:
+    """The parameters of a single fault and its law by name, those of both bodies."""
+    of_run = [name for name, one in parameters().items() if one.section]
+    found = values_of("fault", fault, of_run) | values_of("law", law, of_run)
     if math.isinf(fault.second_shear_modulus):
+        found = {name: x for name, x in found.items() if not name.startswith("second_")}
         return found | {"second_body": "rigid"}
-    found["second_body"] = "deformable"
-    for name in ("shear_modulus", "poisson_ratio", "density", "height"):
-        second = getattr(fault, f"second_{name}")
-        if second != getattr(fault, name):
-            found[f"second_{name}"] = second
-    if fault.second_far_side not in ("free", "traction"):
-        found["second_far_side"] = fault.second_far_side
-    return found
+    if fault.second_far_side == "traction":
+        found["second_far_side"] = "free"  # the other word for it
+    return found | {"second_body": "deformable"}
+
+
+def without_followers(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The values without those of the second body that are the first one's, and follow it."""
+    first = {"far_side": "free", **values}  # that of every run
+    return {
+        name: value
+        for name, value in values.items()
+        if not name.startswith("second_") or value != first.get(name.removeprefix("second_"))
+    }
+
+
+def fault_with(law: Friction, values: Mapping[str, Any]) -> Fault:
+    """The fault whose f, a, zeta and D at V are those of a law; from values by name.
+
+    Under a remote load it has these constants alone. A ParameterError refuses values of a second
+    body that is rigid.
+    """
+    of_law = {*names_of("law"), *CONSTANTS}
+    own = {name: value for name, value in values.items() if name not in of_law}
+    if own["second_body"] == "rigid":
+        for name, value in own.items():
+            if name.startswith("second_") and name != "second_body" and value is not None:
+                raise ParameterError(
+                    f"{name} = {value!r} is not allowed with second_body = rigid, a base that does "
+                    f"not deform: leave {name} out, or make second_body deformable"
+                )
+    own["far_side"] = "free"
+    if own.get("second_far_side") == "traction":
+        own["second_far_side"] = "free"
+    if own["loading"] == "edge":
+        return Fault.from_dict(own | {"friction_law": law})
+    f, a, zeta = law.expansion(own["velocity"])
+    constants = {"friction": f, "a": a, "zeta": zeta, "slip_distance": law.slip_distance}
+    return Fault.from_dict(own | constants | {"evolution": law.evolution})
 
 
 def starting_values(fault: Fault) -> dict[str, Any]:
     """The parameters of runs that start from a single fault, by name; without infinite heights.
 
-    Raises a ParameterError if the fault can't be simulated.
+    Those of the second body that are the first one's are left out: they follow it. Raises a
+    ParameterError if the fault can't be simulated.
     """
     fault = _simulable(fault)
-    found = flat(fault, fault.law())
+    found = without_followers(values_of_fault(fault, fault.law()))
     return {name: x for name, x in found.items() if not (isinstance(x, float) and math.isinf(x))}
 
 
@@ -102,16 +124,15 @@ def _simulable(fault: Fault) -> Fault:
     return fault.replace(initial_state=AGE * fault.slip_distance / fault.velocity)
 
 
-def complete(
-    fault: Fault, values: Mapping[str, Any], law: Friction | None = None
-) -> dict[str, Any]:
-    """All parameters of a run of a single fault, from those that are given and its friction law.
+def sized(fault: Fault, law: Friction | None, values: Mapping[str, Any]) -> dict[str, Any]:
+    """All parts of a run of a single fault, from its law and the values that are given, by name.
 
     Raises a ParameterError if the fault is no single one, has a zone, or lacks what a simulation
     needs.
     """
+    of_run = names_of(*PARTS)
     for name in values:
-        if name not in OF_PARTS:
+        if name not in of_run:
             raise ParameterError(f"{name} is a parameter of the fault: {_change(name)} changes it")
     law = law or fault.law()
     fault = _simulable(fault)
@@ -128,7 +149,8 @@ def complete(
     b = fault.a + fault.zeta
     if "correlation_length" not in found and b > 0.0:
         found["correlation_length"] = roughness_length(fault, b)
-    start, declared = _part("start", Start, found), _part("perturbation", Perturbation, found)
+    given = by_part(found)
+    start, declared = Start(**given["start"]), Perturbation(**given["perturbation"])
     longest = (
         math.nan if math.isnan(critical) else latest_length(fault, law, start, declared, critical)
     )
@@ -140,20 +162,16 @@ def complete(
         found["block_length"] = rounded(length)
     if "end_time" not in found and not math.isnan(critical):
         found |= late_end(fault, start, longest) | found
-    return flat(fault, law) | found
+    given = by_part(found)
+    parts = {part: cls(**given[part]) for part, cls in PARTS.items()}
+    return parts | {"fault": fault_with(law, values_of_fault(fault, law)), "law": law}
 
 
 def _change(name: str) -> str:
     """The expression that gives a fault another value of a parameter which no run has."""
-    if name in LAW_NAMES:
+    if table()[name].part == "law" and name not in QUANTITIES and name != "friction_law":
         return f"fault.replace(friction_law=fault.law().changed({{{name!r}: ...}}))"
     return f"fault.replace({_FIELDS.get(name, name)}=...)"
-
-
-def _part(group: str, cls: type[_Part], values: Mapping[str, Any]) -> _Part:
-    """A part of a run from the values that are given, by name."""
-    names = zip(OF_GROUPS[group], dataclasses.fields(cls), strict=True)
-    return cls(**{field.name: values[name] for name, field in names if name in values})
 
 
 def latest_length(
