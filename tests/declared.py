@@ -4,13 +4,13 @@ import importlib
 import inspect
 import pkgutil
 
-from nucleation.datasets.variables import Variable
+from nucleation.datasets.variables import Column
 
 ROOMS = ("nucleation", "replication")
 
 
 def declarations():
-    """Mappings of names to variables by module and name of the mapping."""
+    """Mappings of names to columns by module and name of the mapping."""
     found = {}
     for room in ROOMS:
         package = importlib.import_module(room)
@@ -19,10 +19,10 @@ def declarations():
                 continue
             imported = importlib.import_module(module.name)
             source = inspect.getsource(imported)
-            if "Variable(" not in source and "declared(" not in source:
+            if "Column(" not in source and "columns(" not in source:
                 continue  # it has what others declare
             for name, value in vars(imported).items():
-                if isinstance(value, dict) and any(isinstance(v, Variable) for v in value.values()):
+                if isinstance(value, dict) and any(isinstance(v, Column) for v in value.values()):
                     found[module.name, name] = value
     return found
 

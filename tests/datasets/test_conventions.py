@@ -10,7 +10,7 @@ from declared import VARIABLES
 
 from nucleation.datasets import netcdf
 from nucleation.datasets.provenance import attributes
-from nucleation.datasets.variables import Variable, table, to_csv
+from nucleation.datasets.variables import Column, columns, table, to_csv
 from nucleation.model import units
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.run import simulate
@@ -36,10 +36,9 @@ FILES = {
 }
 CURVES = {"heights": [0.01, 0.1], "f_beta": [0.0, 0.1], "zeta_over_a": [1.0, 2.0]}
 CURVES["slip_rates"] = [1e-6, 1e-5]
-COLUMNS = {
-    "id": Variable("", "name of the run"),
-    "length": Variable("m", "length at the drop", "L"),
-}
+LENGTH = Column("length", "m", "length at the drop", "L")
+ID = Column("id", "", "name of the run")
+COLUMNS = columns(ID, LENGTH)
 SHORT = PAPER_RUN.replaced(height=0.02, block_length=0.4, n_x=16, n_y=4, end_time=1e-3)
 NAMED_BY_CLIMATE = (
     "Coordinate variable 'time' should have standard_name='time'",
@@ -73,8 +72,7 @@ def test_files_follow_the_conventions(make, tmp_path):
 
 def test_rows_have_a_coordinate_in_the_file_and_columns_keep_their_order(tmp_path):
     path = tmp_path / "table.nc"
-    columns = {"length": COLUMNS["length"], "id": COLUMNS["id"]}
-    netcdf.write(table([{"id": "a", "length": 0.1}], columns), path)
+    netcdf.write(table([{"id": "a", "length": 0.1}], columns(LENGTH, ID)), path)
     assert list(xr.open_dataset(path).coords) == ["id"]
     found = netcdf.read(path)
     assert list(found.data_vars) == ["length", "id"] and not found.coords

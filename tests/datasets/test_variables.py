@@ -10,17 +10,22 @@ from declared import VARIABLES, declarations
 
 from nucleation.datasets import code
 from nucleation.datasets.variables import (
+    Column,
     DatasetError,
-    Variable,
     annotate,
+    columns,
+    first,
     require_annotated,
+    rules,
     table,
     to_csv,
 )
 from replication.tables import lengths
 
 RECORDED = "nucleation.simulation.recorded"
-COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
+ID = Column("id", "", "name", realisations=first)
+LENGTH = Column("length", "m", "its length", "L", realisations=np.mean)
+COLUMNS = columns(ID, LENGTH)
 TEXTS = (
     "id study role evolution friction_law below far_side kind initial_stress status refinement "
     "varied variation fault ensemble outcome curve_fault curve_kind curve_study curve_below "
@@ -71,6 +76,17 @@ def test_a_table_has_its_columns_in_their_order():
 def test_a_column_that_is_not_computed_is_named():
     with pytest.raises(DatasetError, match=r"not computed: \['length'\]"):
         table([{"id": "a", "length": 1.0}, {"id": "b"}], COLUMNS)
+
+
+def test_a_column_that_is_declared_twice_is_an_error():
+    with pytest.raises(DatasetError, match="length is declared twice"):
+        columns(LENGTH, ID, Column("length", "m", "another"))
+
+
+def test_a_column_of_a_table_over_realisations_has_a_rule():
+    assert rules(COLUMNS) == {"id": first, "length": np.mean}
+    with pytest.raises(DatasetError, match="column extra has no rule for the realisations"):
+        rules(columns(ID, LENGTH, Column("extra", "m", "another")))
 
 
 def test_annotating_leaves_the_original_and_the_others_alone():

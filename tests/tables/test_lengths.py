@@ -8,6 +8,7 @@ import xarray as xr
 from made_up_runs import ONSET, PARAMETERS, changed, record
 from made_up_runs import run as made_up_run
 
+from nucleation.datasets.variables import DatasetError
 from nucleation.extraction.definitions import ExtractionSettings
 from replication.tables.lengths import (
     COMPARED,
@@ -52,6 +53,11 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
     assert row(rows(), "b")["height"].item() == 0.2
     quiet = over_realisations(rows(length=[0.5, 0.7, np.nan, 0.6]))  # none is passed over
     np.testing.assert_allclose(quiet["length"], [np.nan, 0.7, 0.6])
+
+
+def test_a_column_without_a_rule_is_not_aggregated():
+    with pytest.raises(DatasetError, match=r"rule for the realisations of one fault: \['extra'\]"):
+        over_realisations(rows(extra=[1.0, 2.0, 3.0, 4.0]))
 
 
 def test_rows_say_what_lies_below(table):

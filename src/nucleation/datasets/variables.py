@@ -1,51 +1,75 @@
 """Metadata of variables: unit, long name and the paper's symbol.
 
-The code that computes a variable declares it, in a mapping from names to :class:`Variable`. For a
+The code that computes a variable declares it, in a mapping from names to :class:`Column`. For a
 table this mapping also gives the columns in their order. A dataset with an undeclared variable is
 not written.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from . import DatasetError
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ..types import Array
 
-class Variable(NamedTuple):
-    """Metadata of one variable: unit ("1" if dimensionless, "" for text), name, paper's symbol."""
 
+Rule: TypeAlias = "Callable[[Array], Any]"
+"""The value of a column for one fault, from those of its realisations."""
+
+
+class Column(NamedTuple):
+    """Metadata of a column of a table, or of another variable of a dataset."""
+
+    name: str
     units: str
+    """``"1"`` if dimensionless, empty for text."""
     long_name: str
     symbol: str = ""
+    """The paper's."""
+    realisations: Rule | None = None
+    """Rule for the mean over realisations of one fault; None if there is no such mean."""
 
     @property
     def attributes(self) -> dict[str, str]:
         """Attributes of the variable in a dataset."""
-        return {name: text for name, text in self._asdict().items() if text}
+        given = {"units": self.units, "long_name": self.long_name, "symbol": self.symbol}
+        return {name: text for name, text in given.items() if text}
 
 
-def declared(text: str, known: Mapping[str, Variable] | None = None) -> dict[str, Variable]:
-    """Columns of a table by lines of name, unit, long name and symbol, which bars separate.
+def first(values: Array) -> Any:
+    """The first realisation's value: all have the same, or it describes one run, as its id does."""
+    return values[0]
 
-    A line without a bar has names, between blanks, of columns that are known already.
-    """
-    found: dict[str, Variable] = {}
-    for line in text.strip().splitlines():
-        name, *entry = (cell.strip() for cell in line.split("|"))
-        if entry:
-            found[name] = Variable(*entry)
-            continue
-        for one in name.split():
-            found[one] = (known or {})[one]
+
+def columns(*given: Column) -> dict[str, Column]:
+    """Columns by name, in their order."""
+    found: dict[str, Column] = {}
+    for column in given:
+        if column.name in found:
+            raise DatasetError(f"column {column.name} is declared twice")
+        found[column.name] = column
     return found
 
 
-def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset:
+def rules(columns: Mapping[str, Column]) -> dict[str, Rule]:
+    """The rules for realisations, by column; a DatasetError names the columns that have none."""
+    found = {}
+    for name, column in columns.items():
+        if column.realisations is None:
+            raise DatasetError(
+                f"column {name} has no rule for the realisations of one fault: "
+                "declare it with realisations=np.mean, np.min, np.max or first"
+            )
+        found[name] = column.realisations
+    return found
+
+
+def annotate(dataset: xr.Dataset, columns: Mapping[str, Column]) -> xr.Dataset:
     """A copy of a dataset with the declared metadata; other variables stay as they are."""
     annotated = dataset.copy()
     for name in columns.keys() & dataset.variables.keys():
@@ -53,7 +77,7 @@ def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset
     return annotated
 
 
-def table(rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Variable]) -> xr.Dataset:
+def table(rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Column]) -> xr.Dataset:
     """A table with one variable for each declared column, in their order; ``run`` is of its rows.
 
     Each row has a value for each column, else a DatasetError is raised; further values are ignored.

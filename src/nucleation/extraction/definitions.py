@@ -12,7 +12,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ..datasets.variables import declared
+from ..datasets.variables import Column, columns, first
 from ..model.quantities import quantity
 from ..model.settings import EVENT_DROP
 from ..model.units import Checked
@@ -21,23 +21,63 @@ from ..types import Array
 
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
 
-MEASURED = declared("""
-    onset_time | s | onset of the event | t
-    onset_time_low | s | earliest onset over the definitions of the drop | t
-    onset_time_high | s | latest onset over the definitions of the drop | t
-    length | m | length at the drop | L
-    length_low | m | smallest length over the definitions | L
-    length_high | m | largest length over the definitions | L
-""")
+ONSET_TIME = Column("onset_time", "s", "onset of the event", "t", realisations=np.mean)
+ONSET_TIME_LOW = Column(
+    "onset_time_low",
+    "s",
+    "earliest onset over the definitions of the drop",
+    "t",
+    realisations=np.min,
+)
+ONSET_TIME_HIGH = Column(
+    "onset_time_high",
+    "s",
+    "latest onset over the definitions of the drop",
+    "t",
+    realisations=np.max,
+)
+LENGTH = Column("length", "m", "length at the drop", "L", realisations=np.mean)
+LENGTH_LOW = Column(
+    "length_low", "m", "smallest length over the definitions", "L", realisations=np.min
+)
+LENGTH_HIGH = Column(
+    "length_high", "m", "largest length over the definitions", "L", realisations=np.max
+)
+
+MEASURED = columns(ONSET_TIME, ONSET_TIME_LOW, ONSET_TIME_HIGH, LENGTH, LENGTH_LOW, LENGTH_HIGH)
 """Results of a run (s, m): onset and length, each with the ends of its error bar."""
 
-FITTED = declared("""
-    stability_length | m | patch length where growth begins | L_s
-    stability_length_low | m | L_s less the scatter as the front hops | L_s
-    stability_length_high | m | L_s with the scatter as the front hops | L_s
-    stability_length_error | m | standard error of L_s | L_s
-    stability_frequency | 1/s | angular frequency where growth begins | omega
-""")
+STABILITY_LENGTH = Column(
+    "stability_length", "m", "patch length where growth begins", "L_s", realisations=first
+)
+STABILITY_LENGTH_LOW = Column(
+    "stability_length_low", "m", "L_s less the scatter as the front hops", "L_s", realisations=first
+)
+STABILITY_LENGTH_HIGH = Column(
+    "stability_length_high",
+    "m",
+    "L_s with the scatter as the front hops",
+    "L_s",
+    realisations=first,
+)
+STABILITY_LENGTH_ERROR = Column(
+    "stability_length_error", "m", "standard error of L_s", "L_s", realisations=first
+)
+STABILITY_FREQUENCY = Column(
+    "stability_frequency",
+    "1/s",
+    "angular frequency where growth begins",
+    "omega",
+    realisations=first,
+)
+
+FITTED = columns(
+    STABILITY_LENGTH,
+    STABILITY_LENGTH_LOW,
+    STABILITY_LENGTH_HIGH,
+    STABILITY_LENGTH_ERROR,
+    STABILITY_FREQUENCY,
+)
 """Results of :mod:`.growth`: of the patch where its growth begins."""
 
 

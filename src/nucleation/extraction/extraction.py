@@ -192,5 +192,11 @@ def extracted(record: Record) -> dict[str, float]:
         return dict.fromkeys(MEASURED, float("nan"))
     instants = record.drop_times
     edges = record.lengths_at_drop
-    values = (instants[0], instants.min(), instants.max(), edges[0, 0], edges.min(), edges.max())
-    return dict(zip(MEASURED, map(float, values), strict=True))
+    return {
+        "onset_time": float(instants[0]),
+        "onset_time_low": float(instants.min()),
+        "onset_time_high": float(instants.max()),
+        "length": float(edges[0, 0]),
+        "length_low": float(edges.min()),
+        "length_high": float(edges.max()),
+    }

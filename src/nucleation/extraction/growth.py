@@ -26,11 +26,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import Variable, annotate, declared
+from ..datasets.variables import Column, annotate, columns
 from ..model.friction import Friction
 from ..run.run import Run
+from ..simulation import recorded
 from ..simulation.event import NEAR as NEAR_EDGE
-from ..simulation.recorded import RECORDED
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array, ComplexArray
 from .definitions import FITTED, ExtractionSettings
@@ -47,19 +47,16 @@ REFITS = 2  # the second is about the crossing of the first
 FEWEST_NEAR = 4  # instants for a line
 
 FOLLOWED = {
-    "growth_frequency": Variable("1/s", "angular frequency of that mode", "|Im Lambda|"),
-    **declared(
-        """
-        x
-        instant_time | s | time at which the patch is frozen | t
-        patch_length | m | length of the creep patch | L(t)
-        growth_rate | 1/s | fastest growth of the frozen patch | max Re Lambda
-        oscillation_growth | 1/s | growth of the patch's oscillating mode | Re Lambda
-        oscillation_frequency | 1/s | angular frequency of that mode | Im Lambda
-        mode_real | 1 | slip in that mode where growth begins, real part
-        mode_imaginary | 1 | slip in that mode where growth begins, imaginary part
-        """,
-        RECORDED,
+    **columns(
+        Column("growth_frequency", "1/s", "angular frequency of that mode", "|Im Lambda|"),
+        recorded.X,
+        Column("instant_time", "s", "time at which the patch is frozen", "t"),
+        Column("patch_length", "m", "length of the creep patch", "L(t)"),
+        Column("growth_rate", "1/s", "fastest growth of the frozen patch", "max Re Lambda"),
+        Column("oscillation_growth", "1/s", "growth of the patch's oscillating mode", "Re Lambda"),
+        Column("oscillation_frequency", "1/s", "angular frequency of that mode", "Im Lambda"),
+        Column("mode_real", "1", "slip in that mode where growth begins, real part"),
+        Column("mode_imaginary", "1", "slip in that mode where growth begins, imaginary part"),
     ),
     **FITTED,
 }

@@ -5,6 +5,7 @@ checked against them. Simulated lengths of the literature are those of the accel
 period, by several definitions.
 """
 
+import functools
 import itertools
 import math
 from collections.abc import Callable
@@ -14,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import Variable, declared
+from ..datasets.variables import Column, columns
 from ..model.friction import Friction
 from ..simulation.event import slipping_zone
 from ..types import Array
@@ -24,37 +25,50 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
+_averaged = functools.partial(Column, realisations=np.mean)
+
 EDGES = ("usual", "high", "low")
 INSTANTS = ("start", "steepest", "end")
-BY_DEFINITION = {
-    f"length_{edge}_{instant}": Variable(
-        "m", f"patch length at the {instant} of the drop, its edge at the {edge} slip rate", "L"
+BY_DEFINITION = columns(
+    *(
+        _averaged(
+            f"length_{edge}_{instant}",
+            "m",
+            f"patch length at the {instant} of the drop, its edge at the {edge} slip rate",
+            "L",
+        )
+        for edge, instant in itertools.product(EDGES, INSTANTS)
     )
-    for edge, instant in itertools.product(EDGES, INSTANTS)
-}
+)
 """The length by every definition of the patch's edge and of the instant."""
 
-ALWAYS = declared("""
-    rupture_time | s | time during which some point slips faster than 1 mm/s
-    largest_rate | m/s | largest slip rate ever
-    usual_step | s | median of the time steps
-    largest_normal_stress_ever | Pa | largest sigma_yy on the interface, ever
-""")
+ALWAYS = columns(
+    _averaged("rupture_time", "s", "time during which some point slips faster than 1 mm/s"),
+    _averaged("largest_rate", "m/s", "largest slip rate ever"),
+    _averaged("usual_step", "s", "median of the time steps"),
+    _averaged("largest_normal_stress_ever", "Pa", "largest sigma_yy on the interface, ever"),
+)
 """Those of :data:`MEASURES` that a run without an event has as well."""
 
-_OF_EVENT = declared("""
-    acceleration_time | s | time in which the fastest slip rate grows from 10 to 100 V
-    growth_time | s | time in which the patch would grow by its length at the onset
-    front_speed | m/s | mean speed of the patch's edge before the onset
-    drop_time | s | time from the steepest part of the force's drop to its end
-    onset_rate | m/s | largest slip rate at the onset
-    patch_rate | m/s | median slip rate in the developed patch, and over instants
-    patch_rate_low | m/s | smallest of the medians over the patch
-    patch_rate_high | m/s | largest of the medians over the patch
-    regular_share | 1 | part of the patch at the onset that slips faster than 10 v0
-    shortest_step | s | shortest time step after the onset
-    state_rate_share_patch | 1 | part of patch and time to the onset where v does for w in dphi/dt
-""")
+_OF_EVENT = columns(
+    _averaged(
+        "acceleration_time", "s", "time in which the fastest slip rate grows from 10 to 100 V"
+    ),
+    _averaged("growth_time", "s", "time in which the patch would grow by its length at the onset"),
+    _averaged("front_speed", "m/s", "mean speed of the patch's edge before the onset"),
+    _averaged("drop_time", "s", "time from the steepest part of the force's drop to its end"),
+    _averaged("onset_rate", "m/s", "largest slip rate at the onset"),
+    _averaged("patch_rate", "m/s", "median slip rate in the developed patch, and over instants"),
+    _averaged("patch_rate_low", "m/s", "smallest of the medians over the patch"),
+    _averaged("patch_rate_high", "m/s", "largest of the medians over the patch"),
+    _averaged("regular_share", "1", "part of the patch at the onset that slips faster than 10 v0"),
+    _averaged("shortest_step", "s", "shortest time step after the onset"),
+    _averaged(
+        "state_rate_share_patch",
+        "1",
+        "part of patch and time to the onset where v does for w in dphi/dt",
+    ),
+)
 
 MEASURES = ALWAYS | _OF_EVENT | BY_DEFINITION
 """Results of :func:`measure`; over realisations each is averaged."""

@@ -13,52 +13,71 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import declared, table, to_csv
+from nucleation.datasets.variables import Column, columns, table, to_csv
+from nucleation.extraction import definitions
 from nucleation.run.derived import ensemble
 from nucleation.run.run import Run
 
-from .drops import EXPECTED, expected
-from .lengths import COLUMNS as LENGTHS
-from .rows import SHARED, Row, rows_of
+from . import columns as col
+from .drops import expected
+from .rows import Row, rows_of
 
-PREDICTED = declared(
-    """
-    number | 1 | number of the fault in the drawing
-    half | | half of the set
-    friction_law evolution plane below far_side zeta_over_a height strength critical_length
-    stability_length runaway_length runaway_status law_length expected_length expected_low
-    expected_high doubt
-    """,
-    LENGTHS | SHARED | EXPECTED,
+HALF = Column("half", "", "half of the set")
+PREDICTED_INSIDE = Column(
+    "predicted_inside", "1", "number of realisations in the range predicted before"
+)
+
+PREDICTED = columns(
+    Column("number", "1", "number of the fault in the drawing"),
+    HALF,
+    col.FRICTION_LAW,
+    col.EVOLUTION,
+    col.PLANE,
+    col.BELOW,
+    col.FAR_SIDE,
+    col.ZETA_OVER_A,
+    col.HEIGHT,
+    col.STRENGTH,
+    col.CRITICAL_LENGTH,
+    definitions.STABILITY_LENGTH,
+    col.RUNAWAY_LENGTH,
+    col.RUNAWAY_STATUS,
+    col.LAW_LENGTH,
+    col.EXPECTED_LENGTH,
+    col.EXPECTED_LOW,
+    col.EXPECTED_HIGH,
+    col.DOUBT,
 )
 """The faults with today's predictions, which are kept before they are simulated."""
 
 BLIND = {
     **PREDICTED,
-    **declared(
-        """
-        id seed status length reached_length simulated_time
-        predicted_length | m | L as predicted before the simulation | L
-        predicted_low | m | lower end of its range
-        predicted_high | m | upper end of its range
-        predicted_doubt | | why that prediction was said to be uncertain
-        predicted_inside | 1 | number of realisations in the range predicted before
-        inside | 1 | number of realisations in the expected range
-        """,
-        LENGTHS,
+    **columns(
+        col.ID,
+        col.SEED,
+        col.STATUS,
+        definitions.LENGTH,
+        col.REACHED_LENGTH,
+        col.SIMULATED_TIME,
+        Column("predicted_length", "m", "L as predicted before the simulation", "L"),
+        Column("predicted_low", "m", "lower end of its range"),
+        Column("predicted_high", "m", "upper end of its range"),
+        Column("predicted_doubt", "", "why that prediction was said to be uncertain"),
+        PREDICTED_INSIDE,
+        col.INSIDE,
     ),
 }
 """One realisation: simulated L, its prediction, and today's theory."""
 
-COVERAGE = declared("""
-    half | | half of the set
-    regime | | faults that are counted
-    realisations | 1 | number of realisations
-    predicted_inside | 1 | number of realisations in the range predicted before
-    inside | 1 | number of realisations in the expected range
-    predicted_width | 1 | mean width of the range predicted before, over L
-    expected_width | 1 | mean width of today's range, over L
-""")
+COVERAGE = columns(
+    HALF,
+    Column("regime", "", "faults that are counted"),
+    col.REALISATIONS,
+    PREDICTED_INSIDE,
+    col.INSIDE,
+    Column("predicted_width", "1", "mean width of the range predicted before, over L"),
+    Column("expected_width", "1", "mean width of today's range, over L"),
+)
 
 HALVES = ("calibrate", "test")
 KEPT = ("length", "low", "high", "doubt")

@@ -8,37 +8,43 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nucleation.datasets.variables import annotate, declared
+from nucleation.datasets.variables import Column, annotate, columns
 from nucleation.fault import Fault
 from nucleation.model.friction import Friction
 from nucleation.run.run import Run
+from nucleation.simulation import recorded
 from nucleation.theory.closed_forms import (
     bimaterial_contrast,
     bimaterial_length_ratio,
     thin_limit_length,
 )
 
-from .rows import SHARED
+from . import columns as col
 
 if TYPE_CHECKING:
     import xarray as xr
 
-CURVES = declared(
-    """
-    height
-    critical_length | m | critical nucleation length | L_c
-    critical_wavenumber | 1/m | critical wavenumber | k_c
-    critical_frequency | 1/s | angular frequency at the critical wavenumber | omega
-    thin_limit_length | m | critical nucleation length for Hk -> 0 | L_c
-    zeta_over_a f_beta
-    bimaterial_length_ratio | 1 | critical length of a bimaterial interface over L_c^M | L_c/L_c^M
-    slip_rate | m/s | slip rate | v
-    steady_friction | 1 | steady-state friction, full law | f
-    steady_friction_logarithmic | 1 | steady-state friction, logarithmic law | f
-    friction_reference | 1 | friction coefficient at V | f0
-    a zeta velocity
-    """,
-    SHARED,
+CURVES = columns(
+    col.HEIGHT,
+    col.CRITICAL_LENGTH,
+    col.CRITICAL_WAVENUMBER,
+    Column("critical_frequency", "1/s", "angular frequency at the critical wavenumber", "omega"),
+    Column("thin_limit_length", "m", "critical nucleation length for Hk -> 0", "L_c"),
+    col.ZETA_OVER_A,
+    col.F_BETA,
+    Column(
+        "bimaterial_length_ratio",
+        "1",
+        "critical length of a bimaterial interface over L_c^M",
+        "L_c/L_c^M",
+    ),
+    recorded.SLIP_RATE,
+    Column("steady_friction", "1", "steady-state friction, full law", "f"),
+    Column("steady_friction_logarithmic", "1", "steady-state friction, logarithmic law", "f"),
+    Column("friction_reference", "1", "friction coefficient at V", "f0"),
+    col.A,
+    col.ZETA,
+    col.VELOCITY,
 )
 
 

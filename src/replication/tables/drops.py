@@ -14,54 +14,63 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import annotate, declared, table, to_csv
+from nucleation.datasets.variables import Column, annotate, columns, table, to_csv
 from nucleation.drop.delay import Growth, growth
 from nucleation.drop.mode_history import ModeHistory, mode_history
+from nucleation.extraction import definitions
 from nucleation.model.settings import Perturbation
 from nucleation.run.derived import drop_of_run, ensemble, fault
 from nucleation.run.run import Run
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.status import NoLength
 
-from .lengths import COLUMNS as LENGTHS
-from .rows import SHARED, Row, rows_of
+from . import columns as col
+from .rows import Row, rows_of
 
 # -- the law ------------------------------------------------------------------------------------
 
-MEASURED = declared(
-    "study role id evolution height kind strength seed correlation_length n_x n_y "
-    "block_length longest_step onset_time length critical_length",
-    LENGTHS,
+MEASURED = columns(
+    col.STUDY,
+    col.ROLE,
+    col.ID,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    col.CORRELATION_LENGTH,
+    col.N_X,
+    col.N_Y,
+    col.BLOCK_LENGTH,
+    col.LONGEST_STEP,
+    definitions.ONSET_TIME,
+    definitions.LENGTH,
+    col.CRITICAL_LENGTH,
 )
 
-LAW = declared("""
-    law_length | m | length at the drop by the law, median | L
-    law_low | m | length by which 16 % have dropped by the law | L
-    law_high | m | length by which 84 % have dropped by the law | L
-""")
+LAW = columns(col.LAW_LENGTH, col.LAW_LOW, col.LAW_HIGH)
 
-PREDICTED = declared(
-    """
-    stability_length
-    front_length | m | L_s by theory, with the advancing front | L_s
-    law_length law_low law_high
-    floor_normal_load | 1 | strength of the load at which the law drops there
-    floor_state | 1 | strength of the state at which the law drops there
-    """,
-    LENGTHS | LAW,
+PREDICTED = columns(
+    definitions.STABILITY_LENGTH,
+    col.FRONT_LENGTH,
+    col.LAW_LENGTH,
+    col.LAW_LOW,
+    col.LAW_HIGH,
+    Column("floor_normal_load", "1", "strength of the load at which the law drops there"),
+    Column("floor_state", "1", "strength of the state at which the law drops there"),
 )
 
-COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
+COLUMNS = {**MEASURED, **PREDICTED, "fault": col.FAULT}
 
-CURVES = declared("""
-    curve_fault | | fault of a curve, as in the column fault
-    curve_kind | | kind of perturbation of a curve
-    curve_strength | 1 | relative strength | eps
-    curve_length | m | length at the drop by the law, median | L
-    curve_low | m | length by which 16 % have dropped by the law | L
-    curve_high | m | length by which 84 % have dropped by the law | L
-    curve_closed_form | m | length at the drop by the law in one line | L
-""")
+CURVES = columns(
+    Column("curve_fault", "", "fault of a curve, as in the column fault"),
+    Column("curve_kind", "", "kind of perturbation of a curve"),
+    Column("curve_strength", "1", "relative strength", "eps"),
+    Column("curve_length", "m", "length at the drop by the law, median", "L"),
+    Column("curve_low", "m", "length by which 16 % have dropped by the law", "L"),
+    Column("curve_high", "m", "length by which 84 % have dropped by the law", "L"),
+    Column("curve_closed_form", "m", "length at the drop by the law in one line", "L"),
+)
 """The law over the strength, for each fault under each of :data:`KINDS`."""
 
 KINDS = ("normal_load", "state")
@@ -153,54 +162,83 @@ def law_curves(laws: dict[str, _Law]) -> xr.Dataset:
 
 # -- the answer for a fault ---------------------------------------------------------------------
 
-EXPECTED = declared(
-    """
-    stability_length
-    runaway_length | m | runaway length by theory, NaN where zeta/a > 2 | L_run
-    runaway_status | | value, or why there is none: stable, beyond or unknown
-    law_length
-    expected_length | m | expected length at the drop | L
-    expected_low | m | least length at the drop that is expected | L
-    expected_high | m | largest length at the drop that is expected | L
-    doubt | | why the expected length should not be relied upon
-    """,
-    LENGTHS | LAW,
+EXPECTED = columns(
+    definitions.STABILITY_LENGTH,
+    col.RUNAWAY_LENGTH,
+    col.RUNAWAY_STATUS,
+    col.LAW_LENGTH,
+    col.EXPECTED_LENGTH,
+    col.EXPECTED_LOW,
+    col.EXPECTED_HIGH,
+    col.DOUBT,
 )
 
-WEAKENING = declared(
-    """
-    study id evolution height below kind strength seed n_x n_y block_length onset_time length
-    critical_length zeta_over_a stability_length runaway_length runaway_status law_length
-    expected_length expected_low expected_high doubt fault
-    """,
-    LENGTHS | SHARED | EXPECTED,
+WEAKENING = columns(
+    col.STUDY,
+    col.ID,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.BELOW,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    col.N_X,
+    col.N_Y,
+    col.BLOCK_LENGTH,
+    definitions.ONSET_TIME,
+    definitions.LENGTH,
+    col.CRITICAL_LENGTH,
+    col.ZETA_OVER_A,
+    definitions.STABILITY_LENGTH,
+    col.RUNAWAY_LENGTH,
+    col.RUNAWAY_STATUS,
+    col.LAW_LENGTH,
+    col.EXPECTED_LENGTH,
+    col.EXPECTED_LOW,
+    col.EXPECTED_HIGH,
+    col.DOUBT,
+    col.FAULT,
 )
 
-WEAKENING_CURVES = declared("""
-    curve_study | | study of the configuration
-    curve_below | | what the block slides on
-    curve_height | m | block height | H
-    curve_half_spaces | 1 | whether the curves are those of half-spaces
-    curve_ratio | 1 | weakening over direct effect | zeta/a
-    curve_stability | 1 | L_s over L_c | L_s/L_c
-    curve_runaway | 1 | L_run over L_c, NaN where zeta/a > 2 | L_run/L_c
-    curve_law | 1 | length at the drop by the law over L_c, median | L/L_c
-""")
+WEAKENING_CURVES = columns(
+    Column("curve_study", "", "study of the configuration"),
+    Column("curve_below", "", "what the block slides on"),
+    Column("curve_height", "m", "block height", "H"),
+    Column("curve_half_spaces", "1", "whether the curves are those of half-spaces"),
+    Column("curve_ratio", "1", "weakening over direct effect", "zeta/a"),
+    Column("curve_stability", "1", "L_s over L_c", "L_s/L_c"),
+    Column("curve_runaway", "1", "L_run over L_c, NaN where zeta/a > 2", "L_run/L_c"),
+    Column("curve_law", "1", "length at the drop by the law over L_c, median", "L/L_c"),
+)
 """The theory over zeta/a for each pair of study, base and height."""
 
 WEAKENINGS = np.geomspace(0.2, 6.0, 22)  # zeta/a of the curves
 AS_HALF_SPACES = 100.0  # factor of a height that makes a block a half-space
 
-OTHER_FAULTS = declared(
-    """
-    zeta_over_a friction_law evolution height below far_side shear_modulus
-    second_shear_modulus kind strength critical_length stability_length runaway_length
-    runaway_status law_length expected_length expected_low expected_high doubt
-    realisations | 1 | number of realisations
-    length reached_length
-    inside | 1 | number of realisations in the expected range
-    """,
-    LENGTHS | SHARED | EXPECTED,
+OTHER_FAULTS = columns(
+    col.ZETA_OVER_A,
+    col.FRICTION_LAW,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.BELOW,
+    col.FAR_SIDE,
+    col.SHEAR_MODULUS,
+    col.SECOND_SHEAR_MODULUS,
+    col.KIND,
+    col.STRENGTH,
+    col.CRITICAL_LENGTH,
+    definitions.STABILITY_LENGTH,
+    col.RUNAWAY_LENGTH,
+    col.RUNAWAY_STATUS,
+    col.LAW_LENGTH,
+    col.EXPECTED_LENGTH,
+    col.EXPECTED_LOW,
+    col.EXPECTED_HIGH,
+    col.DOUBT,
+    col.REALISATIONS,
+    definitions.LENGTH,
+    col.REACHED_LENGTH,
+    col.INSIDE,
 )
 
 

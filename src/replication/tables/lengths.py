@@ -1,91 +1,120 @@
 """The table of lengths at the drop: one row for each simulation, SI units."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import declared, table
-from nucleation.extraction.definitions import MEASURED, ExtractionSettings
+from nucleation.datasets.variables import Column, DatasetError, Rule, columns, first, rules, table
+from nucleation.extraction import definitions
+from nucleation.extraction.definitions import ExtractionSettings
 from nucleation.extraction.extraction import Record, extracted
 from nucleation.extraction.measures import MEASURES, measure
 from nucleation.fault.parameters import parameters as known_parameters
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import Run
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
-from nucleation.types import Array
 
-from .rows import SHARED, Row, groups
+from . import columns as col
+from .rows import Row, groups
 
-_OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
-    "onset_time": np.mean,
-    "onset_time_low": np.min,
-    "onset_time_high": np.max,
-    "length": np.mean,
-    "length_low": np.min,
-    "length_high": np.max,
-    "length_ratio": np.mean,
-    "length_ratio_low": np.min,
-    "length_ratio_high": np.max,
-    **dict.fromkeys(MEASURES, np.mean),
-}
-"""How each number that differs between the realisations of one fault is aggregated."""
-
-DIAGNOSTICS = declared("""
-    status | | how the simulation ended
-    steps | 1 | number of time steps
-    wall_seconds | s | wall time of the simulation
-    peak_megabytes | Mbyte | largest memory of the simulation
-""")
+DIAGNOSTICS = columns(col.STATUS, col.STEPS, col.WALL_SECONDS, col.PEAK_MEGABYTES)
 """Attributes of a simulation's dataset that go into the table."""
 
-COLUMNS = declared(
-    """
-    id
-    study | | study of the configuration
-    role | | what the study is for
-    evolution | | state evolution law
-    height
-    initial_state | s | initial state variable | phi0
-    n_x n_y onset_time onset_time_low onset_time_high length length_low length_high
-    critical_length | m | critical nucleation length | L_c
-    stability_length | m | patch length where growth begins | L_s
-    stability_status | | value, or why there is none: stable, beyond or unknown
-    status steps wall_seconds peak_megabytes
-    block_length | m | length of the block | L
-    grading | 1 | largest over smallest element along y
-    tolerance | 1 | tolerance of the local error per step
-    longest_step | 1 | longest time step over the memory time D/V
-    density | kg/m^3 | mass density | rho
-    slip_distance velocity normal_stress shear_modulus poisson_ratio friction a zeta
-    friction_law | | law of the friction coefficient
-    below | | what the block slides on
-    initial_stress | | static field at the start
-    initial_shear_stress | Pa | shear stress at the start, if it is uniform | tau0
-    simulated_time | s | time at the end of the run | t
-    reached_length | m | patch length at the onset, or at the end of a run without an event | L(t)
-    kind | | perturbed quantity
-    strength | 1 | relative strength of the declared perturbation | eps
-    seed | 1 | seed of its realisation
-    correlation_length | m | its correlation length along x
-    far_side second_height second_shear_modulus second_poisson_ratio plane
-    loading | | what loads the fault: edge or remote
-    fault | | digest of all that the fault's physics depends on
-    ensemble | | digest of all that the run is given but its seed
-    """,
-    SHARED | MEASURED | DIAGNOSTICS,
+COLUMNS = columns(
+    col.ID,
+    col.STUDY,
+    col.ROLE,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.INITIAL_STATE,
+    col.N_X,
+    col.N_Y,
+    definitions.ONSET_TIME,
+    definitions.ONSET_TIME_LOW,
+    definitions.ONSET_TIME_HIGH,
+    definitions.LENGTH,
+    definitions.LENGTH_LOW,
+    definitions.LENGTH_HIGH,
+    col.CRITICAL_LENGTH,
+    definitions.STABILITY_LENGTH,
+    col.STABILITY_STATUS,
+    col.STATUS,
+    col.STEPS,
+    col.WALL_SECONDS,
+    col.PEAK_MEGABYTES,
+    col.BLOCK_LENGTH,
+    col.GRADING,
+    col.TOLERANCE,
+    col.LONGEST_STEP,
+    Column("density", "kg/m^3", "mass density", "rho", realisations=first),
+    col.SLIP_DISTANCE,
+    col.VELOCITY,
+    col.NORMAL_STRESS,
+    col.SHEAR_MODULUS,
+    col.POISSON_RATIO,
+    col.FRICTION,
+    col.A,
+    col.ZETA,
+    col.FRICTION_LAW,
+    col.BELOW,
+    Column("initial_stress", "", "static field at the start", realisations=first),
+    Column(
+        "initial_shear_stress",
+        "Pa",
+        "shear stress at the start, if it is uniform",
+        "tau0",
+        realisations=first,
+    ),
+    col.SIMULATED_TIME,
+    col.REACHED_LENGTH,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    col.CORRELATION_LENGTH,
+    col.FAR_SIDE,
+    col.SECOND_HEIGHT,
+    col.SECOND_SHEAR_MODULUS,
+    col.SECOND_POISSON_RATIO,
+    col.PLANE,
+    Column("loading", "", "what loads the fault: edge or remote", realisations=first),
+    col.FAULT,
+    col.ENSEMBLE,
 )
 """Name of the simulation, its measured lengths, its cost, and its parameters."""
 
+_ALL = COLUMNS | MEASURES  # of runs whose interface is recorded
+RULES = rules(_ALL)
+"""How each column is aggregated over the realisations of one fault."""
+
 _OF_SECOND_BODY = ("far_side", "second_height", "second_shear_modulus", "second_poisson_ratio")
 
-COMPARED = declared(
-    "id study role evolution height initial_state a zeta kind strength seed onset_time "
-    "onset_time_low onset_time_high length length_low length_high critical_length "
-    "stability_length stability_status status simulated_time reached_length",
-    COLUMNS,
+COMPARED = columns(
+    col.ID,
+    col.STUDY,
+    col.ROLE,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.INITIAL_STATE,
+    col.A,
+    col.ZETA,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    definitions.ONSET_TIME,
+    definitions.ONSET_TIME_LOW,
+    definitions.ONSET_TIME_HIGH,
+    definitions.LENGTH,
+    definitions.LENGTH_LOW,
+    definitions.LENGTH_HIGH,
+    col.CRITICAL_LENGTH,
+    definitions.STABILITY_LENGTH,
+    col.STABILITY_STATUS,
+    col.STATUS,
+    col.SIMULATED_TIME,
+    col.REACHED_LENGTH,
 )
 """Columns of every CSV file; parameters are there if the runs differ in them."""
 
@@ -109,7 +138,7 @@ def lengths_table(
         row["reached_length"] = float(reached)
         rows.append(row)
     measured = all(row.keys() >= MEASURES.keys() for row in rows)
-    return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
+    return table(rows, _ALL if measured else COLUMNS)
 
 
 def stability_of(run: Row) -> Row:
@@ -142,20 +171,20 @@ def realisations(table: xr.Dataset) -> list[list[int]]:
     return groups(table, "study", "ensemble")
 
 
-def over_realisations(table: xr.Dataset) -> xr.Dataset:
-    """Aggregate a table of lengths to one row for each fault.
+def over_realisations(table: xr.Dataset, rules: Mapping[str, Rule] = RULES) -> xr.Dataset:
+    """Aggregate a table of lengths to one row for each fault, each column by its rule.
 
     Onset and length are the means of the realisations, the ends of their ranges are the outermost
-    ones; NaN if a realisation has no event. All other columns are those of the first realisation.
-    The column ``realisations`` counts them.
+    ones; NaN if a realisation has no event. The column ``realisations`` counts them.
     """
+    unknown = [str(name) for name in table.data_vars if name not in rules]
+    if unknown:
+        raise DatasetError(f"columns without a rule for the realisations of one fault: {unknown}")
     faults = realisations(table)
     columns = {}
-    for column in table.data_vars:
-        name = str(column)
+    for name in map(str, table.data_vars):
         values = table[name].values
-        aggregate = _OVER_REALISATIONS.get(name, lambda values: values[0])
-        columns[name] = np.array([aggregate(values[rows]) for rows in faults])
+        columns[name] = np.array([rules[name](values[rows]) for rows in faults])
     columns["realisations"] = np.array([len(rows) for rows in faults])
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
@@ -220,7 +249,14 @@ def of_batches(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> dict[str, An
 
 def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
     """The table of several studies, and unit and meaning of all its columns."""
-    columns = COLUMNS | MEASURES
-    described = [{"column": name, **column._asdict()} for name, column in columns.items()]
-    meanings = pd.DataFrame(described).rename(columns={"long_name": "meaning"})
+    described = [
+        {
+            "column": name,
+            "units": column.units,
+            "meaning": column.long_name,
+            "symbol": column.symbol,
+        }
+        for name, column in _ALL.items()
+    ]
+    meanings = pd.DataFrame(described)
     return {**files(join(tables)), ".columns.csv": meanings.to_csv(index=False)}

@@ -12,7 +12,7 @@ from typing import Any
 
 import xarray as xr
 
-from nucleation.datasets.variables import declared, table
+from nucleation.datasets.variables import Column, columns, table
 from nucleation.extraction.measures import DEFINITIONS, far_ahead, zone_length
 from nucleation.fault import Fault
 from nucleation.lengths.formulas import (
@@ -24,7 +24,8 @@ from nucleation.lengths.formulas import (
 from nucleation.lengths.in_use import expanding_length, values_of
 from nucleation.run.run import Run
 
-from .rows import SHARED, Row
+from . import columns as col
+from .rows import Row
 
 SLIP_RATES = (1e-4, 1e-2, 1.0, 1e3)  # m/s, at which lengths are read
 
@@ -40,30 +41,29 @@ IN_THE_GAP = (
 OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 """Shares of the largest slip rate, for widths that show how much the definition matters."""
 
-COLUMNS = declared(
-    """
-    id
-    name | | name of the length, as in Fault.lengths
-    evolution | | state evolution law
-    a
-    b | 1 | coefficient of the logarithm of the state | b
-    a_over_b | 1 | direct effect over b | a/b
-    definition | | how the simulated length is read
-    read_at | m/s | largest slip rate at which the length is read
-    formula_length | m | length by the formula
-    simulated_length | m | length in the simulation
-    difference | 1 | simulated length over that of the formula, less 1
-    width_at_half | m | width of the zone at half the largest slip rate
-    width_at_hundredth | m | width of the zone at a hundredth of the largest slip rate
-    far_slip_rate | m/s | slip rate half a period from the fastest point
-    far_state_ratio | 1 | v phi/D there, 1 in steady sliding
-    finite_speed_length | m | Rubin and Ampuero's expanding length at that slip rate
-    height n_x n_y
-    stress_rate | Pa/s | rate of the far shear stress
-    change | 1 | relative change of f where nucleation begins
-    width
-    """,
-    SHARED,
+COLUMNS = columns(
+    col.ID,
+    Column("name", "", "name of the length, as in Fault.lengths"),
+    col.EVOLUTION,
+    col.A,
+    Column("b", "1", "coefficient of the logarithm of the state", "b"),
+    Column("a_over_b", "1", "direct effect over b", "a/b"),
+    Column("definition", "", "how the simulated length is read"),
+    Column("read_at", "m/s", "largest slip rate at which the length is read"),
+    Column("formula_length", "m", "length by the formula"),
+    Column("simulated_length", "m", "length in the simulation"),
+    Column("difference", "1", "simulated length over that of the formula, less 1"),
+    Column("width_at_half", "m", "width of the zone at half the largest slip rate"),
+    Column("width_at_hundredth", "m", "width of the zone at a hundredth of the largest slip rate"),
+    Column("far_slip_rate", "m/s", "slip rate half a period from the fastest point"),
+    Column("far_state_ratio", "1", "v phi/D there, 1 in steady sliding"),
+    Column("finite_speed_length", "m", "Rubin and Ampuero's expanding length at that slip rate"),
+    col.HEIGHT,
+    col.N_X,
+    col.N_Y,
+    Column("stress_rate", "Pa/s", "rate of the far shear stress"),
+    Column("change", "1", "relative change of f where nucleation begins"),
+    col.WIDTH,
 )
 
 

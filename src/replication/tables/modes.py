@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import annotate, declared
+from nucleation.datasets.variables import Column, annotate, columns
 from nucleation.fem.operator import Operator
 from nucleation.run.run import PAPER_RUN, Run
 from nucleation.simulation.drive import steady_drive
@@ -31,8 +31,9 @@ from nucleation.theory.critical import unstable_modes
 from nucleation.theory.evaluation import single_system
 from nucleation.types import Array, ComplexArray
 
-from .curves import CURVES, f_beta, on_rigid_base
-from .rows import SHARED, Row
+from . import columns as col
+from .curves import f_beta, on_rigid_base
+from .rows import Row
 
 NODES = 65  # per wavelength, odd
 ROWS = (10, 40)  # fewest and most elements along y
@@ -120,21 +121,35 @@ def measured_rates(run: Run, wavenumber: float) -> ComplexArray:
 
 # -- tables of modes ----------------------------------------------------------------------------
 
-COLUMNS = declared(
-    """
-    id height n_x n_y slip_distance velocity normal_stress shear_modulus poisson_ratio plane a
-    zeta width zeta_over_a friction f_beta far_side second_height second_shear_modulus
-    second_poisson_ratio
-    mode_wavenumber | 1/m | wavenumber of the seeded mode | k
-    critical_wavenumber
-    measured_growth | 1/s | growth rate in the time integration | Re Lambda
-    measured_frequency | 1/s | angular frequency in the time integration | Im Lambda
-    theory_growth | 1/s | growth rate of the seeded mode, Eq. (5) | Re Lambda
-    theory_frequency | 1/s | angular frequency of the seeded mode, Eq. (5) | Im Lambda
-    wavenumber_over_critical | 1 | wavenumber over the critical one | k/k_c
-    disagreement | 1 | difference of the complex rates over the theory's
-    """,
-    SHARED | CURVES,
+COLUMNS = columns(
+    col.ID,
+    col.HEIGHT,
+    col.N_X,
+    col.N_Y,
+    col.SLIP_DISTANCE,
+    col.VELOCITY,
+    col.NORMAL_STRESS,
+    col.SHEAR_MODULUS,
+    col.POISSON_RATIO,
+    col.PLANE,
+    col.A,
+    col.ZETA,
+    col.WIDTH,
+    col.ZETA_OVER_A,
+    col.FRICTION,
+    col.F_BETA,
+    col.FAR_SIDE,
+    col.SECOND_HEIGHT,
+    col.SECOND_SHEAR_MODULUS,
+    col.SECOND_POISSON_RATIO,
+    Column("mode_wavenumber", "1/m", "wavenumber of the seeded mode", "k"),
+    col.CRITICAL_WAVENUMBER,
+    Column("measured_growth", "1/s", "growth rate in the time integration", "Re Lambda"),
+    Column("measured_frequency", "1/s", "angular frequency in the time integration", "Im Lambda"),
+    Column("theory_growth", "1/s", "growth rate of the seeded mode, Eq. (5)", "Re Lambda"),
+    Column("theory_frequency", "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"),
+    Column("wavenumber_over_critical", "1", "wavenumber over the critical one", "k/k_c"),
+    Column("disagreement", "1", "difference of the complex rates over the theory's"),
 )
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault

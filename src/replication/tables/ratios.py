@@ -7,32 +7,33 @@ weakening, and two deformable bodies.
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import DatasetError, annotate, declared, table, to_csv
-from nucleation.extraction.definitions import FITTED, MEASURED, ExtractionSettings
+from nucleation.datasets.variables import (
+    Column,
+    DatasetError,
+    annotate,
+    columns,
+    first,
+    rules,
+    table,
+    to_csv,
+)
+from nucleation.extraction import definitions
+from nucleation.extraction.definitions import FITTED, ExtractionSettings
 from nucleation.extraction.extraction import extract
 from nucleation.run.run import Run
 from nucleation.theory.closed_forms import bimaterial_length_ratio
 
+from . import columns as col
 from . import lengths
 from .curves import f_beta
-from .lengths import COLUMNS as LENGTHS
 from .lengths import description
-from .rows import SHARED, Row
+from .rows import Row
 
-RATIOS = declared(
-    """
-    length_ratio | 1 | length at the drop over that of the theory | L/L_c
-    stability_ratio | 1 | patch length where growth begins over theory | L_s/L_c
-    zeta_over_a
-    """,
-    SHARED,
-)
-
-
-KNOWN = LENGTHS | SHARED | FITTED | MEASURED | RATIOS
+RATIOS = columns(col.LENGTH_RATIO, col.STABILITY_RATIO, col.ZETA_OVER_A)
 
 
 def ratios(columns: Any) -> Row:
@@ -52,20 +53,31 @@ REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 FIXED = ("grading", "block_length", "fault", "kind", "strength", "correlation_length", "seed")
 """Columns in which the runs of a sequence agree, beside the other refined parameters."""
 
-REFINEMENT = declared(
-    """
-    refinement | | quantity that is refined from level to level
-    id evolution height initial_state kind strength seed n_x n_y grading block_length
-    longest_step tolerance onset_time
-    onset_difference | 1 | relative difference of the onset from the finest run
-    length
-    length_difference | 1 | relative difference of L from the finest run
-    elements_difference | 1 | the same in elements of the run along x
-    critical_length
-    length_over_theory | 1 | length at the drop over that of the theory | L/L_c
-    steps wall_seconds fault
-    """,
-    LENGTHS,
+REFINEMENT = columns(
+    Column("refinement", "", "quantity that is refined from level to level"),
+    col.ID,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.INITIAL_STATE,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    col.N_X,
+    col.N_Y,
+    col.GRADING,
+    col.BLOCK_LENGTH,
+    col.LONGEST_STEP,
+    col.TOLERANCE,
+    definitions.ONSET_TIME,
+    Column("onset_difference", "1", "relative difference of the onset from the finest run"),
+    definitions.LENGTH,
+    Column("length_difference", "1", "relative difference of L from the finest run"),
+    Column("elements_difference", "1", "the same in elements of the run along x"),
+    col.CRITICAL_LENGTH,
+    Column("length_over_theory", "1", "length at the drop over that of the theory", "L/L_c"),
+    col.STEPS,
+    col.WALL_SECONDS,
+    col.FAULT,
 )
 
 
@@ -101,15 +113,27 @@ def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 # -- the stability of patches -------------------------------------------------------------------
 
-STABILITY = declared(
-    """
-    id study role evolution height initial_state n_x n_y grading tolerance longest_step
-    stability_length stability_length_low stability_length_high stability_length_error
-    stability_frequency critical_length stability_ratio
-    stability_change | 1 | L_s over that of the converged run, minus one
-    fault
-    """,
-    KNOWN,
+STABILITY = columns(
+    col.ID,
+    col.STUDY,
+    col.ROLE,
+    col.EVOLUTION,
+    col.HEIGHT,
+    col.INITIAL_STATE,
+    col.N_X,
+    col.N_Y,
+    col.GRADING,
+    col.TOLERANCE,
+    col.LONGEST_STEP,
+    definitions.STABILITY_LENGTH,
+    definitions.STABILITY_LENGTH_LOW,
+    definitions.STABILITY_LENGTH_HIGH,
+    definitions.STABILITY_LENGTH_ERROR,
+    definitions.STABILITY_FREQUENCY,
+    col.CRITICAL_LENGTH,
+    col.STABILITY_RATIO,
+    Column("stability_change", "1", "L_s over that of the converged run, minus one"),
+    col.FAULT,
 )
 
 
@@ -130,13 +154,25 @@ def gather_stability(runs: Iterable[Row], patches: Iterable[xr.Dataset]) -> xr.D
 
 # -- the map ------------------------------------------------------------------------------------
 
-MAP = declared(
-    """
-    id height zeta_over_a kind strength seed onset_time length length_low length_high
-    critical_length length_ratio stability_length stability_ratio n_x steps wall_seconds
-    status
-    """,
-    KNOWN,
+MAP = columns(
+    col.ID,
+    col.HEIGHT,
+    col.ZETA_OVER_A,
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    definitions.ONSET_TIME,
+    definitions.LENGTH,
+    definitions.LENGTH_LOW,
+    definitions.LENGTH_HIGH,
+    col.CRITICAL_LENGTH,
+    col.LENGTH_RATIO,
+    definitions.STABILITY_LENGTH,
+    col.STABILITY_RATIO,
+    col.N_X,
+    col.STEPS,
+    col.WALL_SECONDS,
+    col.STATUS,
 )
 
 AXES = ("height", "zeta_over_a", "strength", "seed")
@@ -169,20 +205,60 @@ def map_files(lengths: xr.Dataset) -> dict[str, Any]:
 
 _OF_RUN = ("onset_time", "length", "length_low", "length_high")
 
-PAIRS = declared(
-    """
-    id study role evolution far_side height second_height shear_modulus second_shear_modulus
-    poisson_ratio second_poisson_ratio friction f_beta zeta_over_a n_x n_y
-    second_n_y | 1 | number of elements along y of the second body | N_y2
-    kind strength seed onset_time length length_low length_high critical_length length_ratio
-    stability_length stability_length_low stability_length_high stability_length_error
-    stability_frequency stability_ratio
-    half_space_ratio | 1 | Eq. (9): half-spaces over those without contrast | L_c/L_c^M
-    steps wall_seconds fault ensemble
-    """,
-    KNOWN,
+PAIRS = columns(
+    col.ID,
+    col.STUDY,
+    col.ROLE,
+    col.EVOLUTION,
+    col.FAR_SIDE,
+    col.HEIGHT,
+    col.SECOND_HEIGHT,
+    col.SHEAR_MODULUS,
+    col.SECOND_SHEAR_MODULUS,
+    col.POISSON_RATIO,
+    col.SECOND_POISSON_RATIO,
+    col.FRICTION,
+    col.F_BETA,
+    col.ZETA_OVER_A,
+    col.N_X,
+    col.N_Y,
+    Column(
+        "second_n_y",
+        "1",
+        "number of elements along y of the second body",
+        "N_y2",
+        realisations=first,
+    ),
+    col.KIND,
+    col.STRENGTH,
+    col.SEED,
+    definitions.ONSET_TIME,
+    definitions.LENGTH,
+    definitions.LENGTH_LOW,
+    definitions.LENGTH_HIGH,
+    col.CRITICAL_LENGTH,
+    col.LENGTH_RATIO,
+    definitions.STABILITY_LENGTH,
+    definitions.STABILITY_LENGTH_LOW,
+    definitions.STABILITY_LENGTH_HIGH,
+    definitions.STABILITY_LENGTH_ERROR,
+    definitions.STABILITY_FREQUENCY,
+    col.STABILITY_RATIO,
+    Column(
+        "half_space_ratio",
+        "1",
+        "Eq. (9): half-spaces over those without contrast",
+        "L_c/L_c^M",
+        realisations=first,
+    ),
+    col.STEPS,
+    col.WALL_SECONDS,
+    col.FAULT,
+    col.ENSEMBLE,
 )
 """``f_beta`` is positive where the lower body is the stiffer one."""
+
+_PAIR_RULES = rules(PAIRS) | {"length_ratio_low": np.min, "length_ratio_high": np.max}
 
 
 def gather_pairs(
@@ -225,4 +301,5 @@ def pairs_over_realisations(table: xr.Dataset) -> xr.Dataset:
     the range over definitions that ``length_low`` and ``length_high`` have.
     """
     ratio = table["length_ratio"]
-    return lengths.over_realisations(table.assign(length_ratio_low=ratio, length_ratio_high=ratio))
+    ranged = table.assign(length_ratio_low=ratio, length_ratio_high=ratio)
+    return lengths.over_realisations(ranged, _PAIR_RULES)

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from nucleation.datasets.variables import declared
 from nucleation.simulation.event import NEAR
 
 if TYPE_CHECKING:
@@ -14,30 +13,6 @@ if TYPE_CHECKING:
 
 Row = dict[str, Any]
 """A row of a table: values by column."""
-
-SHARED = declared("""
-    id | | name of the simulation
-    height | m | block height | H
-    n_x | 1 | number of elements along x | N_x
-    n_y | 1 | number of elements along y | N_y
-    slip_distance | m | characteristic slip distance | D
-    velocity | m/s | imposed velocity | V
-    normal_stress | Pa | compressive stress on the top | sigma0
-    shear_modulus | Pa | shear modulus | mu
-    poisson_ratio | 1 | Poisson's ratio | nu
-    plane | | plane of deformation, strain or stress
-    a | 1 | direct effect at V | a
-    zeta | 1 | velocity weakening at V | zeta
-    width | m | width of the change along the interface, of a bump half-way | W
-    zeta_over_a | 1 | velocity weakening over direct effect | zeta/a
-    friction | 1 | friction coefficient of steady sliding at V | f
-    f_beta | 1 | friction coefficient times bimaterial contrast | f beta
-    far_side | | far side of the second body
-    second_height | m | height of the second body | H2
-    second_shear_modulus | Pa | shear modulus of the second body | mu2
-    second_poisson_ratio | 1 | Poisson's ratio of the second body | nu2
-""")
-"""Variables that describe the fault in several tables."""
 
 NEARLY = 0.98
 """Part of the searched half of the block at which the patch counts as having filled it."""

@@ -8,28 +8,33 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from nucleation.datasets.variables import declared, table
-from nucleation.extraction.definitions import FITTED
+from nucleation.datasets.variables import Column, columns, table
+from nucleation.extraction import definitions
 from nucleation.run.derived import fault
 from nucleation.run.run import Run
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.status import NoLength
 
+from . import columns as col
 from .curves import f_beta
-from .lengths import COLUMNS as LENGTHS
 from .lengths import description
-from .rows import SHARED, Row
+from .rows import Row
 
-COLUMNS = declared(
-    """
-    id study role evolution friction_law height zeta_over_a f_beta critical_length
-    stability_length
-    creep_length | m | L_s by theory with constant a and b | L_s
-    front_length | m | L_s by theory, with the advancing front | L_s
-    fault
-    """,
-    LENGTHS | SHARED | FITTED,
+COLUMNS = columns(
+    col.ID,
+    col.STUDY,
+    col.ROLE,
+    col.EVOLUTION,
+    col.FRICTION_LAW,
+    col.HEIGHT,
+    col.ZETA_OVER_A,
+    col.F_BETA,
+    col.CRITICAL_LENGTH,
+    definitions.STABILITY_LENGTH,
+    Column("creep_length", "m", "L_s by theory with constant a and b", "L_s"),
+    col.FRONT_LENGTH,
+    col.FAULT,
 )
 """``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
 

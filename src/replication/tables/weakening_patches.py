@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from nucleation.datasets.variables import declared, table
+from nucleation.datasets.variables import Column, columns, table
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import Run
 from nucleation.simulation.event import Outcome
@@ -25,8 +25,8 @@ from nucleation.theory.critical import largest_crossings
 from nucleation.theory.evaluation import single_system
 from nucleation.theory.weakening_patch import WeakeningPatch, smallest_width
 
-from .curves import CURVES
-from .rows import SHARED, Row
+from . import columns as col
+from .rows import Row
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
 NEAR = 0.5  # largest slip rate over that of an event from which other steps may make it an event
@@ -42,37 +42,48 @@ UNDECIDED = "undecided"
 """The slip rate came near that of an event, or the run ended by a fall of the force before it."""
 
 
-COLUMNS = declared(
-    """
-    id
-    outcome | | creep, slow slip, event or undecided
-    plane velocity height a zeta
-    varies | | how the surroundings differ: zeta by another b, or a at the same b
-    outside_a | 1 | direct effect of the surroundings | a_out
-    zeta_over_a
-    strengthening | 1 | -zeta of the surroundings over zeta of the patch | r
-    width critical_length
-    smallest_width | m | smallest width with a growing mode, by theory | W_c
-    width_ratio | 1 | width over the smallest one with a growing mode | W/W_c
-    period_ratio | 1 | width over the smallest one with a growing mode in the period | W/W_c,P
-    fastest | 1 | largest slip rate over V
-    dynamic_rate | 1 | least slip rate of an event over V | 2 a sigma0 c_s/(mu V)
-    n_x
-    elements | 1 | elements in half of L_b
-    period | 1 | period of the fault over the width of the patch
-    tolerance | 1 | tolerance of the local error per step
-    longest_step | 1 | longest time step over the memory time D/V
-    """,
-    SHARED | CURVES,
+VARIES = Column("varies", "", "how the surroundings differ: zeta by another b, or a at the same b")
+STRENGTHENING = Column(
+    "strengthening", "1", "-zeta of the surroundings over zeta of the patch", "r"
 )
 
-BOUNDS = declared(
-    """
-    varies zeta_over_a strengthening
-    slow_slip_up_to | 1 | W/W_c below which no patch had an event
-    events_from | 1 | W/W_c above which all patches had an event
-    """,
-    COLUMNS,
+COLUMNS = columns(
+    col.ID,
+    Column("outcome", "", "creep, slow slip, event or undecided"),
+    col.PLANE,
+    col.VELOCITY,
+    col.HEIGHT,
+    col.A,
+    col.ZETA,
+    VARIES,
+    Column("outside_a", "1", "direct effect of the surroundings", "a_out"),
+    col.ZETA_OVER_A,
+    STRENGTHENING,
+    col.WIDTH,
+    col.CRITICAL_LENGTH,
+    Column("smallest_width", "m", "smallest width with a growing mode, by theory", "W_c"),
+    Column("width_ratio", "1", "width over the smallest one with a growing mode", "W/W_c"),
+    Column(
+        "period_ratio",
+        "1",
+        "width over the smallest one with a growing mode in the period",
+        "W/W_c,P",
+    ),
+    Column("fastest", "1", "largest slip rate over V"),
+    Column("dynamic_rate", "1", "least slip rate of an event over V", "2 a sigma0 c_s/(mu V)"),
+    col.N_X,
+    Column("elements", "1", "elements in half of L_b"),
+    Column("period", "1", "period of the fault over the width of the patch"),
+    col.TOLERANCE,
+    col.LONGEST_STEP,
+)
+
+BOUNDS = columns(
+    VARIES,
+    col.ZETA_OVER_A,
+    STRENGTHENING,
+    Column("slow_slip_up_to", "1", "W/W_c below which no patch had an event"),
+    Column("events_from", "1", "W/W_c above which all patches had an event"),
 )
 
 
