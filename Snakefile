@@ -68,6 +68,7 @@ from replication import figures
 from nucleation.model.friction import Friction, plugins
 from nucleation.run.derived import fault, identity
 from nucleation.model.quantities import ParameterError, Quantity
+from nucleation.simulation.checkpoints import SIMULATION
 from replication.pipeline.check import CURRENT
 from replication.pipeline import LOGGER
 from replication.pipeline.planning import Plan

@@ -20,6 +20,7 @@ from nucleation.datasets.variables import (
     table,
     to_csv,
 )
+from nucleation.simulation.checkpoints import SIMULATION
 from replication.tables import lengths
 
 RECORDED = "nucleation.simulation.recorded"
@@ -51,16 +52,16 @@ def test_a_name_means_the_same_wherever_it_is_declared():
 @pytest.mark.parametrize(
     ("root", "known"),
     [
-        ("nucleation.simulation.run", {RECORDED}),
+        (SIMULATION, {RECORDED}),
         (
-            "nucleation.extraction.growth",
+            code.Root("nucleation.extraction.growth"),
             {RECORDED, "nucleation.extraction.growth", "nucleation.extraction.definitions"},
         ),
     ],
 )
 def test_no_column_of_a_table_is_in_the_key_of_a_costly_dataset(root, known):
     declaring = {module for module, _ in declarations()}
-    assert declaring & code.closure(root, *code.ALWAYS) == known
+    assert declaring & code.closure(root, code.ALWAYS) == known
 
 
 def test_a_table_has_its_columns_in_their_order():

@@ -14,6 +14,7 @@ from nucleation.model.friction import LAWS, Friction, law_class, module, plugins
 from nucleation.model.friction.constants import full_law
 from nucleation.model.quantities import ParameterError
 from nucleation.run.run import PAPER_RUN
+from nucleation.simulation.checkpoints import SIMULATION
 from replication.tables.curves import logarithmic_friction
 
 LAW = Friction(law="product")
@@ -143,10 +144,10 @@ def test_each_class_bears_the_name_of_its_file():
 def test_code_of_a_run_is_that_of_its_own_laws():
     """No law is reached by imports: the digest has those that are named beside, and no other."""
     packages = (f"{HOME}.laws.", f"{HOME}.evolutions.")
-    plain = code.closure("nucleation.simulation.run")
+    plain = code.closure(SIMULATION)
     assert HOME in plain and not [name for name in plain if name.startswith(packages)]
     own = plugins(PAPER_RUN.law)
-    whole = code.closure("nucleation.simulation.run", *own)
+    whole = code.closure(SIMULATION, *map(code.Root, own))
     assert {name for name in whole if name.startswith(packages)} == set(own)
 
 

@@ -9,13 +9,14 @@ from pathlib import Path
 import pytest
 
 from nucleation.datasets import code
+from nucleation.simulation.checkpoints import SIMULATION
 from replication.pipeline import launch
 
 SOURCE = str(Path(__file__).parents[2] / "src")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": SOURCE}
 LOW = "import numpy as np\n\nX = 1\n\n\ndef f(a):\n    return np.sin(a) + X\n"
 HIGH = "from . import low\nfrom .low import f as g\n\nY = low.X + g(2)\n"
-JOB = "from replication.pipeline import around\nfrom nucleation.wing.high import Y\nprint(Y)\n"
+JOB = "from nucleation.wing.high import Y\nprint(Y)\n"
 
 
 @pytest.fixture
@@ -28,10 +29,8 @@ def package(tmp_path, monkeypatch):
         "nucleation/wing/__init__.py": '"""Words."""\n',
         "nucleation/wing/low.py": LOW,
         "nucleation/wing/high.py": HIGH,
-        "replication/__init__.py": "",
-        "replication/pipeline/__init__.py": "",
-        "replication/pipeline/around.py": "Z = 1\n",
-        "nucleation/job.py": JOB,
+        "study/__init__.py": "",
+        "study/job.py": JOB,
     }
     for name, text in files.items():
         path = tmp_path / name
@@ -43,7 +42,7 @@ def package(tmp_path, monkeypatch):
 
 def digest(package):
     code.forget()
-    return code.digest("nucleation.job")
+    return code.digest(code.Root("study.job"))
 
 
 @pytest.mark.parametrize(
@@ -56,8 +55,7 @@ def digest(package):
         ("nucleation/wing/high.py", "g(2)", "g(3)", True),
         ("nucleation/wing/__init__.py", '"""Words."""', "import os", True),
         ("nucleation/__init__.py", '"1"', '"2"', False),
-        ("replication/pipeline/around.py", "Z = 1", "Z = 2", False),
-        ("nucleation/job.py", "print(Y)", "print(-Y)", True),
+        ("study/job.py", "print(Y)", "print(-Y)", True),
     ],
 )
 def test_what_counts(package, name, old, new, matters):
@@ -87,6 +85,24 @@ def test_a_definition_of_another_name_counts(package):
     assert digest(package) != before
 
 
+def test_a_package_that_a_root_never_uses_counts_only_for_others(package):
+    job = code.Root("study.job", unused=("nucleation.wing",))
+    assert code.closure(job) == {"study", "study.job"}
+    whole = code.closure(job, code.Root("nucleation.wing.high"))
+    assert {"nucleation.wing.low", "study.job"} < whole
+
+
+def test_a_package_of_no_root_is_a_library(package):
+    """In an installation all libraries lie beside this one."""
+    library = package / "quarry"
+    library.mkdir()
+    (library / "__init__.py").write_text("import nowhere\n")
+    (package / "study" / "job.py").write_text("import quarry\n")
+    job = code.Root("study.job")
+    assert code.closure(job) == {"study", "study.job"}
+    assert code.libraries(job) == {"quarry"}
+
+
 def test_versions_of_what_is_imported_count(package, monkeypatch):
     before = digest(package)
     versions = {"numpy": "0.0"}
@@ -105,9 +121,9 @@ def test_a_library_that_is_not_here_stops_no_planning():
 
 
 def test_digest_of_the_simulation_reaches_its_libraries():
-    names = code.libraries("nucleation.simulation.run")
+    names = code.libraries(SIMULATION)
     assert {"numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4"} <= names
-    modules = code.closure("nucleation.simulation.run") - {"nucleation"}
+    modules = code.closure(SIMULATION) - {"nucleation"}
     wings = {module.split(".")[1] for module in modules}
     assert not wings & {"extraction", "commands", "api", "pictures", "lengths", "drop"}
     assert not any(module.startswith("replication") for module in modules)
@@ -115,8 +131,8 @@ def test_digest_of_the_simulation_reaches_its_libraries():
 
 def test_what_reads_tables_does_not_count_the_solver():
     """Nor does its job load it, as a job loads all code that counts."""
-    drawing, claims = "replication.figures.figure_3", "replication.claims.table"
-    assert not code.libraries(drawing, claims, "replication.tables.lengths") & {"numba"}
+    rooms = ("figures.figure_3", "claims.table", "tables.lengths")
+    assert not code.libraries(*(code.Root(f"replication.{room}") for room in rooms)) & {"numba"}
 
 
 WITHOUT = """
@@ -138,8 +154,7 @@ print(simulate(type(small).from_dict(small.to_dict())).attrs["steps"])
 
 @pytest.mark.slow
 def test_a_simulation_runs_without_the_code_that_does_not_count_for_it():
-    (unused,) = code._UNUSED.values()
-    text = WITHOUT.replace("PREFIXES", repr(tuple(f"{name}." for name in unused)))
+    text = WITHOUT.replace("PREFIXES", repr(tuple(f"{name}." for name in SIMULATION.unused)))
     command = [sys.executable, "-c", text]
     given = {"capture_output": True, "text": True, "env": ENVIRONMENT}
     done = subprocess.run(command, **given)

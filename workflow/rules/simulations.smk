@@ -63,7 +63,7 @@ rule simulate_and_measure:
         runtime=ceil(settings.limits.runtime),
     params:
         call="replication.tables.measured:measured_runs",
-        loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
+        loads=lambda wildcards: [SIMULATION.module, *laws_of(runs_of_batch(wildcards.batch))],
         makes=simulations_of,
         runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
         settings=asdict(settings.extraction),
@@ -83,7 +83,7 @@ rule simulation:
         f"{RESULTS}/logs/simulations/{{name}}.log",
     localrule: True
     params:
-        call=f"{SIMULATION}:simulate",
+        call=f"{SIMULATION.module}:simulate",
         loads=lambda wildcards: plugins(run_of(wildcards.name).run.law),
         parameters=lambda wildcards: run_of(wildcards.name).parameters,
     shell:

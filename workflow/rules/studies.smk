@@ -1,6 +1,5 @@
 # The runs of each role, and the files that are made from them.
 in_role = settings.studies_for
-SIMULATION = "nucleation.simulation.run"
 
 PAIR_STUDIES = in_role(*PAIR_ROLES)
 CONVERGENCE_STUDIES = in_role(*REFINEMENTS)

@@ -15,28 +15,16 @@ import importlib.metadata
 import importlib.util
 import json
 import sys
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 from . import DatasetError
 
-PACKAGES = ("nucleation", "replication")
+_OWN = __name__.partition(".")[0]
 _ROOT = Path(__file__).resolve().parents[2]
 _PARSER = Path(__file__).read_bytes()
-_NEUTRAL = "replication.pipeline"  # surrounds the computations, and can't change their results
-ALWAYS = ("nucleation.datasets.netcdf",)
-"""Code of every dataset: the writer of its file."""
-
-_UNUSED = {
-    "nucleation.simulation.run": (
-        "nucleation.lengths",
-        "nucleation.drop",
-        "nucleation.theory.creep",
-        "nucleation.theory.weakening_patch",
-    )
-}
-"""Answers of a fault that a simulation, which has one, never computes; a test runs it without."""
 
 # libraries whose distribution has another name than the module
 _DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
@@ -46,15 +34,26 @@ _COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplot
 _UNCOUNTED = {"ctx", "kind", "type_comment", "type_ignores", "type_params"}
 
 
+class Root(NamedTuple):
+    """A module, by its dotted name, whose code counts with all that it imports and uses."""
+
+    module: str
+    unused: tuple[str, ...] = ()
+    """Packages that it imports, directly or not, and never uses."""
+
+
+ALWAYS = Root("nucleation.datasets.netcdf")
+"""Code of every dataset: the writer of its file."""
+
+
 class _Source(NamedTuple):
     tree: str  # digest of the syntax tree
     imports: list[tuple[int, str, str]]  # level, module, name
-    libraries: list[str]
 
 
 @cache
-def digest(*roots: str) -> str:
-    """Digest of modules, by dotted names, of all that they import, and of libraries' versions."""
+def digest(*roots: Root) -> str:
+    """Digest of modules, of all that they import and use, and of libraries' versions."""
     parts = [f"{module} {_source(module).tree}" for module in sorted(closure(*roots))]
     parts += [f"{name} {_version(name)}" for name in sorted(libraries(*roots))]
     return _digest("\n".join(parts).encode())
@@ -65,24 +64,33 @@ def _digest(content: bytes) -> str:
 
 
 @cache
-def closure(*roots: str) -> frozenset[str]:
-    """Modules, all that they import from our packages, directly or not, and packages around."""
+def closure(*roots: Root) -> frozenset[str]:
+    """Modules, all that they use of this library and of their own packages, and packages around."""
+    packages = _packages(roots)
     found: set[str] = set()
     for root in roots:
-        unused = tuple(f"{name}." for name in _UNUSED.get(root, ()))
+        unused = tuple(f"{name}." for name in root.unused)
         own: set[str] = set()
-        waiting = {root}
+        waiting = {root.module}
         while waiting:
             module = waiting.pop()
             own.add(module)
-            waiting |= {name for name in _needed(module) if not f"{name}.".startswith(unused)} - own
+            needed = _needed(module, packages)
+            waiting |= {name for name in needed if not f"{name}.".startswith(unused)} - own
         found |= own
     return frozenset(found)
 
 
-def libraries(*roots: str) -> set[str]:
+def _packages(roots: Iterable[Root]) -> frozenset[str]:
+    """The packages whose code is read; of all others the version counts."""
+    return frozenset({_OWN, *(root.module.partition(".")[0] for root in roots)})
+
+
+def libraries(*roots: Root) -> set[str]:
     """Distributions that modules and all that they import need."""
-    imported = {name for module in closure(*roots) for name in _source(module).libraries}
+    known = _packages(roots) | sys.stdlib_module_names
+    imports = [one for module in closure(*roots) for one in _source(module).imports]
+    imported = {name.partition(".")[0] for level, name, _ in imports if not level} - known
     needed = {_DISTRIBUTIONS.get(name, name) for name in imported}
     return needed.union(*(_COMPANIONS.get(name, ()) for name in imported))
 
@@ -93,7 +101,7 @@ def forget() -> None:
         function.cache_clear()
 
 
-def load(*roots: str) -> None:
+def load(*roots: Root) -> None:
     """Import all code of some roots, and read it anew for the next digest.
 
     No later edit reaches this process, as nothing is left to import; an earlier one is noticed.
@@ -139,28 +147,23 @@ def _parsed(path: Path, content: bytes) -> _Source:
     imports: list[tuple[int, str, str]] = []
     words: list[str] = []
     _collect(tree, words, imports)
-    own, others = [], set()
-    for level, name, inner in imports:
-        root = name.partition(".")[0]
-        if level or root in PACKAGES:
-            own.append((level, name, inner))
-        elif root not in sys.stdlib_module_names:
-            others.add(root)
-    return _Source(_digest("\0".join(words).encode()), own, sorted(others))
+    return _Source(_digest("\0".join(words).encode()), imports)
 
 
 @cache
-def _needed(module: str) -> list[str]:
-    """The modules of ours that one imports, and the packages around it."""
+def _needed(module: str, packages: frozenset[str]) -> list[str]:
+    """The modules of some packages that one imports, and the packages around it."""
     parts = module.split(".")
     found = [".".join(parts[:depth]) for depth in range(1, len(parts))]
     is_package = _file(module) == _ROOT.joinpath(*parts, "__init__.py")
     base = module if is_package else found[-1]
     for level, start, name in _source(module).imports:
+        if not level and start.partition(".")[0] not in packages:
+            continue
         imported = importlib.util.resolve_name("." * level + start, base)
         inner = f"{imported}.{name}"
         found.append(inner if name and _file(inner) else imported)
-    return [name for name in found if not f"{name}.".startswith(f"{_NEUTRAL}.")]
+    return found
 
 
 @cache

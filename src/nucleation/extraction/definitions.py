@@ -21,54 +21,32 @@ from ..types import Array
 
 REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs to the fall
 
-ONSET_TIME = Column("onset_time", "s", "onset of the event", "t", realisations=np.mean)
+ONSET_TIME = Column("onset_time", "s", "onset of the event", "t", np.mean)
 ONSET_TIME_LOW = Column(
-    "onset_time_low",
-    "s",
-    "earliest onset over the definitions of the drop",
-    "t",
-    realisations=np.min,
+    "onset_time_low", "s", "earliest onset over the definitions of the drop", "t", np.min
 )
 ONSET_TIME_HIGH = Column(
-    "onset_time_high",
-    "s",
-    "latest onset over the definitions of the drop",
-    "t",
-    realisations=np.max,
+    "onset_time_high", "s", "latest onset over the definitions of the drop", "t", np.max
 )
-LENGTH = Column("length", "m", "length at the drop", "L", realisations=np.mean)
-LENGTH_LOW = Column(
-    "length_low", "m", "smallest length over the definitions", "L", realisations=np.min
-)
-LENGTH_HIGH = Column(
-    "length_high", "m", "largest length over the definitions", "L", realisations=np.max
-)
+LENGTH = Column("length", "m", "length at the drop", "L", np.mean)
+LENGTH_LOW = Column("length_low", "m", "smallest length over the definitions", "L", np.min)
+LENGTH_HIGH = Column("length_high", "m", "largest length over the definitions", "L", np.max)
 
 MEASURED = columns(ONSET_TIME, ONSET_TIME_LOW, ONSET_TIME_HIGH, LENGTH, LENGTH_LOW, LENGTH_HIGH)
 """Results of a run (s, m): onset and length, each with the ends of its error bar."""
 
-STABILITY_LENGTH = Column(
-    "stability_length", "m", "patch length where growth begins", "L_s", realisations=first
-)
+STABILITY_LENGTH = Column("stability_length", "m", "patch length where growth begins", "L_s", first)
 STABILITY_LENGTH_LOW = Column(
-    "stability_length_low", "m", "L_s less the scatter as the front hops", "L_s", realisations=first
+    "stability_length_low", "m", "L_s less the scatter as the front hops", "L_s", first
 )
 STABILITY_LENGTH_HIGH = Column(
-    "stability_length_high",
-    "m",
-    "L_s with the scatter as the front hops",
-    "L_s",
-    realisations=first,
+    "stability_length_high", "m", "L_s with the scatter as the front hops", "L_s", first
 )
 STABILITY_LENGTH_ERROR = Column(
-    "stability_length_error", "m", "standard error of L_s", "L_s", realisations=first
+    "stability_length_error", "m", "standard error of L_s", "L_s", first
 )
 STABILITY_FREQUENCY = Column(
-    "stability_frequency",
-    "1/s",
-    "angular frequency where growth begins",
-    "omega",
-    realisations=first,
+    "stability_frequency", "1/s", "angular frequency where growth begins", "omega", first
 )
 
 FITTED = columns(

@@ -33,6 +33,17 @@ if TYPE_CHECKING:
 
 EVERY = 60.0  # wall time (s) between checkpoints, unless the variable gives another
 VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"
+SIMULATION = code.Root(
+    "nucleation.simulation.run",
+    unused=(
+        "nucleation.lengths",
+        "nucleation.drop",
+        "nucleation.theory.creep",
+        "nucleation.theory.weakening_patch",
+    ),
+)
+"""A simulation needs a fault, and none of its answers; a test runs one without this code."""
+
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 """Signals that stop a run: a scheduler's time limit or pre-emption, Ctrl-C, a closed terminal."""
 
@@ -154,4 +165,4 @@ def run_to_file(
 
 def simulation_code(run: Run) -> str:
     """Digest of the code of a simulation, as in the workflow."""
-    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(run.law))
+    return code.digest(SIMULATION, code.ALWAYS, *map(code.Root, plugins(run.law)))

@@ -24,6 +24,7 @@ import xarray as xr
 from nucleation.datasets import DatasetError, code, netcdf, provenance
 from nucleation.datasets.variables import to_csv
 from nucleation.model.quantities import ParameterError
+from nucleation.simulation.checkpoints import SIMULATION
 
 from ..tables.rows import remarked, rows_of, without_event
 from . import LOGGER, PROGRESS
@@ -31,7 +32,7 @@ from .batches import side_by_side
 from .recipes import Recipe, key_in
 from .store import STEM, Store, others, read_note
 
-SIMULATE = "nucleation.simulation.run:simulate"
+SIMULATE = f"{SIMULATION.module}:simulate"
 UNFINISHED = "unfinished"  # directory of checkpoints, and of records of runs that failed
 _LENGTHS = "lengths/"  # directory of the tables of studies
 

@@ -23,12 +23,14 @@ from pathlib import Path
 from typing import Any
 
 from nucleation.datasets import code
+from nucleation.simulation.checkpoints import SIMULATION
 
 from . import LOGGER
 from .store import PATTERN, STEM, Store, digest_of_file
 
 RECIPES = "recipes"  # directory in a store, with a subdirectory for each directory of results
 PLACES = "places"  # file beside recipes with the two directories that they are of
+_ROOTS = {SIMULATION.module: SIMULATION}  # of modules that import code which they never use
 _IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
 _MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')  # of Recipe.expected
 
@@ -71,9 +73,12 @@ class Recipe:
         return found
 
     @property
-    def roots(self) -> tuple[str, ...]:
+    def roots(self) -> tuple[code.Root, ...]:
         """The modules that its code begins with."""
-        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads) if self.call else ()
+        if not self.call:
+            return ()
+        modules = (self.call.partition(":")[0], *self.loads)
+        return code.ALWAYS, *(_ROOTS.get(module, code.Root(module)) for module in modules)
 
     @property
     def code(self) -> str:
