@@ -15,7 +15,7 @@ def pairs():
     """The pairs, one row for each fault, on the usual mesh."""
     frame = table("pairs")
     frame = frame[frame["n_x"] < 1600]
-    runs = xr.Dataset({name: ("run", frame[name].to_numpy()) for name in frame})
+    runs = xr.Dataset({name: ("run", frame[name].to_numpy()) for name in frame if name != "ratio"})
     return pairs_over_realisations(runs).to_dataframe()
 
 
