@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nucleation import __version__, commands
-from nucleation.commands.text import in_unit, table
+from nucleation.commands.text import table
 from nucleation.model.quantities import Quantity
-from nucleation.model.units import parse
+from nucleation.model.units import in_unit, parse
 
 
 @pytest.mark.parametrize("words", [[], ["length"], ["simulate"], ["show"]])

@@ -12,7 +12,7 @@ import xarray as xr
 from nucleation.fault.parameters import parameters
 from nucleation.model.hints import hint
 from nucleation.model.quantities import ParameterError, declarations, declared
-from nucleation.model.units import QUICK, magnitude, parse, registry
+from nucleation.model.units import UNITS, in_unit, magnitude, parse, registry, sizes
 from nucleation.theory.values import QUANTITIES
 from replication.configuration.settings import GROUPS
 
@@ -46,11 +46,31 @@ def test_values_in_si_units(key, text, value):
     assert found == value if isinstance(value, str) else found == pytest.approx(value, rel=1e-6)
 
 
-def test_common_units_are_those_of_the_units_library():
-    for declared_unit, known in QUICK.items():
-        for unit, factor in known.items():
-            found = registry().Quantity(Decimal(1), registry().parse_units(unit))
-            assert found.to(declared_unit).magnitude == Decimal(factor)
+@pytest.mark.parametrize(("unit", "name"), [(unit, name) for unit in UNITS for name in UNITS[unit]])
+def test_a_common_unit_has_the_size_of_the_units_library(unit, name):
+    found = registry().Quantity(Decimal(1), registry().parse_units(name)).to(unit).magnitude
+    assert float(found) == float(sizes(unit)[name])
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_common_units_are_in_the_order_of_their_sizes(unit):
+    assert list(sizes(unit).values()) == sorted(sizes(unit).values())
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (0.015, "m", "15 mm"),
+        (7200.0, "s", "7200 s"),
+        (1e-12, "m", "1e-12 m"),
+        (-5e4, "Pa", "-50 kPa"),
+        (3.16880878e-11, "m/s", "1 mm/yr"),
+        (math.inf, "m", "inf m"),
+        (2700.0, "kg/m^3", "2700 kg/m^3"),
+    ],
+)
+def test_a_number_is_shown_in_the_unit_of_its_size(value, unit, text):
+    assert in_unit(value, unit) == text
 
 
 @pytest.mark.parametrize(

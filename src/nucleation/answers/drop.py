@@ -16,6 +16,7 @@ import numpy as np
 from ..model.friction.constants import AGE, ANY
 from ..model.quantities import ParameterError
 from ..model.settings import ALONG_X, Perturbation
+from ..model.units import in_metres
 from ..theory.creep.patches import Patches
 from ..theory.critical import of_distinct
 from ..theory.spectrum import Systems
@@ -81,7 +82,7 @@ def run_away(fault: FaultLike, declared: Perturbation | None, usual: Perturbatio
         if np.isnan(others).all():
             return text
         listed = [
-            f"{length:.3g} m ({short(noise)})"
+            f"{in_metres(length, form='.3g')} ({short(noise)})"
             for length, noise in zip(others, noises, strict=True)
             if np.isfinite(length)
         ]

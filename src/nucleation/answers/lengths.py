@@ -10,6 +10,7 @@ import numpy as np
 
 from ..lengths.in_use import LENGTHS
 from ..model.settings import Perturbation
+from ..model.units import in_metres
 from ..theory.status import BETWEEN, STABLE
 from ..theory.values import FaultLike, Values, labelled
 from .answer import Answer, short
@@ -94,7 +95,7 @@ class Lengths(dict[str, Answer]):
     def sentence(self) -> str:
         """The answer to "how long must the patch grow before it runs away?", for a single fault."""
         stable = self["stability_length"]
-        turns = f"It turns unstable at L_s = {stable.value:.4g} m." if stable.exists else ""
+        turns = f"It turns unstable at L_s = {in_metres(stable.value)}." if stable.exists else ""
         if self.perturbation is None:
             turns = turns.replace("It turns", "The patch turns") or f"No L_s: {stable.reason}."
             return f"{turns} Where it runs away depends on a perturbation, and none was given."
@@ -104,7 +105,8 @@ class Lengths(dict[str, Answer]):
             return f"The patch runs away at {with_range(drop)} {noise}."
         reason = drop.reason
         if drop.status == BETWEEN:
-            return f"The patch runs away between {drop.low:.4g} and {drop.high:.4g} m: {reason}."
+            ends = in_metres(drop.low, drop.high, joined=" and ")
+            return f"The patch runs away between {ends}: {reason}."
         if drop.status == STABLE:
             return f"No patch runs away: {self['critical_length'].reason or reason}."
         return f"The length at which the patch runs away is not known: {reason}. {turns}".strip()
@@ -153,9 +155,9 @@ class Lengths(dict[str, Answer]):
         for key, answer in self.items():
             shown = [TITLES[key], "", "", ""]
             if answer.exists:
-                shown[1] = f"{answer.value:.4g} m"
+                shown[1] = in_metres(answer.value)
                 if answer.high > answer.low * 1.0001:
-                    shown[2] = f"{answer.low:.4g} to {answer.high:.4g} m"
+                    shown[2] = in_metres(answer.low, answer.high)
                 shown[3] = str(answer.doubt)
             else:
                 shown[3] = f"{answer.status}: {answer.reason}"
@@ -178,9 +180,9 @@ def with_range(answer: Answer) -> str:
     """
     value, low, high = (float(x) for x in answer[:3])
     if not high > low * (1.0 + 1e-4):
-        return f"{value:.4g} m"
-    digits = max(-math.floor(math.log10(0.5 * (high - low))), 0)
-    return f"{value:.{digits}f} m ({low:.{digits}f} to {high:.{digits}f} m)"
+        return in_metres(value)
+    form = f".{max(-math.floor(math.log10(0.5 * (high - low))), 0)}f"
+    return f"{in_metres(value, form=form)} ({in_metres(low, high, form=form)})"
 
 
 def lengths_of(

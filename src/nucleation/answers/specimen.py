@@ -9,6 +9,7 @@ import numpy as np
 from ..model.hints import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
 from ..model.settings import Block
+from ..model.units import in_metres
 from ..theory.status import BEYOND, VALUE
 from ..theory.values import QUANTITIES, FaultLike, Values, checked, numbers_of
 from ..types import Array
@@ -156,5 +157,5 @@ def _of_shortest(criterion: str, found: Array, values: Array, unknown: str) -> s
         return f"L_c is more than {_LONGEST:g} times the specimen at all values"
     unit = QUANTITIES[unknown].unit
     best = np.nanargmin(found)
-    shortest = f"{found[best]:.4g} m at least, at {unknown} = {values[best]:.4g} {unit}"
+    shortest = f"{in_metres(found[best])} at least, at {unknown} = {values[best]:.4g} {unit}"
     return f"{NAMES[criterion]} is {shortest}"

@@ -17,6 +17,7 @@ from ..lengths.in_use import LENGTHS
 from ..lengths.ranges import DRAWS, WEAKENING_RATE, parse_range
 from ..model.quantities import ParameterError, declarations, declared
 from ..model.settings import Perturbation
+from ..model.units import in_metres, in_unit
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES
@@ -31,7 +32,7 @@ from .given import (
     printed_warnings,
     system_of_fault,
 )
-from .text import Row, in_unit, show, table, wrapped
+from .text import Row, show, table, wrapped
 
 if TYPE_CHECKING:
     from ..fault import Fault
@@ -205,8 +206,8 @@ def _theory_lines(found: Lengths) -> list[str]:
             continue
         span = f"{answer.value / critical:.3g} L_c" if math.isfinite(critical) else ""
         if key != "stability_length" and answer.high > answer.low:
-            span += f" ({answer.low:.4g} to {answer.high:.4g} m)"
-        rows.append((symbol, f"{float(answer.value):.4g} m", span, MEANINGS[key]))
+            span += f" ({in_metres(answer.low, answer.high)})"
+        rows.append((symbol, in_metres(answer.value), span, MEANINGS[key]))
     return table(rows)
 
 
@@ -251,7 +252,7 @@ def _length_rows(length: Length, answer: Answer, fault: Fault, critical: float) 
     value = float(answer.value)
     text, ratio = "-", ""
     if answer.exists:
-        text = f"{value:.4g} m"
+        text = in_metres(value)
         ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
     rows: list[Row] = [
         (length.title, text, ratio, length.formula),
@@ -278,7 +279,7 @@ def _patch_lines(patch: dict[str, Any], width: float | None, critical: float) ->
     else:
         ratio = f"{smallest / critical:.3g} L_c"
         meaning = "smallest width at which slip is unstable; a narrower patch creeps"
-        rows.append(("W_c", f"{smallest:.4g} m", ratio, meaning))
+        rows.append(("W_c", in_metres(smallest), ratio, meaning))
         if width is not None:
             own = f"{patch['width_ratio']:.3g} W_c"
             rows.append(("W", in_unit(width, "m"), own, patch["outcome"]))

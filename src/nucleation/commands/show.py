@@ -13,6 +13,7 @@ from ..datasets import DatasetError, netcdf, provenance
 from ..extraction.extraction import extract, parameters_of
 from ..installed import require
 from ..model.quantities import ParameterError
+from ..model.units import in_metres
 from ..theory.critical import critical_length_of
 from ..theory.status import NoLength
 from . import DONE, EXIT_CODES, text
@@ -86,7 +87,7 @@ def _lines(dataset: xr.Dataset, kind: str) -> list[str]:
     run = parameters_of(dataset)
     try:
         theory = critical_length_of(run.fault)
-        theory_text = f"{theory:.4g} m, of the friction law expanded at V"
+        theory_text = f"{in_metres(theory)}, of the friction law expanded at V"
     except NoLength as error:
         theory = math.nan
         theory_text = f"no critical length: {error}"

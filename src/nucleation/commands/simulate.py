@@ -14,6 +14,7 @@ import click
 from ..fault.parameters import PARTS, parameters, sections
 from ..installed import require
 from ..model.quantities import ParameterError, declared
+from ..model.units import in_metres, in_unit
 from ..run.advice import advice
 from ..run.checks import contradictions, estimated_megabytes, memory_problem
 from ..run.run import PAPER_RUN, Run
@@ -28,7 +29,7 @@ from .given import (
     source_options,
     system_of_fault,
 )
-from .text import Row, in_unit, show, table, warn, with_unit, wrapped
+from .text import Row, show, table, warn, with_unit, wrapped
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,8 +83,8 @@ def command(
     given_size = {"height", "block_length"} & names
     if math.isinf(options["height"] or 0.0) or not (given_size or paper):
         lines.append(
-            f"Half-spaces: computed as blocks {run.fault.height:.4g} m high and "
-            f"{run.block.length:.4g} m long, and L_s changes by less than 2 %."
+            f"Half-spaces: computed as blocks {in_metres(run.fault.height)} high and "
+            f"{in_metres(run.block.length)} long, and L_s changes by less than 2 %."
         )
     for topic, _, text in advice(run, run.critical_length):
         warn(f"{topic}: {text}")
@@ -96,7 +97,7 @@ def command(
         stability = stability_length_of(run.patches, critical)
         described["theory"] = {"critical_length": critical, "stability_length": stability}
         if not math.isnan(stability):
-            lines.append(f"theory: a creeping patch turns unstable at {stability:.4g} m")
+            lines.append(f"theory: a creeping patch turns unstable at {in_metres(stability)}")
     if dry_run:
         show(as_json, described, [*parameter_lines(run), *wrapped(*lines)])
         return DONE
@@ -109,7 +110,7 @@ def _plan_lines(run: Run) -> list[str]:
     """Theory, duration and memory of a run."""
     critical = run.critical_length
     element = run.block.length / run.block.n_x
-    theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
+    theory = f"critical length {in_metres(critical)}, {critical / element:.4g}"
     if math.isnan(critical):
         uniform = run.heterogeneity.varies == "none"
         whose = "sliding" if uniform else "sliding outside the step or bump"

@@ -11,6 +11,7 @@ from ..answers.answer import Answer
 from ..answers.lengths import Lengths
 from ..answers.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit
 from ..model.hints import RANGES
+from ..model.units import in_metres, in_unit
 from ..theory.status import STABLE as STABLE_SLIDING
 from ..theory.values import QUANTITIES
 from . import DONE, EXIT_CODES, STABLE
@@ -22,7 +23,7 @@ from .given import (
     printed_warnings,
     system_of_fault,
 )
-from .text import in_unit, show, wrapped
+from .text import show, wrapped
 
 _SHORTEST_EVENT = 0.7
 """Least length of a simulated block with an event, over L_s: its far end is free, and the theory's
@@ -113,9 +114,9 @@ def _verdict(length: float, found: Lengths) -> str:
 
 
 def _with_range(answer: Answer) -> str:
-    text = f"{answer.value:.4g} m"
+    text = in_metres(answer.value)
     if answer.high > 1.01 * answer.low:
-        text += f" ({answer.low:.4g} to {answer.high:.4g} m)"
+        text += f" ({in_metres(answer.low, answer.high)})"
     return text
 
 

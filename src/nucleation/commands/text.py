@@ -15,34 +15,12 @@ import click
 
 from ..installed import DISTRIBUTION
 from ..model.quantities import Quantity
+from ..model.units import in_unit
 
 Row = Sequence[str] | str
 """The cells of a row of a table, or a line between the rows."""
 
 _LEAST_TERMINAL = 40
-_YEAR = 365.25 * 86400.0  # s
-_ENGINEERING_UNITS = {
-    "m": {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "m": 1.0, "km": 1e3},
-    "s": {"ps": 1e-12, "ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0},
-    "m/s": {"mm/yr": 1e-3 / _YEAR, "nm/s": 1e-9, "um/s": 1e-6, "mm/s": 1e-3, "m/s": 1.0},
-    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
-    "Pa/s": {"Pa/s": 1.0, "kPa/s": 1e3, "MPa/s": 1e6, "GPa/s": 1e9},
-}
-"""Engineering units by SI unit, each with its size in that unit, the smallest first."""
-
-
-def in_unit(value: float, unit: str, digits: int = 4) -> str:
-    """A number of an SI unit ("1": a pure number) in its engineering unit.
-
-    >>> in_unit(3.1e9, "Pa"), in_unit(5e-7, "m"), in_unit(0.2, "1")
-    ('3.1 GPa', '500 nm', '0.2')
-    """
-    number, shown_unit, size = float(value), unit, 1.0
-    for name, own in _ENGINEERING_UNITS.get(unit, {}).items():
-        if abs(number) >= own * (1.0 - 1e-9) and not math.isinf(number):
-            shown_unit, size = name, own
-    text = f"{number / size:.{digits}g}"
-    return text if unit == "1" else f"{text} {shown_unit}"
 
 
 def with_unit(value: Any, entry: Quantity) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..model.material import ANTIPLANE, in_plane_ratio
+from ..model.units import in_metres
 from ..theory.values import Conditions, FaultLike, Numbers, where
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
@@ -207,7 +208,7 @@ class Length:
             if fault.far_side not in ("traction", "free"):
                 found.append(f"a free far side: here it is {fault.far_side}")
         elif math.isfinite(lowest):
-            found.append(f"half-spaces: here H = {lowest:.4g} m")
+            found.append(f"half-spaces: here H = {in_metres(lowest)}")
         if differs and self.system == HALF_SPACES:
             found.append("bodies of one material: here they differ")
         if self.evolution not in (None, fault.evolution):

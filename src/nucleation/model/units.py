@@ -27,15 +27,40 @@ _WITH_COMMA = re.compile(r"[+-]?[\d.]*,[\d.,]*\d")
 _UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμ])(-?\d+)")  # m-3 in the style of CF
 
-_COMMON_UNITS = "Pa kPa MPa GPa m km cm mm um nm s ms min h yr m/s mm/yr mm/s um/s Pa/s MPa/s"
-"""Suggestions for an unknown unit; upper and lower case are not distinguished."""
-
-QUICK = {
+UNITS = {
+    "m": {"nm": "1e-9", "um": "1e-6", "mm": "1e-3", "cm": "1e-2", "m": "1", "km": "1e3"},
+    "s": {
+        "ps": "1e-12",
+        "ns": "1e-9",
+        "us": "1e-6",
+        "ms": "1e-3",
+        "s": "1",
+        "min": "60",
+        "h": "3600",
+        "d": "86400",
+        "yr": "31557600",
+    },
+    "m/s": {"mm/yr": "1/31557600000", "nm/s": "1e-9", "um/s": "1e-6", "mm/s": "1e-3", "m/s": "1"},
     "Pa": {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"},
-    "m": {"m": "1", "km": "1e3", "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "nm": "1e-9"},
-    "m/s": {"m/s": "1", "mm/s": "1e-3", "um/s": "1e-6", "nm/s": "1e-9"},
+    "Pa/s": {"Pa/s": "1", "kPa/s": "1e3", "MPa/s": "1e6", "GPa/s": "1e9"},
+    "N/m": {
+        "nN/m": "1e-9",
+        "uN/m": "1e-6",
+        "mN/m": "1e-3",
+        "N/m": "1",
+        "kN/m": "1e3",
+        "MN/m": "1e6",
+        "GN/m": "1e9",
+        "TN/m": "1e12",
+    },
 }
-"""Common units over the declared one: importing the units library takes longer than an answer."""
+"""Common units by SI unit, each with its exact size in that unit, the smallest first.
+
+They are read without the library for all others, whose import takes longer than an answer.
+"""
+
+_NOT_SHOWN = ("cm", "min", "h", "d", "yr")
+"""Units that are read, and in which no number is shown."""
 
 _DIMENSIONS = {
     "mass / length / time ** 2": "stress",
@@ -44,6 +69,47 @@ _DIMENSIONS = {
     "dimensionless": "a pure number",
 }
 """Names for the dimensions that the units library writes as products."""
+
+
+@cache
+def sizes(unit: str) -> dict[str, Fraction]:
+    """Sizes of the common units, in their SI unit; empty if there are none."""
+    return {name: Fraction(size) for name, size in UNITS.get(unit, {}).items()}
+
+
+def unit_for(value: float, unit: str) -> str:
+    """The largest common unit of which a number (SI unit) is at least one, else the SI unit.
+
+    >>> unit_for(3.1e9, "Pa"), unit_for(0.02, "m"), unit_for(1e-12, "m")
+    ('GPa', 'mm', 'm')
+    """
+    found = unit
+    for name, size in sizes(unit).items():
+        is_one = abs(value) >= float(size) * (1.0 - 1e-9) and not math.isinf(value)
+        if is_one and name not in _NOT_SHOWN:
+            found = name
+    return found
+
+
+def in_unit(value: float, unit: str, digits: int = 4) -> str:
+    """A number of an SI unit ("1": a pure number) in the common unit of its size.
+
+    >>> in_unit(3.1e9, "Pa"), in_unit(5e-7, "m"), in_unit(0.2, "1")
+    ('3.1 GPa', '500 nm', '0.2')
+    """
+    name = unit_for(float(value), unit)
+    size = float(sizes(unit).get(name, 1))
+    text = f"{float(value) / size:.{digits}g}"
+    return text if unit == "1" else f"{text} {name}"
+
+
+def in_metres(*lengths: float, form: str = ".4g", joined: str = " to ") -> str:
+    """Lengths (m) of a fault as text, all in one unit, so that people can compare them.
+
+    >>> in_metres(4.1602), in_metres(4.0349, 4.5762)
+    ('4.16 m', '4.035 to 4.576 m')
+    """
+    return joined.join(format(float(length), form) for length in lengths) + " m"
 
 
 class Checked:
@@ -122,8 +188,9 @@ def _number(text: str, entry: Quantity) -> float:
 
 def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
     """A number of a unit, converted to the declared unit; the ValueError gives the reason."""
-    if unit in QUICK.get(entry.unit, {}):
-        return number * Decimal(QUICK[entry.unit][unit])
+    size = sizes(entry.unit).get(unit)
+    if size is not None:
+        return number * size.numerator / size.denominator
     import pint
 
     try:
@@ -132,7 +199,8 @@ def _converted(number: Decimal, unit: str, entry: Quantity) -> Decimal:
         text = _EXPONENT.sub(r"**\1", unit.replace("⋅", "*"))
         given = registry().Quantity(number, registry().parse_units(text))
     except Exception:  # the library raises errors of many kinds for units that it can't read
-        close = [known for known in _COMMON_UNITS.split() if known.lower() == unit.lower()]
+        common = [name for names in UNITS.values() for name in names]
+        close = [name for name in common if name.lower() == unit.lower()]
         suggestion = f"; did you mean {close[0]}?" if close else ""
         raise ValueError(f"{unit} is not a known unit{suggestion}") from None
     pure = entry.unit == "1"

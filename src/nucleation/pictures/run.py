@@ -1,6 +1,5 @@
 """Picture of a run: shear stress in space and time, and the driving force."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,19 +10,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ..extraction.extraction import Record, parameters_of
+from ..model.units import sizes, unit_for
 from ..types import Array
 from . import style
 
 _PIXELS = 1200  # pixel columns of the widest image: more are invisible
 _EVENT_LEVEL = 0.01  # the event's panel shows slip rates above this part of the highest
 _GAP = 2.0  # D/V without fast slip, after which another event begins
-_PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
-_LONG_TIMES = (
-    (2.0 * 365.25 * 86400.0, 365.25 * 86400.0, "years"),
-    (2.0 * 86400.0, 86400.0, "days"),
-    (7200.0, 3600.0, "h"),
-)
-"""Times (s) from which a unit is used, the unit (s), and its name."""
+_LONG_TIMES = {"yr": "years", "d": "days", "h": "h"}  # from two of them on, and their names
 
 
 @style.styled()
@@ -160,19 +154,15 @@ def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:
-    """Factor and name of a unit with the prefix that keeps values up to `largest` below 1000."""
-    if not (math.isfinite(largest) and largest > 0.0):
-        return 1.0, unit
-    exponent = 3 * math.floor(math.log10(largest) / 3.0)
-    exponent = min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
-    return 10.0**-exponent, _PREFIXES[exponent] + unit
+    """Factor and name of the common unit in which values up to `largest` (SI unit) are shown."""
+    name = unit_for(largest, unit)
+    return float(1 / sizes(unit)[name]), name.replace("u", "µ")
 
 
 def time_unit(longest: float) -> tuple[float, str]:
     """Factor and name of the unit of a time axis up to `longest` (s)."""
-    if longest < 1.0:
-        return prefixed(longest, "s")
-    for least, unit, name in _LONG_TIMES:
-        if longest >= least:
-            return 1.0 / unit, name
-    return 1.0, "s"
+    for name, shown in _LONG_TIMES.items():
+        size = float(sizes("s")[name])
+        if longest >= 2.0 * size:
+            return 1.0 / size, shown
+    return prefixed(longest, "s")
