@@ -1,10 +1,13 @@
 """What numba keeps is right, whichever processes write at once."""
 
 import fcntl
+import inspect
 import subprocess
 import sys
 
 import pytest
+from numba import njit
+from numba.core.caching import FunctionCache
 
 DOUBLING = """
 from nucleation.fem.compiling import compiled
@@ -35,6 +38,33 @@ from doubling import doubled
 
 print(doubled(3), doubled(2.5), len(doubled.stats.cache_misses))
 """
+
+
+PRIVATE = {
+    "__init__": ["self", "py_func"],
+    "_index_key": ["self", "sig", "codegen"],
+    "save_overload": ["self", "sig", "data"],
+    "load_overload": ["self", "sig", "target_context"],
+}
+"""What of numba's cache the shared one overrides, and the arguments."""
+
+
+@pytest.mark.parametrize("name", PRIVATE)
+def test_private_parts_of_numba_are_those_that_the_shared_cache_overrides(name):
+    """A new numba that fails here needs a change of compiling.py before its bound is raised."""
+    assert list(inspect.signature(getattr(FunctionCache, name)).parameters) == PRIVATE[name]
+
+
+def test_private_parts_of_numba_are_those_that_the_shared_cache_uses():
+    def function(x):
+        return x
+
+    made = njit(function)
+    assert hasattr(made, "_cache"), "in which a compiled function looks for its code"
+    made.enable_caching()
+    assert type(made._cache) is FunctionCache
+    assert made._cache.cache_path == made._cache._impl.locator.get_cache_path()
+    assert callable(made._cache._impl.locator.ensure_cache_path)
 
 
 @pytest.fixture(autouse=True)

@@ -2,6 +2,9 @@
 
 Two processes that compile a function for different arguments at once may each load the other's code
 as their own (numba 0.68 numbers its files without a lock), and run it on the wrong arrays.
+
+This is the only file with private parts of numba: those of ``FunctionCache`` that are overridden or
+called here, and ``_cache`` of a compiled function. So pyproject.toml bounds its version.
 """
 
 import contextlib
