@@ -35,7 +35,7 @@ CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
-.PHONY: help install paper report quick test test-quick lint docs bench reference lock asked-python check prune torture test-answers
+.PHONY: help install paper report quick test test-quick lint docs calculator bench reference lock asked-python check prune torture test-answers
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -76,6 +76,9 @@ lint: $(DEV_STAMP) ## Check style, types, and which package imports which
 
 docs: $(DEV_STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+
+calculator: $(DEV_STAMP) ## Make the committed tables of the calculator again, in ten minutes
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/calculator/tables.py
 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $$PARTS

@@ -95,10 +95,12 @@ def mathematics(writer, node):
 
 
 def calculator(app, error):
-    """The calculator beside the pages."""
+    """The script of the calculator, and what it takes from the library."""
     if error is None and app.builder.name == "html":
-        page = runpy.run_path(ROOT / "docs" / "calculator" / "tables.py")["page"]
-        Path(app.outdir, "calculator.html").write_text(page(), encoding="utf-8")
+        sources, built = ROOT / "docs" / "calculator", Path(app.outdir, "_static")
+        data = runpy.run_path(sources / "tables.py")["script_data"]
+        (built / "calculator_data.js").write_text(data(), encoding="utf-8")
+        shutil.copy(sources / "calculator.js", built)
 
 
 def redirects(app, error):

@@ -37,6 +37,9 @@ STRENGTHS = (1e-7, 1e-2)
 USUAL_STRENGTH = 1e-4
 """Relative noise if none is given."""
 
+SLOW_SLIP = "slow slip lasts up to this length, whatever the noise"
+"""On what L depends where it is L_run."""
+
 _REMOTE = "under a load from afar it depends on the weak spot where the patch begins"
 
 _ALIKE = 1.02
@@ -199,7 +202,7 @@ def _drop(known: ExpectedDrop) -> Answer:
         doubts.append(
             "behind its advancing front the patch turns unstable before L_s, of steady creep"
         )
-    basis = "slow slip lasts up to this length, whatever the noise" if known.slips_slowly else ""
+    basis = SLOW_SLIP if known.slips_slowly else ""
     return Answer(known.length, known.low, known.high, VALUE, "", "; ".join(doubts), basis)
 
 

@@ -48,7 +48,7 @@ TITLES = {
 TITLES |= {length.key: length.title for length in LENGTHS}
 """Title of each length by key: those of the theory, and of the literature."""
 
-_NOISE = {
+NOISE = {
     "normal_load": "under a normal load that fluctuates by",
     "drive_velocity": "pushed at a velocity that fluctuates by",
     "strength": "on a fault whose strength varies along it by",
@@ -100,7 +100,7 @@ class Lengths(dict[str, Answer]):
             turns = turns.replace("It turns", "The patch turns") or f"No L_s: {stable.reason}."
             return f"{turns} Where it runs away depends on a perturbation, and none was given."
         drop = self["drop_length"]
-        noise = f"{_NOISE[self.perturbation.kind]} {short(self.perturbation.strength)}"
+        noise = f"{NOISE[self.perturbation.kind]} {short(self.perturbation.strength)}"
         if drop.exists:
             return f"The patch runs away at {with_range(drop)} {noise}."
         reason = drop.reason

@@ -171,11 +171,7 @@ def _doubts_of_law(
     if not np.isfinite([drop.length, drop.low, drop.high]).all():
         yield "the drop is beyond the lengths to which the mode's trends are continued"
         return
-    at = np.array([drop.length])
-    rate, frequency = (
-        float(trend(history, values)(at)[0]) for values in (history.rate.real, history.rate.imag)
-    )
-    grown = float(np.exp(2.0 * np.pi * rate / frequency)) if frequency > 0.0 else math.inf
+    grown = grown_in_period(history, drop.length)
     if grown < SLOWEST_GROWTH:
         yield (
             f"the mode grows by a factor of {grown:.2g} in a period where it is as large as the "
@@ -187,6 +183,15 @@ def _doubts_of_law(
             "the drop is beyond the patches with a mode that could be followed, "
             f"{longest / critical:.2g} L_c"
         )
+
+
+def grown_in_period(history: ModeHistory, length: float) -> float:
+    """Growth factor of a patch (m) in a period of its mode; inf if that oscillates no more."""
+    at = np.array([length])
+    rate, frequency = (
+        float(trend(history, values)(at)[0]) for values in (history.rate.real, history.rate.imag)
+    )
+    return float(np.exp(2.0 * np.pi * rate / frequency)) if frequency > 0.0 else math.inf
 
 
 def _doubts_of_block(known: ExpectedDrop, block: tuple[float, float]) -> Iterator[str]:
