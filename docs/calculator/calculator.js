@@ -174,7 +174,7 @@ function read(input, wrong) {
     const reason = text === "" ? "; it is missing"
       : /^[\d.]*,[\d.]+/.test(text) ? "; write a decimal point in place of the comma"
       : number === undefined ? "; it is no number with a unit"
-      : given && !(given in units) ? `; ${given} is no unit that is known here${unit === "1" ? ", it has none" : `: ${Object.keys(units).join(", ")}`}`
+      : given && !Object.hasOwn(units, given) ? `; ${given} is no unit that is known here${unit === "1" ? ", it has none" : `: ${Object.keys(units).join(", ")}`}`
       : "";
     wrong.push(`${name} = '${input.value.trim()}' is not allowed: ${description} must lie in ${bounds}${reason}.`);
   }
@@ -252,7 +252,8 @@ function update() {
 }
 
 for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
-  if (name in form.elements) form.elements[name].value = value;
+  const field = form.elements.namedItem(name);
+  if (field) field.value = value;
 }
 form.addEventListener("input", update);
 form.addEventListener("submit", (event) => event.preventDefault());

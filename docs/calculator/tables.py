@@ -187,7 +187,7 @@ def tables():
             ),
         },
         "runaway": {
-            "identical_layers": tabulate(runaway_at, weak, (7, 4), one_by_one=True),
+            "identical_layers": tabulate(runaway_at, weak, (10, 6), one_by_one=True),
             "rigid_base": tabulate(runaway_at, weak_on_base, (6, 3, 2, 2), one_by_one=True),
         },
         "law": {
