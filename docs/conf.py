@@ -95,12 +95,13 @@ def mathematics(writer, node):
 
 
 def calculator(app, error):
-    """The script of the calculator, and what it takes from the library."""
+    """The script of the calculator, after what it takes from the library."""
     if error is None and app.builder.name == "html":
-        sources, built = ROOT / "docs" / "calculator", Path(app.outdir, "_static")
-        data = runpy.run_path(sources / "tables.py")["script_data"]
-        (built / "calculator_data.js").write_text(data(), encoding="utf-8")
-        shutil.copy(sources / "calculator.js", built)
+        sources = ROOT / "docs" / "calculator"
+        data = runpy.run_path(sources / "tables.py")["script_data"]()
+        script = (sources / "calculator.js").read_text(encoding="utf-8")
+        built = Path(app.outdir, "_static", "calculator.js")
+        built.write_text(data + script, encoding="utf-8")
 
 
 def redirects(app, error):

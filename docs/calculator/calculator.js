@@ -1,4 +1,3 @@
-"use strict";
 // The lengths of a fault between two bodies whose far sides are free, as the library has them.
 const LARGEST = 25; // of q = k H: above it a layer is a half-space, to round-off
 

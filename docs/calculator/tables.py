@@ -29,7 +29,7 @@ from nucleation.fault.setting import friction, second_body
 from nucleation.model.friction.constants import AGE, ANY
 from nucleation.model.quantities import declarations
 from nucleation.model.settings import Perturbation
-from nucleation.model.units import QUICK
+from nucleation.model.units import sizes
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.creep.patches import Patches
 from nucleation.theory.creep.runaway import ERROR, LEAST_ERROR, WEAK, runaway_of
@@ -199,7 +199,7 @@ def tables():
 
 def declaration(entry):
     """Unit, range and meaning of a parameter, and what its units are in SI units."""
-    units = {name: float(size) for name, size in QUICK.get(entry.unit, {}).items()}
+    units = {name: float(size) for name, size in sizes(entry.unit).items()}
     names = ("low", "high", "closed", "unit", "description", "bounds")
     return {name: getattr(entry, name) for name in names} | {"units": units}
 
@@ -233,7 +233,7 @@ def script_data():
         "quantities": {name: declaration(entry) for name, entry in entries.items()},
         "tables": json.loads(TABLES.read_text(encoding="utf-8")),
     }
-    return f"const data = {json.dumps(found)};\n"
+    return f'"use strict";\nconst data = {json.dumps(found)};\n'
 
 
 if __name__ == "__main__":
