@@ -11,15 +11,16 @@ _KINDS = {
     "equal": ("equal bodies", "s", style.BLUE),
     "different": ("different bodies", "D", style.VERMILLION),
 }
+_SETS = {"calibrate": "first set, even", "test": "first set, odd", "second": "second set"}
 
 
 @style.styled()
 def draw(blind: xr.Dataset) -> Figure:
     """Draw L/L_c simulated against predicted; bars are ranges, open marks have a doubt."""
-    figure, panels = style.panels(8.0, columns=2, squeeze=False)
-    for axes, half, letter in zip(panels.flat, ("calibrate", "test"), "ab", strict=True):
+    figure, panels = style.panels(6.5, columns=3, squeeze=False)
+    for axes, (of_set, title), letter in zip(panels.flat, _SETS.items(), "abc", strict=True):
         for below, (label, marker, colour) in _KINDS.items():
-            chosen = (blind["half"].values == half) & (blind["below"].values == below)
+            chosen = (blind["set"].values == of_set) & (blind["below"].values == below)
             own = blind.isel(run=np.flatnonzero(chosen))
             scale = own["critical_length"].values
             value, low, high = (
@@ -43,7 +44,7 @@ def draw(blind: xr.Dataset) -> Figure:
         ends = (0.33, 1.8)
         axes.plot(ends, ends, color=style.GUIDE, lw=0.7)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
-        axes.set(title=f"({letter}) half to {half}", xlabel="Predicted $L/L_c$")
+        axes.set(title=f"({letter}) {title}", xlabel="Predicted $L/L_c$")
         style.plain_numbers(axes.xaxis)
         style.plain_numbers(axes.yaxis)
     panels[0, 0].set_ylabel("Simulated $L/L_c$")
