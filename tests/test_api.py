@@ -46,9 +46,12 @@ def test_layers_of_different_heights_and_far_sides(heights, sides):
     assert found.length == pytest.approx(expected.length)
     assert found.wavenumber == pytest.approx(expected.wavenumber)
     assert found.angular_frequency == pytest.approx(expected.angular_frequency)
-    own = FAULT | {"height": 0.3}
-    free = asked.critical_length(**own, far_side="traction")  # another word for it
-    assert free == asked.critical_length(**own, far_side="free")
+
+
+def test_traction_is_read_as_free():
+    fault = api.Fault(**FAULT, height=0.3, far_side="traction", second_far_side="traction")
+    assert fault.far_side == fault.second_far_side == "free"
+    assert fault == api.Fault(**FAULT, height=0.3)
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ def half_spaces(nu, psi=1.0, nu2=NU):
 
 def block_transfer(q):
     """G1 and G2 of a block on a rigid base, free of stress on top."""
-    return transfer(layer(min(q, HALF_SPACE), far_side="traction"))
+    return transfer(layer(min(q, HALF_SPACE), far_side="free"))
 
 
 def matrix(compliance):

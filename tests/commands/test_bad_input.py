@@ -34,7 +34,7 @@ LENGTH = [
     (length(b=None), ["zeta or b", "one of them and not both"]),
     (length(zeta_over_a="0.5"), ["zeta_over_a is not allowed together with zeta or b"]),
     (length(height="0"), ["height = 0.0 m", "[1e-12, inf] m"]),
-    (length(far_side="glued"), ["far_side = 'glued'", "velocity, traction"]),
+    (length(far_side="glued"), ["far_side = 'glued'", "velocity, free"]),
     (length(weakening_rate="5 MPa"), ["weakening_rate", "Pa/m is needed"]),
     (length(second_body="steel"), ["second_body = 'steel'", "rigid, deformable"]),
     (length(second_shear_modulus="60GPa"), ["friction is missing"]),

@@ -90,7 +90,7 @@ def test_a_number_is_shown_in_the_unit_of_its_size(value, unit, text):
         ("shear_modulus", "-30 GPa", "shear_modulus = -30000000000.0 Pa is not allowed"),
         ("shear_modulus", "30 __import__('os')", "not a known unit"),
         ("poisson_ratio", "0.25 m", "unit of length, but it has no dimension"),
-        ("far_side", "Velocity", "one of velocity, traction"),
+        ("far_side", "Velocity", "one of velocity, free"),
     ],
 )
 def test_values_refused(key, text, words):

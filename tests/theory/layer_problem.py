@@ -47,7 +47,6 @@ def compliance(k, height, mu, nu, far_side):
     near, far = mode_rows(k, Decimal(0), mu, nu), mode_rows(k, height, mu, nu)
     conditions = {
         "velocity": ("u", "n"),
-        "traction": ("t", "n"),
         "free": ("t", "n"),
         "clamped": ("u", "w"),
         "roller": ("w", "t"),

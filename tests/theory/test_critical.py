@@ -56,7 +56,7 @@ def test_block_on_a_rigid_base_solves_the_printed_equations(interface, height):
         printed_equations, guess, args=(height, interface), full_output=True, xtol=1e-13
     )
     assert status == 1
-    point = critical_wavenumber(Body(MATERIAL, height, "traction"), RIGID, interface)
+    point = critical_wavenumber(Body(MATERIAL, height, "free"), RIGID, interface)
     assert point.wavenumber == pytest.approx(np.exp(solution[0]), rel=1e-10)
     assert point.angular_frequency == pytest.approx(solution[1] * 20.0, rel=1e-10)
     assert point.length == pytest.approx(2 * np.pi / point.wavenumber)
@@ -169,8 +169,8 @@ def test_narrow_unstable_band_is_found(excess, scale):
         (Body(), Body(), {"zeta": 0.0}, "does not weaken"),
         (Body(), RIGID, {"zeta": -0.005}, "zeta = -0.005"),
         (Body(), RIGID, {"zeta": -0.0068}, "a + zeta = 0 is not positive"),
-        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.01}, "is not positive"),
-        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.003}, "does not weaken"),
+        (Body(height=0.01, far_side="free"), RIGID, {"zeta": -0.01}, "is not positive"),
+        (Body(height=0.01, far_side="free"), RIGID, {"zeta": -0.003}, "does not weaken"),
         (Body(height=0.01), RIGID, {}, "although friction weakens"),
         (Body(height=0.01, far_side="clamped"), RIGID, {}, "the far side clamped (H = 0.01 m)"),
     ],

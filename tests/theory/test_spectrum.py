@@ -11,8 +11,8 @@ INTERFACE = Interface(
 )
 SOFT, STIFF = Material(3.1e9, 1 / 3), Material(2.4e10, 0.2)
 PAIRS = [
-    (Body(SOFT, 0.01, "traction"), RIGID),
-    (Body(SOFT, 0.02), Body(STIFF, 0.05, "traction")),
+    (Body(SOFT, 0.01, "free"), RIGID),
+    (Body(SOFT, 0.02), Body(STIFF, 0.05, "free")),
     (RIGID, Body(STIFF)),
     (Body(SOFT), Body(SOFT)),
 ]

@@ -14,8 +14,8 @@ SOFT, STIFF, AUXETIC = Material(3.1e9, 1 / 3), Material(8.7e9, 0.21), Material(1
 KINDS = tuple(FAR_SIDES)
 UPPER = [
     Body(SOFT, 0.02, "velocity"),
-    Body(SOFT, 0.03, "traction"),
-    Body(AUXETIC, 0.02, "traction"),
+    Body(SOFT, 0.03, "free"),
+    Body(AUXETIC, 0.02, "free"),
     Body(SOFT, 0.02, "clamped"),
     Body(AUXETIC, 0.01, "roller"),
     Body(SOFT),
@@ -23,11 +23,11 @@ UPPER = [
 ]
 LOWER = [
     Body(STIFF, 0.05, "velocity"),
-    Body(STIFF, 0.02, "traction"),
+    Body(STIFF, 0.02, "free"),
     Body(SOFT, 0.02, "velocity"),
     Body(STIFF, 0.05, "clamped"),
     Body(SOFT, 0.03, "roller"),
-    Body(STIFF, far_side="traction"),
+    Body(STIFF, far_side="free"),
     None,
 ]
 PAIRS = [pair for pair in itertools.product(UPPER, LOWER) if pair != (None, None)]

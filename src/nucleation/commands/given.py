@@ -43,7 +43,7 @@ NOTES = {
     "height": "inf, a half-space, if left out",
     "second_body": "deformable, like the first, if left out",
     "second_height": "the first body's if left out",
-    "far_side": "traction if left out",
+    "far_side": "free if left out",
     "second_far_side": "of the second body; the first one's if left out",
     "plane": "strain if left out",
     "density": "1200 of PMMA, the paper's, if left out",

@@ -13,7 +13,6 @@ PAPER = Fault(
     density=1200.0,
     height=0.005,
     second_shear_modulus=math.inf,
-    far_side="free",
     normal_stress=1.0e6,
     velocity=1.0e-5,
     friction_law=Friction(law="product"),

@@ -70,9 +70,10 @@ class Fault:
         mu (Pa) of the second body; that of the first one by default, inf for a rigid body.
     second_poisson_ratio, second_height : array_like, optional
         The same for nu and the height (m).
-    far_side : {"traction", "free", "velocity", "clamped", "roller"}
-        Boundary condition on the first body's side away from the interface: both stresses (Eq. 10,
-        two words), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy are imposed.
+    far_side : {"free", "velocity", "clamped", "roller"}
+        Boundary condition on the first body's side away from the interface: both stresses (Eq. 10),
+        u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy are imposed. ``"traction"`` is read as
+        ``"free"``.
     second_far_side : str, optional
         The same of the second body; that of the first one by default.
     zone_thickness : array_like, optional
@@ -128,7 +129,7 @@ class Fault:
     second_shear_modulus: Any = None
     second_poisson_ratio: Any = None
     second_height: Any = None
-    far_side: str = "traction"
+    far_side: str = "free"
     second_far_side: str | None = None
     zone_thickness: Any = None
     zone_shear_modulus: Any = None

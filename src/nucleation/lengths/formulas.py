@@ -205,7 +205,7 @@ class Length:
         if self.system == RIGID_BASE:
             if np.any(np.isfinite(fault.second_shear_modulus)):
                 found.append("a rigid base: here the second body is deformable")
-            if fault.far_side not in ("traction", "free"):
+            if fault.far_side != "free":
                 found.append(f"a free far side: here it is {fault.far_side}")
         elif math.isfinite(lowest):
             found.append(f"half-spaces: here H = {in_metres(lowest)}")

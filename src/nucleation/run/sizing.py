@@ -56,8 +56,6 @@ def values_of_fault(fault: Fault, law: Friction) -> dict[str, Any]:
     if math.isinf(fault.second_shear_modulus):
         found = {name: x for name, x in found.items() if not name.startswith("second_")}
         return found | {"second_body": "rigid"}
-    if fault.second_far_side == "traction":
-        found["second_far_side"] = "free"  # the other word for it
     return found | {"second_body": "deformable"}
 
 
@@ -87,8 +85,6 @@ def fault_with(law: Friction, values: Mapping[str, Any]) -> Fault:
                     f"not deform: leave {name} out, or make second_body deformable"
                 )
     own["far_side"] = "free"
-    if own.get("second_far_side") == "traction":
-        own["second_far_side"] = "free"
     if own["loading"] == "edge":
         return Fault.from_dict(own | {"friction_law": law})
     f, a, zeta = law.expansion(own["velocity"])
@@ -114,7 +110,7 @@ def _simulable(fault: Fault) -> Fault:
             raise ParameterError(f"{name} is not allowed: no simulation has a zone")
         if np.ndim(value):
             raise ParameterError(f"{name} has {np.size(value)} values: it must have one here")
-    if fault.far_side not in ("free", "traction"):
+    if fault.far_side != "free":
         raise ParameterError(
             f"far_side = {fault.far_side!r} is not allowed: the far side of a simulated block is "
             "free"

@@ -16,8 +16,8 @@ from ..model.units import is_quantity
 from ..types import Array
 from .pair import LayerPair, Layers
 from .spectrum import Systems
-from .stiffness import FAR_SIDES, OF_ANTIPLANE
-from .values import QUANTITIES, WORDS, ZONE, FaultLike, Values, checked, labelled
+from .stiffness import OF_ANTIPLANE
+from .values import ALIASES, QUANTITIES, WORDS, ZONE, FaultLike, Values, checked, labelled
 
 _USUAL = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 """NumPy's own settings, whatever the caller's are."""
@@ -188,7 +188,7 @@ def required(plane: str) -> list[str]:
 
 def bodies_differ(fault: Mapping[str, Any]) -> Any:
     """Whether the second body is no mirror image of the first one (bool or array)."""
-    differ = FAR_SIDES[fault["far_side"]] is not FAR_SIDES[fault["second_far_side"]]
+    differ = fault["far_side"] != fault["second_far_side"]
     for name in ("shear_modulus", "poisson_ratio", "height"):
         differ = differ | (fault[f"second_{name}"] != fault[name])
     return differ
@@ -249,7 +249,7 @@ def _expand(found: dict[str, Any]) -> None:
 
 
 def _read_words(found: dict[str, Any]) -> None:
-    """Check the words; a second far side that is not given is the first one."""
+    """Check the words, and replace aliases; the second far side follows the first one."""
     found["evolution"] = found["evolution"] or "aging"
     if found["second_far_side"] is None:
         found["second_far_side"] = found["far_side"]
@@ -258,6 +258,7 @@ def _read_words(found: dict[str, Any]) -> None:
         if not (isinstance(value, str) and value in entry.choices):
             raise ParameterError(refusal(name, value, entry))
     for name in ("far_side", "second_far_side"):
+        found[name] = ALIASES.get(found[name], found[name])
         if found["plane"] == ANTIPLANE and found[name] not in OF_ANTIPLANE:
             raise ParameterError(
                 f"{name} = {found[name]!r} is not allowed with plane = {ANTIPLANE}: "

@@ -18,15 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..types import Array
-from .stiffness import (
-    FAR_SIDES,
-    SATURATION,
-    Stiffness,
-    Waves,
-    layer_stiffness,
-    stiffness_with_zone,
-    waves,
-)
+from .stiffness import SATURATION, Stiffness, Waves, layer_stiffness, stiffness_with_zone, waves
 
 BOTH_RIGID = "at least one of the two bodies must be deformable"
 
@@ -46,7 +38,7 @@ class Layers(NamedTuple):
     shear_modulus: Array  # mu (Pa)
     poisson_ratio: Array
     height: Array  # H (m), inf for a half-space, without the zone
-    far_side: str  # one of FAR_SIDES
+    far_side: str  # one of stiffness.FAR_SIDES
     antiplane: bool = False  # slip is along z, and Poisson's ratio does not matter
     zone: Layers | None = None
 
@@ -149,7 +141,7 @@ class LayerPair(NamedTuple):
         alike = np.full(one.height.shape, one.antiplane)
         if self.upper is None or self.lower is None:
             return alike
-        if FAR_SIDES[self.upper.far_side] is not FAR_SIDES[self.lower.far_side]:
+        if self.upper.far_side != self.lower.far_side:
             return alike
         same = [
             getattr(self.upper, name) == getattr(self.lower, name)

@@ -194,14 +194,13 @@ def _mixed_terms(w: Waves, nu: Array) -> Terms:
 
 FAR_SIDES: dict[str, Callable[[Waves, Array], Terms]] = {
     "velocity": _velocity_terms,
-    "traction": _traction_terms,
     "free": _traction_terms,
     "clamped": _clamped_terms,
     "roller": _roller_terms,
 }
-"""Boundary conditions on the far side, by name; ``free`` is an alias of ``traction``."""
+"""Boundary conditions on the far side, by name."""
 
-OF_ANTIPLANE = {"velocity": True, "traction": False, "free": False, "clamped": True}
+OF_ANTIPLANE = {"velocity": True, "free": False, "clamped": True}
 """Whether they hold the far side in antiplane shear. Rollers let a layer slide along x alone."""
 
 

@@ -104,6 +104,10 @@ Conditions: TypeAlias = "bool | NDArray[np.bool_] | xr.DataArray"
 """Where something holds of such parameters."""
 
 
+ALIASES = {"traction": "free"}
+"""Other words for a far side; a fault has that of :data:`.stiffness.FAR_SIDES`."""
+
+
 def _declared() -> dict[str, Quantity]:
     """Unit, range and meaning of each parameter, from its declaration in the model.
 
@@ -117,9 +121,9 @@ def _declared() -> dict[str, Quantity]:
     height = declared("height of the body (inf: half-space)", "[1e-12, inf] m", symbol="H")
     far_side = Quantity(
         "condition on the side away from the interface: velocity (u_x and sigma_yy imposed), "
-        "traction or free (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "
+        "free or traction (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "
         "roller (u_y and sigma_xy imposed)",
-        choices=tuple(FAR_SIDES),
+        choices=(*FAR_SIDES, *ALIASES),
     )
     return {
         "shear_modulus": modulus,

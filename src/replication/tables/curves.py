@@ -68,7 +68,7 @@ def main_text(fault: Fault) -> Fault:
 
 def on_rigid_base(fault: Fault, height: Any) -> Fault:
     """Blocks of heights (m) with a fault's material and friction, free on top, on a rigid base."""
-    return fault.replace(second_shear_modulus=math.inf, far_side="traction", height=height)
+    return fault.replace(second_shear_modulus=math.inf, far_side="free", height=height)
 
 
 def f_beta(run: Run) -> float:
