@@ -17,6 +17,8 @@ from ..fault import PAPER, Fault
 from ..fault.flat import LAW_NAMES, keywords, read_parameters
 from ..fault.parameters import fault_parameters, parameters
 from ..fault.setting import friction, second_body
+from ..lengths.draws import Draws, draw_samples
+from ..lengths.ranges import Range, parse_range
 from ..model.friction.constants import CONSTANTS
 from ..model.hints import ImplausibleWarning
 from ..model.quantities import ParameterError, Quantity, declarations
@@ -27,7 +29,6 @@ from ..theory.values import QUANTITIES
 from .text import warn, with_unit
 
 if TYPE_CHECKING:
-    from ..lengths.draws import Draws
     from ..run.run import Run
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -150,8 +151,6 @@ source_options = together(
 
 def fault_options(function: _Function) -> _Function:
     """One option for each parameter of a fault, and options for the source of other parameters."""
-    from ..lengths.ranges import parse_range
-
     own = options_of(fault_parameters(), read=parse_range)
     return together(own, source_options)(function)
 
@@ -183,14 +182,10 @@ def given_fault(
     if base is None:
         given = {**sought, **given}
         _require_all(given, options["file"])
-    from ..lengths.ranges import Range
-
     drawn = None
     if any(isinstance(x, Range) for x in given.values()):
         if not draws:
             _refuse_ranges(given)
-        from ..lengths.draws import draw_samples
-
         drawn = draw_samples(given, draws)
         given = drawn.values
     own = keywords(given)
@@ -237,8 +232,6 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
 
 
 def _refuse_ranges(given: Mapping[str, Any]) -> None:
-    from ..lengths.ranges import Range
-
     for name, value in given.items():
         if isinstance(value, Range):
             raise ParameterError(

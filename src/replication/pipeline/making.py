@@ -24,7 +24,8 @@ import xarray as xr
 from nucleation.datasets import DatasetError, code, netcdf, provenance
 from nucleation.datasets.variables import to_csv
 from nucleation.model.quantities import ParameterError
-from nucleation.simulation.checkpoints import SIMULATION
+from nucleation.run.run import Run
+from nucleation.simulation.checkpoints import SIMULATION, Stopped, run_to_file
 
 from ..tables.rows import remarked, rows_of, without_event
 from . import LOGGER, PROGRESS
@@ -157,9 +158,7 @@ class _Maker:
 
     def _simulated(self, recipe: Recipe) -> xr.Dataset:
         """The record of a run, from its checkpoint; a signal leaves a new one."""
-        from nucleation.run.run import Run
-        from nucleation.simulation.checkpoints import Stopped, run_to_file
-        from nucleation.simulation.progress import Progress
+        from nucleation.simulation.progress import Progress  # loads the solver
 
         name = recipe.name.rpartition("/")[2]
         parameters = Run.from_dict(recipe.values["parameters"])

@@ -15,6 +15,7 @@ from nucleation.extraction.measures import MEASURES, measure
 from nucleation.fault.parameters import parameters as known_parameters
 from nucleation.run.derived import ensemble, fault
 from nucleation.run.run import Run
+from nucleation.theory.creep.lengths import stability_point
 from nucleation.theory.status import UNKNOWN, VALUE, NoLength
 
 from . import columns as col
@@ -146,8 +147,6 @@ def stability_of(run: Row) -> Row:
 
     Without an edge it is unknown where stress or parameters, not only f, vary along the interface.
     """
-    from nucleation.theory.creep.lengths import stability_point
-
     parameters = Run.from_dict(run["parameters"])
     length, status = float("nan"), UNKNOWN
     is_uniform = parameters.heterogeneity.varies in ("none", "friction")
