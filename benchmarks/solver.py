@@ -12,7 +12,7 @@ from scipy.sparse.linalg import splu
 from nucleation.extraction.extraction import extract
 from nucleation.fem.body import Body
 from nucleation.fem.operator import Operator
-from nucleation.model.settings import KINDS
+from nucleation.model.perturbations import KINDS
 from nucleation.run.run import Run
 from nucleation.simulation.run import instants, simulate
 from nucleation.simulation.start import body_of, composed, grid_of
@@ -227,7 +227,7 @@ def _pair_steps(parameters: Run) -> dict[str, float]:
 
 def _perturbed(parameters: Run) -> dict[str, float]:
     """Time of a step under each kind of perturbation over that of an unperturbed one."""
-    kinds = KINDS[1:]
+    kinds = tuple(KINDS)
     values = {"strength": STRENGTH, "seed": 1}
     runs = [parameters.replaced(perturbation=kind, **values) for kind in kinds]
     unperturbed, *times = _fastest(*map(_timed_steps, (parameters, *runs)))

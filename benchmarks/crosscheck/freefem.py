@@ -13,10 +13,10 @@ import numpy as np
 import xarray as xr
 
 from nucleation.extraction.definitions import ExtractionSettings
-from nucleation.model.settings import IN_TIME
+from nucleation.model.perturbations import KINDS
+from nucleation.model.realisations import BLOCK, SERIES, Series, Sheet, normals
 from nucleation.run.run import Run
 from nucleation.simulation.event import FAST
-from nucleation.simulation.perturbed import BLOCK, SERIES, Series, Sheet, normals
 from nucleation.types import Array
 
 PROGRAM = "FreeFem++-nw"
@@ -82,7 +82,7 @@ def arguments(run: Run) -> dict[str, str]:
     """The script's arguments by name; FreeFemError if it does not support a value."""
     named = {"second_grading": run.block.grading} | run.to_dict()
     supported: dict[str, tuple[object, ...]] = {name: (value,) for name, value in FIXED.items()}
-    supported |= {"perturbation": ("none", *IN_TIME)}
+    supported |= {"perturbation": ("none", *(name for name, kind in KINDS.items() if kind.in_time))}
     below = run.below
     if below is not None:
         supported["second_grading"] = (1.0,)
@@ -117,7 +117,7 @@ def realisation(run: Run) -> str:
     """The declared perturbation on its own grid, up to the end of a run, for the script to read.
 
     Spacing of the splines (s), phase, number of splines and of places, and the coefficients a_i of
-    :mod:`nucleation.simulation.perturbed`: one line for each spline, of all places.
+    :mod:`nucleation.model.realisations`: one line for each spline, of all places.
     """
     declared = run.perturbation
     time = declared.correlation_time * run.memory_time

@@ -12,9 +12,9 @@ from nucleation.drop.continued import complex_trend, continued, exponent_of, rou
 from nucleation.drop.delay import SAMPLED, TINY, grown, growth
 from nucleation.drop.mode_history import ModeHistory, followed, mode_history
 from nucleation.extraction.extraction import extract
-from nucleation.model.settings import Perturbation, spectral_density
+from nucleation.model.realisations import Series, Sheet, profile, spectral_density
+from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
-from nucleation.simulation.perturbed import Series, Sheet, profile
 from nucleation.simulation.run import simulate
 
 PARAMETERS = PAPER_RUN.replaced(height=0.02, block_length=2.7, n_x=400, n_y=8)

@@ -8,8 +8,8 @@ import signal
 import numpy as np
 import pytest
 
+from nucleation.model.perturbations import KINDS
 from nucleation.model.quantities import ParameterError
-from nucleation.model.settings import KINDS
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.checkpoints import (
     EVERY,
@@ -47,7 +47,7 @@ PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 
 RUNS = {
     "slip law": {"evolution": "slip"},
     "antiplane": {"plane": "antiplane"},
-    **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
+    **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS},
     **{side: {**PAIR, "second_far_side": side} for side in ("free", "clamped", "roller")},
     "remote": {
         "loading": "remote",

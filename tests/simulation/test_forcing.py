@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from nucleation.model.realisations import Series, profile
 from nucleation.model.settings import Perturbation
 from nucleation.run.run import PAPER_RUN
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.perturbed import Series, profile
 from nucleation.simulation.run import simulate
 from nucleation.simulation.start import at_rest, composed, grid_of, interface_of
 from nucleation.simulation.step import Dynamics

@@ -6,8 +6,14 @@ from scipy.interpolate import BSpline
 from scipy.stats import kstest
 
 from benchmarks.crosscheck.freefem import coefficients_of
-from nucleation.model.settings import MEAN_SQUARE, correlation, spectral_density
-from nucleation.simulation.perturbed import Series, Sheet, normals
+from nucleation.model.realisations import (
+    MEAN_SQUARE,
+    Series,
+    Sheet,
+    correlation,
+    normals,
+    spectral_density,
+)
 
 
 def test_numbers_are_standard_normal_and_independent():

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..model.friction.constants import AGE, ANY
 from ..model.quantities import ParameterError
-from ..model.settings import ALONG_X, Perturbation
+from ..model.settings import Perturbation
 from ..model.units import in_metres
 from ..theory.creep.patches import Patches
 from ..theory.critical import of_distinct
@@ -73,7 +73,7 @@ def run_away(fault: FaultLike, declared: Perturbation | None, usual: Perturbatio
         return known.of_any_friction(declared, usual).rows
 
     # a correlation length is in metres, unlike the lengths of problems without units
-    problem = Systems.in_metres if usual.kind in ALONG_X else Systems.without_units
+    problem = Systems.in_metres if usual.along_x else Systems.without_units
     lengths, words = _LENGTHS, 2 * FIELDS + 2 - _LENGTHS
     rows = of_distinct(
         fault, answer, *of_law, rows=lengths + words, lengths=lengths, problem=problem

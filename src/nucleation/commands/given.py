@@ -21,8 +21,8 @@ from ..lengths.draws import Draws, draw_samples
 from ..lengths.ranges import Range, parse_range
 from ..model.friction.constants import CONSTANTS
 from ..model.hints import ImplausibleWarning
+from ..model.perturbations import KINDS
 from ..model.quantities import ParameterError, Quantity, declarations
-from ..model.settings import KINDS
 from ..model.units import parse
 from ..theory.evaluation import required
 from ..theory.values import QUANTITIES
@@ -219,7 +219,7 @@ def given_run(options: Mapping[str, Any]) -> tuple[Run, frozenset[str], bool]:
     if "seed" in given and given.get("perturbation", "none") == "none":
         raise ParameterError(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
-            f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
+            f"realisations: perturbation must be one of {', '.join(KINDS)}"
         )
     flat = fault_parameters()
     of_fault = {name: x for name, x in given.items() if name in flat}

@@ -26,7 +26,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.settings import Perturbation, correlation, spectral_density
+from ..model.perturbations import KINDS
+from ..model.realisations import correlation
+from ..model.settings import Perturbation
 from ..types import Array
 from .continued import CreepPath, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory
@@ -138,34 +140,17 @@ def growth(history: ModeHistory, declared: Perturbation) -> Growth:
     Returns: The amplitude per strength.
     """
     path = continued(history)
-    if declared.kind == "strength":
+    if declared.kind == "none":
+        raise ValueError("kind = 'none' perturbs nothing: there is no drop to expect")
+    if not declared.in_time:
         return grown(path, _log_amplitude_of_roughness(history, path, declared))
-    log_power = trend(history, np.log(_power(history, declared)))(path.length)
+    power = KINDS[declared.kind].power(history, declared)
+    log_power = trend(history, np.log(power))(path.length)
     # log int exp(log_power + 2 int_s^t Re Lambda) ds, without overflow
     exponent = 2.0 * exponent_of(path).real
     step = path.time[1] - path.time[0]
     terms = log_power - exponent + np.log(step)
     return grown(path, 0.5 * (exponent + np.logaddexp.accumulate(terms)))
-
-
-def _power(history: ModeHistory, declared: Perturbation) -> Array:
-    """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
-    memory = history.patches.memory
-    omega = history.rate.imag
-    spectrum = spectral_density(omega, declared.correlation_time * memory)
-    if declared.kind == "normal_load":
-        return np.abs(history.normal_load) ** 2 * spectrum
-    if declared.kind == "drive_velocity":
-        # displacement is velocity over i omega
-        velocity = history.patches.velocity
-        return np.abs(history.drive * velocity / omega) ** 2 * spectrum
-    if declared.kind == "state":
-        distances = history.x[:, None] - history.x
-        covariance = correlation(distances, declared.correlation_length)
-        weights = history.state
-        shares = np.einsum("ix,xy,iy->i", weights, covariance, weights.conj()).real
-        return shares / memory**2 * spectrum
-    raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
 
 
 def _log_amplitude_of_roughness(

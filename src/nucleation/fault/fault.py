@@ -16,7 +16,7 @@ from ..model.friction import Friction
 from ..model.friction.constants import law_of, roughness_length
 from ..model.hints import hint
 from ..model.quantities import ParameterError, declared
-from ..model.settings import ALONG_X, Perturbation
+from ..model.settings import Perturbation
 from ..model.units import magnitude
 from ..theory.critical import CriticalMode, critical_modes
 from ..theory.evaluation import PMMA, bodies_differ, completed, evaluate, require_broadcast
@@ -405,11 +405,12 @@ class Fault:
 
         if perturbation == "none":
             return lengths_of(self, None, weakening_rate)
-        if correlation_length is None and perturbation in ALONG_X:
-            correlation_length = roughness_length(self, self.single("b"))
-        scale = 1.0 if correlation_length is None else correlation_length
         given = 0.0 if strength is None else strength
+        scale = 1.0 if correlation_length is None else correlation_length
         declared = Perturbation(perturbation, given, correlation_time, scale)
+        if correlation_length is None and declared.along_x:
+            roughness = roughness_length(self, self.single("b"))
+            declared = dataclasses.replace(declared, correlation_length=roughness)
         return lengths_of(self, declared, weakening_rate)
 
     def literature(self, weakening_rate: Values | None = None) -> Lengths:

@@ -3,10 +3,7 @@
 import dataclasses
 import math
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from ..types import Array
+from .perturbations import KINDS
 from .quantities import quantity
 from .units import Checked
 
@@ -23,8 +20,6 @@ Their fields are zero in the record, except beside slipping nodes. Configuration
 edges of the patch at larger slip rates.
 """
 
-MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
-
 NEAR_END = 0.6
 """Length of the patch over the block's up to which a thin block's far end has no effect."""
 
@@ -33,13 +28,6 @@ THICK = 0.5
 
 THICK_REACH = 0.2
 """(L + H) over the block's length up to which a thick block's far end has no effect."""
-
-KINDS = ("none", "drive_velocity", "normal_load", "strength", "state")
-IN_TIME = ("drive_velocity", "normal_load", "state")
-"""Kinds of perturbations that change in time; the time steps must resolve them."""
-
-ALONG_X = ("strength", "state")
-"""Kinds that vary along x; the mesh must resolve them."""
 
 ELEMENTS_PER_CORRELATION = 4
 """Fewest elements per correlation length for which a mesh represents the declared roughness."""
@@ -139,8 +127,8 @@ class Perturbation(Checked):
     """The declared deviation of loads, strength or state from uniformity; by default none.
 
     The length at the drop depends on the logarithm of the perturbation (docs/drop.md). Its kind is
-    one of those below, with the relative strength eps, and a Gaussian process xi of zero mean and
-    unit variance::
+    one of :mod:`.perturbations`, with the relative strength eps, and a Gaussian process xi of zero
+    mean and unit variance::
 
         drive_velocity   V(t) = V [1 + eps xi(t)]                  velocity of the left edge
         normal_load      sigma0(t) = sigma0 [1 + eps xi(t)]        stress on the top
@@ -156,7 +144,9 @@ class Perturbation(Checked):
     0.0001
     """
 
-    kind: str = quantity("perturbed quantity", choices=KINDS, name="perturbation", default="none")
+    kind: str = quantity(
+        "perturbed quantity", choices=("none", *KINDS), name="perturbation", default="none"
+    )
     strength: float = quantity(
         "relative strength of the perturbation, its standard deviation",
         "[0.0, 0.1]",
@@ -178,25 +168,18 @@ class Perturbation(Checked):
         """Whether the run is perturbed."""
         return self.kind != "none" and self.strength > 0.0
 
+    @property
+    def in_time(self) -> bool:
+        """Whether its kind changes in time: the steps must resolve it."""
+        return self.kind != "none" and KINDS[self.kind].in_time
+
+    @property
+    def along_x(self) -> bool:
+        """Whether its kind varies along x: the mesh must resolve it."""
+        return self.kind != "none" and KINDS[self.kind].along_x
+
     def longest_step(self, memory_time: float) -> float:
         """The longest time step (s) that resolves the perturbation; infinite if every step does."""
-        if not self.acts or self.kind not in IN_TIME:
+        if not self.acts or not self.in_time:
             return math.inf
         return self.correlation_time * memory_time / STEPS_PER_CORRELATION
-
-
-def correlation(lag: ArrayLike, scale: float) -> Array:
-    """Correlation ``<xi(s) xi(s + lag)>`` at a lag (s or m), by the correlation time or length."""
-    spacing = MEAN_SQUARE * scale
-    u = np.abs(np.asarray(lag, dtype=float)) / spacing
-    septic = np.zeros_like(u)
-    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
-        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
-    return septic / (5040.0 * MEAN_SQUARE)
-
-
-def spectral_density(omega: ArrayLike, correlation: float) -> Array:
-    """Spectral density S (s or m) at omega (1/s or 1/m): ``int S d omega / (2 pi) = 1``."""
-    half_spacing = 0.5 * MEAN_SQUARE * correlation
-    half = half_spacing * np.asarray(omega, dtype=float)
-    return correlation * np.sinc(half / np.pi) ** 8

@@ -7,7 +7,7 @@ those that a user plans with.
 import math
 from collections.abc import Iterator
 
-from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION, NEAR_END
+from ..model.settings import ELEMENTS_PER_CORRELATION, NEAR_END
 from .reach import longest_reach, reach_of
 from .run import Run
 from .sizing import element_height
@@ -210,7 +210,7 @@ def _of_perturbation(run: Run, critical: float) -> Iterator[Advice]:
     if not declared.acts:
         return
     scale = declared.correlation_length
-    if declared.kind in ALONG_X and scale < ELEMENTS_PER_CORRELATION * along:
+    if declared.along_x and scale < ELEMENTS_PER_CORRELATION * along:
         least = math.ceil(n_x * ELEMENTS_PER_CORRELATION * along / scale)
         yield (
             ROUGHNESS,

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator
 
+from ..model.perturbations import KINDS
 from ..model.quantities import ParameterError
-from ..model.settings import ALONG_X, ELEMENTS_PER_CORRELATION, FIRST_STEP, KINDS
+from ..model.settings import ELEMENTS_PER_CORRELATION, FIRST_STEP
 from .run import Run
 
 _SECOND_FAR_SIDES = ("free", "clamped", "roller")
@@ -36,10 +37,10 @@ def contradictions(run: Run) -> Iterator[str]:
     if declared.kind == "none" and declared.strength > 0.0:
         yield (
             f"strength = {declared.strength:g} is not allowed with perturbation = none, "
-            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
+            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS)}"
         )
     length, element = declared.correlation_length, run.block.length / run.block.n_x
-    if declared.acts and declared.kind in ALONG_X and length < element:
+    if declared.acts and declared.along_x and length < element:
         yield (
             f"correlation_length = {length:g} m is not allowed: it "
             f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"

@@ -11,6 +11,7 @@ import numpy as np
 from ..fem.body import Body
 from ..fem.grid import Field, Grid
 from ..fem.operator import Operator, Response
+from ..model.perturbations import KINDS
 from ..run import run as runs
 from ..run.checks import require_consistent
 from ..run.run import Run
@@ -72,9 +73,9 @@ def composed(run: Run) -> Dynamics:
     load = body.far_load(run.fault.normal_stress)
     drive = steady_drive(run.fault.velocity, load)
     if run.perturbation.acts:
-        from .perturbed import perturbed
-
-        drive = perturbed(run, body, drive)
+        steady, kind = drive.at, KINDS[run.perturbation.kind]
+        made = kind(run.perturbation, run.memory_time, run.fault.velocity, body.grid.x)
+        drive = drive._replace(at=lambda time: steady(time)._replace(**made.imposed(time)))
     if run.fault.loading == "remote":
         shear = body.far_load(0.0, 1.0)
         rising = run.start.stress_rate / run.fault.velocity

@@ -1,4 +1,4 @@
-"""Perturbed drives, by realisations of a smooth Gaussian process in time, along x, or in both.
+"""Realisations of a smooth Gaussian process in time, along x, or in both, and their statistics.
 
 A realisation has its own grid of spacing ``d``. On it, it is a series of cubic B-splines with
 independent standard normal coefficients ``a_i`` and a random phase,
@@ -22,14 +22,11 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import ndtri
+from numpy.typing import ArrayLike
 
-from ..fem.body import Body
-from ..model.settings import MEAN_SQUARE
-from ..run.run import Run
 from ..types import Array
-from .drive import Drive, Imposed
 
+MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
 BLOCK = 256  # coefficients drawn at a time
 ROWS_KEPT = 8  # of a sheet; four are in use at one time
 PHASE, SERIES, PROFILE, SHEET = range(4)  # independent streams of one seed
@@ -41,6 +38,8 @@ def normals(seed: int, stream: int, row: int, number: int) -> Array:
     A larger number of them begins with the same ones. They are made from the raw integers of the
     generator, since NumPy does not guarantee equal normal numbers in all its versions.
     """
+    from scipy.special import ndtri  # which takes half a second to load; lengths do without
+
     return ndtri(_uniform(seed, stream, row, number))
 
 
@@ -151,42 +150,18 @@ class Sheet:
         return spline(position - first) @ rows / MEAN_SQUARE**0.5
 
 
-def perturbed(run: Run, body: Body, drive: Drive) -> Drive:
-    """A steady drive with the declared perturbation ``eps xi`` of a run.
+def correlation(lag: ArrayLike, scale: float) -> Array:
+    """Correlation ``<xi(s) xi(s + lag)>`` at a lag (s or m), by the correlation time or length."""
+    spacing = MEAN_SQUARE * scale
+    u = np.abs(np.asarray(lag, dtype=float)) / spacing
+    septic = np.zeros_like(u)
+    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
+        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
+    return septic / (5040.0 * MEAN_SQUARE)
 
-    It multiplies V, the normal load or the friction coefficient by ``1 + eps xi``, or is added to
-    the rate of log(phi) in units of V/D.
-    """
-    declared = run.perturbation
-    kind, strength, seed = declared.kind, declared.strength, declared.seed
-    correlation_time = declared.correlation_time * run.memory_time
-    x = body.grid.x
-    if kind == "strength":
-        factor = 1.0 + strength * profile(seed, declared.correlation_length, x)
-        return drive._replace(at=lambda time: drive.at(time)._replace(strength=factor))
-    if kind == "state":
-        rate = strength * (1.0 / run.memory_time)
-        sheet = Sheet(seed, correlation_time, declared.correlation_length, x)
-        return drive._replace(
-            at=lambda time: drive.at(time)._replace(state_forcing=rate * sheet.values(time))
-        )
-    series = Series(seed, correlation_time)
-    if kind == "normal_load":
 
-        def pressed(time: float) -> Imposed:
-            factor = 1.0 + strength * series.value(time)
-            return drive.at(time)._replace(factors=(factor,))
-
-        return drive._replace(at=pressed)
-
-    def fluctuating(time: float) -> Imposed:
-        ahead = strength * series.integral(time)
-        faster = strength * series.value(time)
-        return Imposed(
-            time,
-            displacement=drive.velocity * (time + ahead),
-            velocity=drive.velocity * (1.0 + faster),
-            acceleration=drive.velocity * strength * series.slope(time),
-        )
-
-    return drive._replace(at=fluctuating)
+def spectral_density(omega: ArrayLike, correlation: float) -> Array:
+    """Spectral density S (s or m) at omega (1/s or 1/m): ``int S d omega / (2 pi) = 1``."""
+    half_spacing = 0.5 * MEAN_SQUARE * correlation
+    half = half_spacing * np.asarray(omega, dtype=float)
+    return correlation * np.sinc(half / np.pi) ** 8
