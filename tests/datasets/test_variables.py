@@ -30,7 +30,7 @@ COLUMNS = columns(ID, LENGTH)
 TEXTS = (
     "id study role evolution friction_law below far_side kind initial_stress status refinement "
     "varied variation fault ensemble outcome curve_fault curve_kind curve_study curve_below "
-    "runaway_status stability_status plane loading name definition varies doubt half "
+    "runaway_status stability_status plane loading name definition varies doubt set "
     "predicted_doubt regime"
 )
 

@@ -180,5 +180,5 @@ def test_configurations_of_pages_are_accepted(name):
 def test_every_sample_has_a_language(page):
     """A block without a known language is no code, but a drawing; it is marked as text."""
     known = {"python", "sh", "console", "yaml", "text", "diff", "snakemake"}
-    known |= {"{toctree}", "{eval-rst}", "{include}"}
+    known |= {"{toctree}", "{eval-rst}", "{include}", "{raw}"}
     assert {(sample.language.split() or [""])[0] for sample in samples(page)} <= known
