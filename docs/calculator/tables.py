@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from nucleation.answers.drop import SLOW_SLIP
-from nucleation.answers.lengths import MEANINGS, NOISE
+from nucleation.answers.lengths import MEANINGS
 from nucleation.api import Fault
 from nucleation.drop.delay import growth
 from nucleation.drop.expected_drop import (
@@ -27,6 +27,7 @@ from nucleation.drop.expected_drop import (
 from nucleation.drop.mode_history import mode_history
 from nucleation.fault.setting import friction, second_body
 from nucleation.model.friction.constants import AGE, ANY
+from nucleation.model.perturbations import KINDS
 from nucleation.model.quantities import declarations
 from nucleation.model.settings import Perturbation
 from nucleation.model.units import sizes
@@ -221,7 +222,7 @@ def script_data():
         "strongest": STRONGEST,
         "slowest_growth": SLOWEST_GROWTH,
         "margins": {"strong": OF_STRONG._asdict(), "weak": OF_WEAK._asdict()},
-        "noise": NOISE["normal_load"],
+        "noise": KINDS["normal_load"].noise,
         "slow_slip": SLOW_SLIP[0].upper() + SLOW_SLIP[1:],
         "meanings": {key: text.partition(" (docs")[0] for key, text in MEANINGS.items()},
         "friction_law": friction(alike),

@@ -29,9 +29,11 @@ def test_flags_say_what_steps_and_mesh_must_resolve():
     }
 
 
-@pytest.mark.parametrize("missing", ["name", "in_time", "along_x", "begin", "imposed", "power"])
+@pytest.mark.parametrize(
+    "missing", ["name", "noise", "in_time", "along_x", "begin", "imposed", "power"]
+)
 def test_a_kind_with_a_part_missing_is_refused_where_it_is_defined(missing):
-    parts = {"name": "pulse", "in_time": True, "along_x": False}
+    parts = {"name": "pulse", "noise": "by", "in_time": True, "along_x": False}
     parts |= {part: getattr(NormalLoad, part) for part in ("begin", "imposed", "power")}
     del parts[missing]
     with pytest.raises(ParameterError, match=f"perturbation Pulse .* lacks {missing}"):
@@ -39,7 +41,7 @@ def test_a_kind_with_a_part_missing_is_refused_where_it_is_defined(missing):
 
 
 def test_roughness_that_does_not_change_in_time_needs_no_power():
-    parts = {"name": "cracks", "in_time": False, "along_x": True}
+    parts = {"name": "cracks", "noise": "by", "in_time": False, "along_x": True}
     type("Cracks", (Kind,), parts | {p: getattr(NormalLoad, p) for p in ("begin", "imposed")})
     assert "cracks" in KINDS
 
@@ -61,6 +63,7 @@ def test_the_law_of_the_drop_takes_the_power_of_the_kind():
 
     class Doubled(NormalLoad):
         name = "doubled"
+        noise = "under two loads, each by"
 
         @classmethod
         def power(cls, mode, declared):
@@ -69,6 +72,8 @@ def test_the_law_of_the_drop_takes_the_power_of_the_kind():
     fault = PAPER.replace(height=0.05)
     usual = fault.lengths("normal_load", np.sqrt(2.0) * 1.37e-4)["drop_length"]
     KINDS["normal_load"] = Doubled
-    found = fault.lengths("normal_load", 1.37e-4)["drop_length"]
+    answered = fault.lengths("normal_load", 1.37e-4)
+    assert "m) under two loads, each by 1.37e-4" in answered.sentence
+    found = answered["drop_length"]
     assert found.value == pytest.approx(usual.value, rel=1e-9)
     assert found.value != pytest.approx(fault.lengths("state", 1.37e-4)["drop_length"].value)

@@ -144,7 +144,7 @@ def test_a_run_lasts_and_reaches_beyond_its_drop(changed):
     ],
 )
 def test_what_is_missing_is_asked_for(changed, message):
-    """V and f of the paper were taken in silence (issue 43, point 2)."""
+    """V and f of the paper were taken in silence."""
     with pytest.raises(ParameterError, match=message):
         Run.sized(GRANITE.replace(**changed))
 

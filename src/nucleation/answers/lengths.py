@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..lengths.in_use import LENGTHS
+from ..model.perturbations import KINDS
 from ..model.settings import Perturbation
 from ..model.units import in_metres
 from ..theory.status import BETWEEN, STABLE
@@ -47,14 +48,6 @@ TITLES = {
 }
 TITLES |= {length.key: length.title for length in LENGTHS}
 """Title of each length by key: those of the theory, and of the literature."""
-
-NOISE = {
-    "normal_load": "under a normal load that fluctuates by",
-    "drive_velocity": "pushed at a velocity that fluctuates by",
-    "strength": "on a fault whose strength varies along it by",
-    "state": "on a fault whose state fluctuates by",
-}
-"""The perturbation, by its kind, before its relative strength."""
 
 
 class Lengths(dict[str, Answer]):
@@ -100,7 +93,7 @@ class Lengths(dict[str, Answer]):
             turns = turns.replace("It turns", "The patch turns") or f"No L_s: {stable.reason}."
             return f"{turns} Where it runs away depends on a perturbation, and none was given."
         drop = self["drop_length"]
-        noise = f"{NOISE[self.perturbation.kind]} {short(self.perturbation.strength)}"
+        noise = f"{KINDS[self.perturbation.kind].noise} {short(self.perturbation.strength)}"
         if drop.exists:
             return f"The patch runs away at {with_range(drop)} {noise}."
         reason = drop.reason

@@ -67,20 +67,23 @@ class Kind(ABC):
     """
 
     name: ClassVar[str]
+    noise: ClassVar[str]
+    """What comes before its strength where L is said: "under a load that fluctuates by"."""
     in_time: ClassVar[bool]
     """Whether it changes in time: the steps must resolve it."""
     along_x: ClassVar[bool]
     """Whether it varies along x: the mesh must resolve it."""
 
     def __init_subclass__(cls) -> None:
-        missing = [part for part in ("name", "in_time", "along_x") if not hasattr(cls, part)]
+        missing = [
+            part for part in ("name", "noise", "in_time", "along_x") if not hasattr(cls, part)
+        ]
         halves = ["begin", "imposed", *(["power"] if getattr(cls, "in_time", True) else [])]
         own = {part for base in cls.mro()[: cls.mro().index(Kind)] for part in vars(base)}
         missing += [part for part in halves if part not in own]
         if missing:
             raise ParameterError(
-                f"the perturbation {cls.__name__} of nucleation.model.perturbations lacks "
-                f"{', '.join(missing)}"
+                f"the perturbation {cls.__name__} of {cls.__module__} lacks {', '.join(missing)}"
             )
         KINDS[cls.name] = cls
 
@@ -118,6 +121,7 @@ class DriveVelocity(Kind):
     """``V(t) = V [1 + eps xi(t)]``, the velocity of the driven edge."""
 
     name, in_time, along_x = "drive_velocity", True, False
+    noise = "pushed at a velocity that fluctuates by"
 
     def begin(self, declared: Declared, x: Array) -> None:
         """A series in time."""
@@ -144,6 +148,7 @@ class NormalLoad(Kind):
     """``sigma0(t) = sigma0 [1 + eps xi(t)]``, the stress on the top."""
 
     name, in_time, along_x = "normal_load", True, False
+    noise = "under a normal load that fluctuates by"
 
     def begin(self, declared: Declared, x: Array) -> None:
         """A series in time."""
@@ -163,6 +168,7 @@ class Strength(Kind):
     """``f(v, phi, x) = f(v, phi) [1 + eps xi(x)]``, the friction coefficient along x."""
 
     name, in_time, along_x = "strength", False, True
+    noise = "on a fault whose strength varies along it by"
 
     def begin(self, declared: Declared, x: Array) -> None:
         """A profile along x."""
@@ -178,6 +184,7 @@ class State(Kind):
     """``d log(phi)/dt = g + eps (V/D) xi(x, t)``, the evolution of the state variable."""
 
     name, in_time, along_x = "state", True, True
+    noise = "on a fault whose state fluctuates by"
 
     def begin(self, declared: Declared, x: Array) -> None:
         """A sheet in time and along x."""
