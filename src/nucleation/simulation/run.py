@@ -23,7 +23,7 @@ from .interface import NewtonFailure
 from .recording import Recorder
 from .start import at_rest, composed
 from .step import Dynamics, State, StepReport
-from .stepping import BDF, rung_below, rung_value
+from .stepping import Scheme, rung_below, rung_value
 
 SAFETY = 0.85  # of the step size against the estimated error
 PEAK_UNITS = 1e6 if sys.platform == "darwin" else 1e3  # of the largest resident memory, per MB
@@ -96,7 +96,7 @@ def accepted_step(
         return Instant(new, report, _Control(wanted, control.steps + 1, rejected))
 
 
-def _step_factor(error: float, scheme: BDF) -> float:
+def _step_factor(error: float, scheme: Scheme) -> float:
     """Factor on the step size for a local error given over the tolerance."""
     if not np.isfinite(error):
         return 1.0  # the first step has no estimate

@@ -24,7 +24,7 @@ from . import passes
 from .drive import Drive, Imposed
 from .event import Outcome
 from .interface import Interface, InterfaceSolution, NewtonFailure, Past
-from .stepping import BDF, Step
+from .stepping import Scheme, Step
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
@@ -120,7 +120,7 @@ class Dynamics:
     inertia acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(self, body: Body, interface: Interface, drive: Drive, scheme: BDF) -> None:
+    def __init__(self, body: Body, interface: Interface, drive: Drive, scheme: Scheme) -> None:
         self.body = body
         self.interface = interface
         self.drive = drive

@@ -10,14 +10,15 @@ operators serve a whole run; the step h follows from beta and h'.
 
 A step solves ``y = sum_i past_i y_{n-i} + beta dy/dt`` for the body, twice for its second time
 derivative, and for slip and state at the interface. Another linear multistep formula is another
-class with the attributes and methods of :class:`BDF`.
+:class:`Scheme`.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TypeVar
+from abc import ABC, abstractmethod
+from typing import ClassVar, TypeVar
 
 import numpy as np
 
@@ -138,8 +139,37 @@ class Step:
         return 1.0 / self.body.beta**2
 
 
+class Scheme(ABC):
+    """A linear multistep scheme: what a simulation asks of it."""
+
+    levels: ClassVar[int]
+    """Past motions of the body that a step uses."""
+    instants: ClassVar[int]
+    """Past values of the interface's fields that a step uses."""
+    error_order: ClassVar[int]
+    """Power of the step's length in its local error."""
+    largest_growth: ClassVar[float]
+    """Largest length of a step over that of the step before."""
+
+    @abstractmethod
+    def step(self, rung: int, past_times: Array) -> Step:
+        """The step of a rung after past times (s), newest first: one, or up to `instants`."""
+
+    @abstractmethod
+    def leading_coefficient(self, step: float, previous_step: float) -> float:
+        """Leading coefficient (s) of the body's step of some length, after another (s)."""
+
+    @abstractmethod
+    def steady_step(self, rung: int) -> float:
+        """Length (s) of the steps that stay on a rung."""
+
+    def steady_rung(self, step: float) -> int:
+        """The largest rung on which steps of one length are no longer than `step` (s)."""
+        return rung_below(self.leading_coefficient(step, step))
+
+
 @dataclasses.dataclass(frozen=True)
-class BDF:
+class BDF(Scheme):
     """BDF2 for the body, and BDF3 for slip and state while the body is quasi-static.
 
     BDF3 is not stable for undamped waves that a step resolves. Where waves cross the body many
@@ -151,13 +181,13 @@ class BDF:
 
     crossing_time: float = np.inf  # s, of the body by shear waves
 
-    levels = 2  # past motions of the body that a step uses,
-    instants = 3  # and past values of the interface's fields
-    error_order = 3  # power of the step's length in its local error
-    largest_growth = LARGEST_GROWTH  # of the length from one step to the next
+    levels = 2
+    instants = 3
+    error_order = 3
+    largest_growth = LARGEST_GROWTH
 
     def step(self, rung: int, past_times: Array) -> Step:
-        """The step of a rung after one, two or three past times (s), newest first."""
+        """A step of backward Euler after one past time, BDF2 or BDF3 after two or three."""
         beta = rung_value(rung)
         known = past_times.size
         if known == 1:
@@ -179,14 +209,10 @@ class BDF:
         return Step(formula, interface, weights, share, known == 1, without_waves)
 
     def leading_coefficient(self, step: float, previous_step: float) -> float:
-        """Leading coefficient (s) of a BDF2 step of some length, after another (s)."""
+        """That of BDF2, ``h (1 + r)/(1 + 2 r)``."""
         r = step / previous_step
         return step * (1 + r) / (1 + 2 * r)
 
-    def steady_rung(self, step: float) -> int:
-        """The largest rung on which steps of one length are no longer than `step` (s)."""
-        return rung_below(self.leading_coefficient(step, step))
-
     def steady_step(self, rung: int) -> float:
-        """Length (s) of the steps that stay on a rung: 3/2 of its beta."""
+        """3/2 of the rung's beta."""
         return 1.5 * rung_value(rung)
