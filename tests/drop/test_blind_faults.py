@@ -47,8 +47,9 @@ def test_as_many_are_in_the_range_as_in_that_predicted_before(tested):
 
 @pytest.mark.slow
 def test_half_the_ranges_would_not_hold(tested):
-    """So that the test above can fail."""
+    """So that the tests above can fail."""
     assert tested["halved"].sum() < DROPS.loc[DROPS["number"] >= FIRST, "predicted_inside"].sum()
+    assert tested.loc[~tested["doubt"], "halved"].mean() < NINE_OF_TEN
 
 
 @pytest.mark.slow
