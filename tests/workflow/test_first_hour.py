@@ -12,6 +12,7 @@ stepping: {end_time: 5 min, time_after_event: 0, tolerance: 0.1, longest_step: 0
 studies:
   granite:
     description: granite layers of two heights
+    fault: paper  # on a rigid base, with its friction law
     length_over_critical: 3
     defaults: {slip_distance: 5 um, a: 0.008, friction: 0.47, zeta_over_a: 2, n_x: 60, n_y: 4}
     runs:
