@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -25,6 +25,7 @@ GRANITE = {
 decades = st.floats(-30.0, 30.0).map(lambda power: 10.0**power)
 
 
+@example(size=10.0**-28.75, e=1e-21, c=1e-21, step=1e9)  # ended at half of a short bracket
 @given(size=decades, e=decades, c=decades, step=st.just(0.0) | decades)
 def test_a_node_alone_is_solved_to_the_end(size, e, c, step):
     """Six iterations left errors of a twentieth, which then stayed the same for ever."""

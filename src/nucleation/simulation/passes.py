@@ -15,6 +15,7 @@ SLOW_IN_EVENT = 1e-3  # slip rates below this part of the fastest one need no re
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 LARGEST_ASINH = 709.0  # whose hyperbolic sine is finite
 SETTLED = 1e-8  # change of asinh(v / s), relative, after which the next one is round-off
+HALVED = 1e-16  # by halving
 
 
 @compiled
@@ -144,10 +145,12 @@ def balanced_asinh(size, e, c, step):
         else:
             low = z
         change = excess / (e * cosh + c * (1.0 + step / (cosh * cosh)))
+        settled = SETTLED
         if not low <= z - change <= high:
             change = z - 0.5 * (low + high)
+            settled = HALVED  # half of a short bracket is no estimate of the error
         z -= change
-        if not abs(change) > SETTLED * (1.0 + z):
+        if not abs(change) > settled * (1.0 + z):
             return z
 
 
