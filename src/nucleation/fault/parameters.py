@@ -8,7 +8,7 @@ has it and under which field, with its unit, range, meaning and default. `nuclea
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from types import MappingProxyType
 from typing import Any, Self
@@ -149,9 +149,10 @@ def sections() -> Mapping[str, tuple[str, ...]]:
     return MappingProxyType(found)
 
 
-def names_of(*parts: str) -> list[str]:
+@cache  # each of thousands of runs asks
+def names_of(*parts: str) -> tuple[str, ...]:
     """The names of the parameters that some parts of a run have."""
-    return [name for name, one in table().items() if one.part in parts]
+    return tuple(name for name, one in table().items() if one.part in parts)
 
 
 def by_part(values: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -163,25 +164,29 @@ def by_part(values: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     return found
 
 
-def values_of(part: str, owner: Any, names: Iterable[str]) -> dict[str, Any]:
-    """Values by name of those of the parameters `names` that a part of a run has, None left out."""
-    ones = (table()[name] for name in names)
-    found = {one.name: getattr(owner, one.field, None) for one in ones if one.part == part}
-    return {name: value for name, value in found.items() if value is not None}
+@cache
+def _fields_of(part: str) -> tuple[tuple[str, str], ...]:
+    """Name and field of the parameters of runs that a part has."""
+    own = (one for one in table().values() if one.part == part and one.section)
+    return tuple((one.name, one.field) for one in own)
 
 
-def read(values: Mapping[str, Any], known: Collection[str] | None = None) -> dict[str, Any]:
+def values_of(part: str, owner: Any) -> dict[str, Any]:
+    """The values by name that a part of a run has, None left out."""
+    found = ((name, getattr(owner, field, None)) for name, field in _fields_of(part))
+    return {name: value for name, value in found if value is not None}
+
+
+def read(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values of a run in SI units and their declared types, from numbers and texts such as "5 mm".
 
-    Raises a ParameterError for a name that is not `known`, by default to any run, and for values
-    that are not allowed.
+    Raises a ParameterError for a name that no run has, and for values that are not allowed.
     """
     entries = parameters()
-    names = entries if known is None else known
     found = {}
     for name, value in values.items():
-        if name not in names:
-            suggestion = hint(name, names) or f"known: {', '.join(names)}"
+        if name not in entries:
+            suggestion = hint(name, entries) or f"known: {', '.join(entries)}"
             raise ParameterError(f"there is no parameter {name}; {suggestion}")
         found[name] = in_type(entries[name], in_si(name, value, entries[name]))
     return found

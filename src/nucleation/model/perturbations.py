@@ -150,9 +150,8 @@ class NormalLoad(Kind):
     name, in_time, along_x = "normal_load", True, False
     noise = "under a normal load that fluctuates by"
 
-    def begin(self, declared: Declared, x: Array) -> None:
-        """A series in time."""
-        self.series = Series(declared.seed, declared.correlation_time * self.memory)
+    series: Series
+    begin = DriveVelocity.begin  # it is a series in time as well
 
     def imposed(self, time: float) -> dict[str, Any]:
         """The factor of the first load."""

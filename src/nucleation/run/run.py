@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from ..fault import PAPER, Fault
-from ..fault.parameters import PARTS, by_part, parameters, read, values_of
+from ..fault.parameters import PARTS, by_part, read, values_of
 from ..model.friction import Friction
 from ..model.friction.constants import with_constants
 from ..model.heterogeneity import Heterogeneity
@@ -117,7 +117,7 @@ class Run:
         """All parameters by name, in SI units, of both bodies."""
         found = values_of_fault(self.fault, self.law)
         for part in PARTS:
-            found |= values_of(part, getattr(self, part), parameters())
+            found |= values_of(part, getattr(self, part))
         return found
 
     def to_json(self) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..fault import Fault
-from ..fault.parameters import PARTS, by_part, names_of, parameters, table, values_of
+from ..fault.parameters import PARTS, by_part, names_of, table, values_of
 from ..model.friction import Friction
 from ..model.friction.constants import AGE, CONSTANTS, roughness_length
 from ..model.material import ANTIPLANE, in_plane_ratio
@@ -51,8 +51,7 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # on (-1, 1)
 
 def values_of_fault(fault: Fault, law: Friction) -> dict[str, Any]:
     """The parameters of a single fault and its law by name, those of both bodies."""
-    of_run = [name for name, one in parameters().items() if one.section]
-    found = values_of("fault", fault, of_run) | values_of("law", law, of_run)
+    found = values_of("fault", fault) | values_of("law", law)
     if math.isinf(fault.second_shear_modulus):
         found = {name: x for name, x in found.items() if not name.startswith("second_")}
         return found | {"second_body": "rigid"}
